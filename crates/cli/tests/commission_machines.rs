@@ -30,7 +30,13 @@ fn a_machine_is_commissioned_and_other_rounds_are_not_accepted() {
     ] {
         assert!(!said.contains(words), "{words}: {said}");
     }
-    let faults = [faults::of_recordings(), faults::of_lists_on()];
+    noise_off_changes_no_verdict(&site);
+    nothing_shows_what_was_on(&site);
+    let faults = [
+        faults::of_recordings(),
+        faults::of_lists_on(),
+        faults::of_lists_off(),
+    ];
     let faults = faults
         .into_iter()
         .flatten()
@@ -45,18 +51,47 @@ fn a_machine_is_commissioned_and_other_rounds_are_not_accepted() {
     }
 }
 
+/// R16.15: noise of 1.8 µm off and of 0.3 µm on.
+fn noise_off_changes_no_verdict(site: &Site) {
+    let kept = site.keep();
+    let noisy = Recorder {
+        noise_um: 1.8,
+        ..Recorder::default()
+    };
+    site.record((1, "circle"), [None, None], (&site.machine, &noisy));
+    let (_, said) = site.run(&[]);
+    Site::put_back(&kept);
+    assert!(is_accepted(&said), "{said}");
+}
+
+/// R16.13: what neither the torque nor the positions show is not proven.
+fn nothing_shows_what_was_on(site: &Site) {
+    let (status, said) = site.run_without_torque();
+    assert_eq!(status, Some(1), "{said}");
+    for words in [
+        "not proven, the earlier lists stay",
+        "neither torque nor positions show that the list of X was on",
+        "nothing shows that no part of a list of Y was on in stage 1",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert!(!is_accepted(&said), "{said}");
+}
+
 /// The faults of the short test.
-const QUICK: [(usize, &str); 5] = [
+const QUICK: [(usize, &str); 7] = [
     (2, "a tenth of the lists"),
     (2, "the list of X only"),
     (2, "commanded as actual positions"),
     (2, "Y scaled by 0.3 %"),
     (1, "positions averaged over 20 ms"),
+    (1, "half of the lists on in stage 1"),
+    (1, "another machine with 30 % more friction"),
 ];
 
 /// Whether the lists of the last round are accepted.
 fn is_accepted(said: &str) -> bool {
-    said.contains("accepted: X m/lists") && !said.contains("not accepted")
+    said.contains("accepted: X m/lists")
 }
 
 /// A machine of which both stages are recorded without a fault.
@@ -89,8 +124,9 @@ fn six_of_seven_machines_are_accepted() {
 #[ignore = "minutes"]
 fn no_wrong_recording_is_accepted_without_its_fault() {
     let mut machines = Machine::stand_ins();
-    machines.swap(0, 3);
-    machines.truncate(2);
+    machines.truncate(5);
+    machines.drain(2..4);
+    machines.remove(0);
     let sites = machines
         .into_iter()
         .map(|it| recorded(Site::fast(it), &Recorder::default()));
@@ -100,6 +136,9 @@ fn no_wrong_recording_is_accepted_without_its_fault() {
         accepted.extend(tried(fault, site, ("torque", &[])));
     }
     for (fault, site) in faults::of_lists_on().iter().zip(sites.iter().cycle()) {
+        accepted.extend(tried(fault, site, ("torque", &[])));
+    }
+    for (fault, site) in faults::of_lists_off().iter().zip(sites.iter().cycle()) {
         accepted.extend(tried(fault, site, ("torque", &[])));
     }
     assert!(accepted.is_empty(), "{}", accepted.join("\n"));
@@ -114,7 +153,7 @@ fn a_plant_shows_what_was_on() {
     let site = recorded(Site::quick(machine), &Recorder::default());
     let mut accepted = Vec::new();
     for fault in faults::of_lists_off() {
-        accepted.extend(tried(&fault, &site, ("plant", &FITTED)));
+        accepted.extend(tried(&fault, &site, ("positions", &FITTED)));
     }
     for fault in faults::of_lists_on() {
         accepted.extend(tried(&fault, &site, ("positions", &FITTED)));
@@ -133,10 +172,10 @@ fn tried(fault: &Fault, site: &Site, (by, more): (&str, &[&str])) -> Option<Stri
     };
     Site::put_back(&kept);
     let named = fault.named(&said);
-    let accepted = if is_accepted(&said) {
-        "accepted"
-    } else {
-        "not accepted"
+    let accepted = match is_accepted(&said) {
+        true => "accepted",
+        false if said.contains("not proven") => "not proven",
+        false => "not accepted",
     };
     println!(
         "| {} | {} | {} | {by} | {accepted} | {} |",

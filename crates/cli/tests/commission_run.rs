@@ -319,7 +319,7 @@ fn from_recordings_to_judged_lists() {
     assert!(text.contains("10 recordings, 2 of them known"), "{text}");
     assert!(
         text.contains(
-            "not accepted, the earlier lists stay: neither torque nor positions show that the list of X was on"
+            "not proven, the earlier lists stay: neither torque nor positions show that the list of X was on"
         ),
         "{text}"
     );
@@ -491,7 +491,7 @@ fn check_report(folder: &Path) {
         "Friction compensation of M &lt;1&gt;",
         "date not stated",
         "none is predicted",
-        "The lists of round 2 are not accepted; the earlier ones stay.",
+        "The lists of round 2 are not proven; the earlier ones stay.",
         "neither torque nor positions show that the list of Y was on",
         "64-friction-X.nc",
         "Axis X",

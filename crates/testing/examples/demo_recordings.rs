@@ -8,9 +8,11 @@
 
 #![allow(
     clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
     clippy::cast_sign_loss,
     reason = "rows and times of recordings"
 )]
+#![allow(clippy::print_stderr, reason = "a program of the console")]
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -65,7 +67,7 @@ fn main() {
         circles(
             &machine,
             &round,
-            lists.map(|it| ValueList::parse(&read(&it))),
+            &lists.map(|it| ValueList::parse(&read(&it))),
         );
     }
 }
@@ -83,7 +85,7 @@ fn short_speeds() -> String {
 }
 
 /// Records the circles of a round, each twice.
-fn circles(machine: &Machine, round: &Path, lists: [ValueList; 2]) {
+fn circles(machine: &Machine, round: &Path, lists: &[ValueList; 2]) {
     let start = [RADIUS, 0.0];
     for feed in FEEDS {
         for take in [1, 2] {

@@ -1,31 +1,28 @@
-//! What the commanded positions and the torque of recorded circles show besides the path (R16.13, R16.14, R16.18).
+//! What the commanded positions and the torque of recordings show besides the path (R16.13, R16.14, R16.18).
 
 use std::path::Path;
 
 use super::channels::ReadingArgs;
+use super::run::plan_of;
+use crate::failure::Failure;
 use crate::machine::value_list;
 use frictcomp_host::{FileRegistry, read_axis, read_motion, sha256_of};
 use frictcomp_recordings::commission::{
-    CirclesFound, FollowedPosition, recorded_apart, share_of_torque,
+    CirclesFound, FollowedPosition, RecordingResult, ShareOfList, Stage, recorded_apart,
+    torque_of_list,
 };
-use frictcomp_report::commission::PlanFile;
+use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
 impl ReadingArgs {
-    /// Refuses commanded positions that were recorded as actual ones, names axes that were recorded apart, and takes
-    /// the share of each list in the torque. What was not recorded shows nothing.
-    pub(super) fn look_closer(
-        &self,
-        path: &Path,
-        plan: &PlanFile,
-        (found, registry): (&mut CirclesFound, &FileRegistry),
-    ) {
+    /// Refuses commanded positions that were recorded as actual ones, and names axes that were recorded apart. What was
+    /// not recorded shows nothing.
+    pub(super) fn look_closer(&self, path: &Path, plan: &PlanFile, found: &mut CirclesFound) {
         let cycle = self.cycle.seconds().ok().flatten();
         let mut followed = Vec::new();
         for (at, axis) in plan.plan.axes.iter().take(2).enumerate() {
             let channels = self.followed(&axis.name);
-            let with_torque = read_axis(path, &channels, cycle);
-            let has_torque = with_torque.is_ok();
-            let Ok(recording) = with_torque.or_else(|_| read_motion(path, &channels, cycle)) else {
+            let recording = read_axis(path, &channels, cycle);
+            let Ok(recording) = recording.or_else(|_| read_motion(path, &channels, cycle)) else {
                 continue;
             };
             if let Some(position) = FollowedPosition::of(&recording, 0.0) {
@@ -35,17 +32,6 @@ impl ReadingArgs {
                     .extend(copied.map(|it| format!("{}: {it}", axis.name)));
                 found.followed[at] = Some(position);
                 followed.push((axis.name.as_str(), position));
-            }
-            let used = plan.lists.iter().find(|it| it.axis == axis.name);
-            let Some(used) = used.filter(|_| has_torque) else {
-                continue;
-            };
-            let list = Path::new(&used.file);
-            if sha256_of(list).is_ok_and(|it| it == used.sha256)
-                && let Ok(list) = value_list(list, registry)
-            {
-                found.shares[at] =
-                    share_of_torque(&recording, self.kind.torque_kind, (&list, cycle));
             }
         }
         if let [(x, of_x), (y, of_y)] = followed[..] {
@@ -58,5 +44,53 @@ impl ReadingArgs {
             ))
         });
         found.notes.extend(averaged);
+    }
+    /// Takes the share of the list of each round in the torque of its recordings, and in that of stage 1.
+    pub(super) fn take_shares(
+        &self,
+        folder: &Path,
+        plans: &[PlanFile],
+        (results, registry): (&mut [RecordingResult], &FileRegistry),
+    ) -> Result<(), Failure> {
+        let rounds = plans.iter().filter(|it| it.plan.stage == Stage::On);
+        for used in rounds.clone().flat_map(|it| &it.lists) {
+            let is_own = |it: &PlanFile| it.plan.stage == Stage::Off || it.lists.contains(used);
+            for result in &mut *results {
+                let own = plan_of(plans, result.program).is_some_and(is_own);
+                if own && result.found.is_used() {
+                    self.take_share(folder, used, (result, registry))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the share of a list in the torque of a recording, if it is not known yet.
+    fn take_share(
+        &self,
+        folder: &Path,
+        used: &ValueListUsed,
+        (result, registry): (&mut RecordingResult, &FileRegistry),
+    ) -> Result<(), Failure> {
+        let is_same = |it: &ShareOfList| it.axis == used.axis && it.list == used.sha256;
+        let path = folder.join("recordings").join(&result.file);
+        let Some(shown) = result.found.compensation_mut() else {
+            return Ok(());
+        };
+        let list = Path::new(&used.file);
+        let is_there = sha256_of(list).is_ok_and(|it| it == used.sha256);
+        if shown.shares.iter().any(is_same) || !is_there {
+            return Ok(());
+        }
+        let cycle = self.cycle.seconds()?;
+        let recording = read_axis(&path, &self.followed(&used.axis), cycle).ok();
+        let list = value_list(list, registry)?;
+        let kind = self.kind.torque_kind;
+        shown.shares.push(ShareOfList {
+            axis: used.axis.clone(),
+            list: used.sha256.clone(),
+            torque: recording.and_then(|it| torque_of_list(&it, kind, (&list, cycle))),
+        });
+        Ok(())
     }
 }

@@ -9,8 +9,8 @@ use frictcomp_host::{SignedAt, read_circles, read_motion, read_turns, signatures
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
-    CirclesFound, MeasuredAxis, Measurement, NotFollowed, Plan, RecordedStrokes, RecordingOutcome,
-    Stage, StrokesFound,
+    CirclesFound, FollowedPosition, MeasuredAxis, Measurement, NotFollowed, Plan, RecordedStrokes,
+    RecordingOutcome, Stage, StrokesFound,
 };
 use frictcomp_recordings::identify::AxisRecording;
 
@@ -80,6 +80,9 @@ impl ReadingArgs {
                 return Ok(());
             }
             if begin.is_some() {
+                if let Some(shown) = found.compensation_mut() {
+                    shown.switched.push(axis.name.clone());
+                }
                 found.note(format!(
                     "compensation of {} is recorded, and {state}",
                     axis.name
@@ -183,11 +186,14 @@ impl ReadingArgs {
         feeds: &[f64],
     ) -> Result<RecordingOutcome, Failure> {
         let cycle = self.cycle.seconds()?;
+        let recording = read_motion(path, &self.followed(&axis.name), cycle)?;
+        let followed = FollowedPosition::of(&recording, recorded.from_s);
+        let step_s = recording.track.step_s;
         let AxisRecording {
             track,
             following_errors,
             ..
-        } = read_motion(path, &self.followed(&axis.name), cycle)?;
+        } = recording;
         let before = track
             .times_s
             .partition_point(|it| *it < recorded.from_s)
@@ -207,11 +213,16 @@ impl ReadingArgs {
                 failure
             }
         })?;
+        found.followed = followed;
         if recorded.plan.stage == Stage::Off && found.against.is_empty() && !found.is_seen() {
             found.against.push(
                 "no reversal shows in the following error: it is that of another axis, or compensation is on"
                     .to_owned(),
             );
+        }
+        if found.against.is_empty() {
+            let copied = followed.and_then(|it| it.is_commanded(step_s));
+            found.against.extend(copied);
         }
         Ok(RecordingOutcome::Strokes(found))
     }

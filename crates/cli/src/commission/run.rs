@@ -18,9 +18,9 @@ use frictcomp_host::{
     FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
 };
 use frictcomp_recordings::commission::{
-    BeforeAfter, CirclesFound, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
-    MeasuringProgram, Plan, PlantAxis, RecordingOutcome, RecordingResult, Stage, before_after,
-    feeds_against, recorded_otherwise, refuse_strangers, torque_shows,
+    BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
+    MeasuringProgram, Plan, RecordingOutcome, RecordingResult, Stage, StagesOfAxis, SwitchedAs,
+    before_after, feeds_against, recorded_otherwise, refuse_strangers,
 };
 use frictcomp_report::commission::{
     AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
         if let (RecordingOutcome::Circles(circles), Some(plan)) =
             (&mut found, plan_of(&plans, program))
         {
-            args.reading.look_closer(path, plan, (circles, &registry));
+            args.reading.look_closer(path, plan, circles);
         }
         results.push(RecordingResult {
             file,
@@ -71,6 +71,8 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
             found,
         });
     }
+    args.reading
+        .take_shares(&args.folder, &plans, (&mut results, &registry))?;
     let mut outputs = Outputs::new(&registry, console);
     outputs.print("the result")?;
     // What one recording shows about another is determined anew each time.
@@ -293,12 +295,17 @@ fn rounds(
         let is_off = |number: u16| stage_of(plans, number) == Some(Stage::Off);
         let is_on = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
         let recorded = before_after(results, &plan.plan.axes, (is_off, is_on));
-        let mut against = None;
+        let (mut against, mut not_shown) = (None, Vec::new());
         if !recorded.is_empty() {
             let mut reasons = against_feeds(plan, &recorded, &rounds);
             reasons.extend(lists_against(plan, plans, results, registry)?);
             reasons.extend(otherwise(plan, plans, results));
-            reasons.extend(not_on(plan, number, (results, fitted)));
+            let [otherwise, lacking] = switched(plan, number, (plans, results, fitted));
+            reasons.extend(otherwise);
+            // The torque of one recording of strokes shows little, and no plant is fitted to them.
+            if Shows::of(&plan.plan) == Shows::Contour {
+                not_shown = lacking;
+            }
             reasons.extend(plants_against(plan, fitted)?);
             against = Some(reasons);
         }
@@ -309,6 +316,7 @@ fn rounds(
             unit: glitch_unit(&plan.plan),
             recorded,
             against,
+            not_shown,
         });
     }
     Ok(rounds)
@@ -372,64 +380,68 @@ fn lists_against(
     Ok(against)
 }
 
-/// Returns how the circles of a round were recorded otherwise than those of stage 1.
+/// Returns how the recordings of a round were made otherwise than those of stage 1.
 fn otherwise(plan: &PlanFile, plans: &[PlanFile], results: &[RecordingResult]) -> Vec<String> {
-    let first = plans.iter().find(|it| it.plan.stage == Stage::Off);
-    let off = first.map_or_else(Vec::new, |it| circles_of(it, results));
+    let first = plans.iter().filter(|it| it.plan.stage == Stage::Off);
+    let off: Vec<&RecordingOutcome> = first.flat_map(|it| used_in(it, results)).collect();
+    let on: Vec<&RecordingOutcome> = used_in(plan, results).collect();
     let axes = plan.plan.axes.iter().map(|it| it.name.as_str());
-    recorded_otherwise(&axes.collect::<Vec<_>>(), &off, &circles_of(plan, results))
+    recorded_otherwise(&axes.collect::<Vec<_>>(), &off, &on)
 }
 
-/// Returns the usable circles of a plan.
-fn circles_of<'a>(plan: &PlanFile, results: &'a [RecordingResult]) -> Vec<&'a CirclesFound> {
-    let is_own = |it: &&RecordingResult| {
-        let mut programs = plan.plan.programs.iter();
-        it.found.is_used() && programs.any(|program| it.program == Some(program.number))
-    };
-    let circles = results.iter().filter(is_own);
-    circles
-        .filter_map(|it| match &it.found {
-            RecordingOutcome::Circles(circles) => Some(circles),
-            _ => None,
-        })
-        .collect()
+/// Returns what the usable recordings of a plan show.
+fn used_in<'a>(
+    plan: &'a PlanFile,
+    results: &'a [RecordingResult],
+) -> impl Iterator<Item = &'a RecordingOutcome> {
+    let is_own = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
+    let own = results
+        .iter()
+        .filter(move |it| it.found.is_used() && it.program.is_some_and(is_own));
+    own.map(|it| &it.found)
 }
 
-/// Returns the axes of circles that were compensated in stage 1, or of which neither the torque nor the positions show
-/// that the list was on (R16.13).
-fn not_on(
+/// Returns what recordings of each axis say about its compensation, that the list was on in the round and none in
+/// stage 1: what speaks against it, and what nothing shows (R16.13).
+fn switched(
     plan: &PlanFile,
     number: usize,
-    (results, fitted): (&[RecordingResult], &Plants),
-) -> Vec<String> {
-    let circles = circles_of(plan, results);
-    if circles.is_empty() {
-        return Vec::new();
+    (plans, results, fitted): (&[PlanFile], &[RecordingResult], &Plants),
+) -> [Vec<String>; 2] {
+    const FEEDS: usize = 2;
+    let first = plans.iter().filter(|it| it.plan.stage == Stage::Off);
+    let off = first.flat_map(|it| used_in(it, results));
+    let off: Vec<&CompensationShown> = off.filter_map(RecordingOutcome::compensation).collect();
+    let on = used_in(plan, results).filter_map(RecordingOutcome::compensation);
+    let on: Vec<&CompensationShown> = on.collect();
+    let found = fitted.verdicts.iter().find(|it| it.found.round == number);
+    let [mut against, mut not_shown] = [Vec::new(), Vec::new()];
+    for used in &plan.lists {
+        let stages = StagesOfAxis {
+            axis: &used.axis,
+            list: &used.sha256,
+            off: &off,
+            on: &on,
+            fewest: match Shows::of(&plan.plan) {
+                Shows::Contour => FEEDS,
+                // All feeds are in one recording.
+                _ => 1,
+            },
+            plant: found.and_then(|it| it.found.axes.iter().find(|it| it.axis == used.axis)),
+        };
+        for state in [stages.was_on(), stages.was_off()] {
+            match state {
+                SwitchedAs::Shown => {}
+                SwitchedAs::Otherwise(words) => against.push(words),
+                SwitchedAs::NotShown(words) => not_shown.push(words),
+            }
+        }
     }
-    let plant = fitted.verdicts.iter().find(|it| it.found.round == number);
-    let axes = plan.plan.axes.iter().take(2).enumerate();
-    let listed = axes.filter(|(_, axis)| plan.lists.iter().any(|it| it.axis == axis.name));
-    let against = listed.filter_map(|(at, axis)| {
-        let found = plant.and_then(|it| it.found.axes.iter().find(|it| it.axis == axis.name));
-        let already = found.and_then(PlantAxis::other_friction_off);
-        let shares: Vec<[f64; 2]> = circles.iter().filter_map(|it| it.shares[at]).collect();
-        if already.is_some() || torque_shows(&shares) {
-            return already;
-        }
-        match found.filter(|it| it.share_on.is_some()) {
-            Some(found) => found.not_on(),
-            None => Some(format!(
-                "neither torque nor positions show that the list of {} was on: record actual torque and commanded \
-                 position, or give `--plant`",
-                axis.name
-            )),
-        }
-    });
-    against.collect()
+    [against, not_shown]
 }
 
 /// Returns the plan of a program.
-fn plan_of(plans: &[PlanFile], program: Option<u16>) -> Option<&PlanFile> {
+pub(super) fn plan_of(plans: &[PlanFile], program: Option<u16>) -> Option<&PlanFile> {
     let has = |plan: &&PlanFile| {
         plan.plan
             .programs

@@ -19,6 +19,9 @@ const CHANNELS: [&str; 8] = [
 
 const ACTUAL_TORQUE: [&str; 2] = ["--torque-kind", "actual"];
 
+/// A commanded torque shows nothing of what was on; the name of the channel would say that it is the actual one.
+const COMMANDED_TORQUE: [&str; 2] = ["--torque-kind", "command"];
+
 /// A plant is fitted, and lists keep the friction curve, which takes seconds.
 pub(crate) const FITTED: [&str; 3] = ["--plant", "mid", "--no-shaping"];
 
@@ -110,9 +113,14 @@ impl Site {
         self.run_with(&[&CHANNELS[..], &ACTUAL_TORQUE[..], more].concat())
     }
 
-    /// Runs it without a statement about the torque, so that the positions decide.
+    /// Runs it with a torque that shows nothing, so that the positions decide.
     pub(crate) fn run_by_positions(&self) -> (Option<i32>, String) {
-        self.run_with(&[&CHANNELS[..], &FITTED[..]].concat())
+        self.run_with(&[&CHANNELS[..], &COMMANDED_TORQUE[..], &FITTED[..]].concat())
+    }
+
+    /// Runs it with such a torque and without a plant, so that nothing decides.
+    pub(crate) fn run_without_torque(&self) -> (Option<i32>, String) {
+        self.run_with(&[&CHANNELS[..], &COMMANDED_TORQUE[..]].concat())
     }
 
     fn run_with(&self, arguments: &[&str]) -> (Option<i32>, String) {

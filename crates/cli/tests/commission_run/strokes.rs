@@ -110,7 +110,26 @@ fn with_half_the_error(mut recorded: Recorded) -> Recorded {
     recorded
 }
 
-/// R16.1, R16.2: the strokes of a single axis are judged by the following error after reversals, off and on; the
+/// What makes of a recording that of another machine.
+type Change = fn(&mut Recorded);
+
+/// How the strokes of another machine differ, and the words that name it.
+const OF_ANOTHER_MACHINE: [(Change, &str); 2] = [
+    (
+        // Its loops answer 12 ms later.
+        |it| {
+            let samples = it.x.len();
+            it.x.copy_within(..samples - 12, 12);
+        },
+        "they are of another machine",
+    ),
+    (
+        |it| it.torque.iter_mut().for_each(|torque| *torque *= 1.3),
+        "have less friction than those on, by 23 %: another machine",
+    ),
+];
+
+/// R16.1, R16.2, R16.13, R16.18: the strokes of a single axis are judged by the following error after reversals, off and on; the
 /// result is called motor side, not contour, and has the unit of the axis.
 #[test]
 fn strokes_are_judged_by_their_following_error() {
@@ -149,7 +168,19 @@ fn strokes_are_judged_by_their_following_error() {
             "{said}"
         );
         assert_eq!(status == Some(0), !said.contains("not accepted"), "{said}");
-        put(folder, "d.csv", &text(&with_half_the_error(recorded)));
+        let recorded = with_half_the_error(recorded);
+        for (change, words) in OF_ANOTHER_MACHINE {
+            let mut other = recorded.clone();
+            change(&mut other);
+            put(folder, "d.csv", &text(&other));
+            let (status, said) = run(folder, &kind);
+            assert_eq!(status, Some(1), "{said}");
+            assert!(
+                said.contains("not accepted") && said.contains(words),
+                "{words}: {said}"
+            );
+        }
+        put(folder, "d.csv", &text(&recorded));
         let (status, said) = run(folder, &kind);
         assert!(
             said.contains("accepted: ")

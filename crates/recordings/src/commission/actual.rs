@@ -1,14 +1,11 @@
-//! Whether recorded actual positions are actual ones, and whether a list was on (R16.13, R16.14, R16.18).
+//! Whether recorded actual positions are actual ones (R16.14, R16.18).
 
-use frictcomp::lists::FrictionList;
-use frictcomp_physics::current::Reading;
 use serde::{Deserialize, Serialize};
 
 use super::following::{STANDSTILL, commanded};
-use super::found::CirclesFound;
+use super::results::RecordingOutcome;
 use crate::identify::{
-    AxisRecording, Predictor, Timing, TorqueKind, count, median, moving_average, noise_of,
-    samples_in, solve_linear, verify_followed,
+    AxisRecording, count, median, moving_average, noise_of, samples_in, solve_linear,
 };
 
 /// The time in s over which noise is averaged to find what friction leaves.
@@ -152,19 +149,19 @@ fn averaged_samples(values: &[f64]) -> Option<usize> {
     (beside(lag) < limit && beside(other) > ALONE * beside(lag)).then_some(lag)
 }
 
-/// States how the circles of a round were recorded otherwise than those off, for each axis: averaged, later, or in
-/// another scale (R16.14, R16.18). They are not compared then.
+/// States how the circles or strokes of a round were recorded otherwise than those off, for each axis: averaged, later,
+/// or in another scale (R16.14, R16.18). They are not compared then.
 pub fn recorded_otherwise(
     names: &[&str],
-    off: &[&CirclesFound],
-    on: &[&CirclesFound],
+    off: &[&RecordingOutcome],
+    on: &[&RecordingOutcome],
 ) -> Vec<String> {
     const LATER_S: f64 = 0.001;
     const SCALE: f64 = 0.0005;
     let mut against = Vec::new();
     for (at, name) in names.iter().enumerate().take(2) {
-        let of = |circles: &[&CirclesFound]| -> Vec<FollowedPosition> {
-            circles.iter().filter_map(|it| it.followed[at]).collect()
+        let of = |recorded: &[&RecordingOutcome]| -> Vec<FollowedPosition> {
+            recorded.iter().filter_map(|it| it.followed(at)).collect()
         };
         let [before, after] = [of(off), of(on)];
         let middle = |all: &[FollowedPosition], value: fn(&FollowedPosition) -> f64| {
@@ -183,7 +180,7 @@ pub fn recorded_otherwise(
                 ("on", "off")
             };
             against.push(format!(
-                "the positions of {name} are averages over {:.0} ms in the circles {which} and not in those {other}, \
+                "the positions of {name} are averages over {:.0} ms in the recordings {which} and not in those {other}, \
                  which hides what a reversal leaves: record both alike, every sample as it is",
                 over_s * 1000.0
             ));
@@ -192,15 +189,16 @@ pub fn recorded_otherwise(
             both(|it| it.lag_s).filter(|(off, on)| (on - off).abs() > LATER_S)
         {
             against.push(format!(
-                "{name} follows its command after {:.1} ms in the circles off and {:.1} ms in those on: positions are \
-                 averaged or late in one of them, or its loops were changed; record both alike",
+                "{name} follows its command after {:.1} ms in the recordings off and {:.1} ms in those on: positions are \
+                 averaged or late in one of them, its loops were changed, or they are of another machine; record both \
+                 alike",
                 off_s * 1000.0,
                 on_s * 1000.0
             ));
         }
         if let Some((off, on)) = both(|it| it.longer).filter(|(off, on)| (on - off).abs() > SCALE) {
             against.push(format!(
-                "the way of {name} is {:+.2} % longer than commanded in the circles off and {:+.2} % in those on: \
+                "the way of {name} is {:+.2} % longer than commanded in the recordings off and {:+.2} % in those on: \
                  another scale; record both alike",
                 off * 100.0,
                 on * 100.0
@@ -235,40 +233,4 @@ pub fn recorded_apart(names: [&str; 2], followed: [FollowedPosition; 2]) -> Vec<
         }
     }
     notes
-}
-
-/// The lower and the upper end of the share of the current of a list in a recorded torque (R6.22); `None` where the
-/// torque is not known to be the actual one, or no following error or too few reversals were recorded.
-pub fn share_of_torque(
-    recording: &AxisRecording,
-    kind: Option<TorqueKind>,
-    (list, cycle_s): (&FrictionList, Option<f64>),
-) -> Option<[f64; 2]> {
-    if recording.measured.stated(kind, None).kind != Some(TorqueKind::Actual) {
-        return None;
-    }
-    let predictor = Predictor {
-        list,
-        reading: Reading::default(),
-        cycle_s,
-    };
-    let verified = verify_followed(&recording.track, &recording.following_errors, &predictor);
-    let share = match verified.ok()?.timing {
-        Timing::Open => return None,
-        Timing::Off(share)
-        | Timing::Other(share)
-        | Timing::Unclear(share)
-        | Timing::On { share, .. } => share,
-    };
-    Some([share.low, share.high])
-}
-
-/// Whether the torque of circles shows that a list was on: its share is at least 0.7 at two feeds or more, and nowhere
-/// below 0.75 for certain (R16.13).
-pub fn torque_shows(shares: &[[f64; 2]]) -> bool {
-    const LEAST: f64 = 0.7;
-    const BELOW: f64 = 0.75;
-    const FEEDS: usize = 2;
-    shares.iter().filter(|it| it[0] >= LEAST).count() >= FEEDS
-        && shares.iter().all(|it| it[1] >= BELOW)
 }

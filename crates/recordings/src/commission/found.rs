@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::actual::FollowedPosition;
 use super::at_feed::{AtFeed, ON_FEED};
 use super::following::COARSEST_S;
+use super::switched::CompensationShown;
 use crate::identify::{Fit, Identified, Track, along, count};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 use frictcomp_physics::circle::{
@@ -318,8 +319,8 @@ pub struct CirclesFound {
     pub glitches: Vec<DirectionGlitches>,
     /// The largest of them, in µm.
     pub worst_um: f64,
-    /// The lower and the upper end of the share of each axis' list in the torque, where it is known.
-    pub shares: [Option<[f64; 2]>; 2],
+    /// What it shows about the compensation, besides the path.
+    pub compensation: CompensationShown,
     /// How the actual position of each axis follows the commanded one, where that was recorded.
     pub followed: Box<[Option<FollowedPosition>; 2]>,
     /// The figures of ISO 230-4.
@@ -372,7 +373,7 @@ impl CirclesFound {
         let height = |axis| recorded_height_um(axis, &recording.circles);
         let heights = height(PlaneAxis::X).zip(height(PlaneAxis::Y));
         Self {
-            shares: [None; 2],
+            compensation: CompensationShown::default(),
             followed: Box::default(),
             iso: IsoFigures::of(&recording.side.figures),
             heights_um: heights.map(|(x, y)| [x, y]),

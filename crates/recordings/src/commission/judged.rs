@@ -34,6 +34,11 @@ pub fn feeds_against(round: &JudgedRound<'_>) -> Vec<String> {
         let before = round
             .accepted
             .and_then(|(number, recorded)| Some((number, &recorded[at(recorded, feed)?])));
+        if let (Some((number, _)), None) = (round.accepted, before) {
+            against.push(format!(
+                "F{feed} was not recorded with the lists of round {number}, which may leave less"
+            ));
+        }
         for place in &now.places {
             let off = worse(round, feed, (place, &place.off), "without it");
             let earlier = before.and_then(|(number, before)| {
@@ -124,4 +129,104 @@ fn without_effect(recorded: &[BeforeAfter], axis: &str) -> Vec<f64> {
         alike.push(fastest.feed);
     }
     alike
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frictcomp_physics::circle::MeasuredGlitch;
+
+    /// A glitch whose turns scatter, the largest of which counts.
+    fn glitch(um: f64, median_um: f64, spread_um: f64) -> MeasuredGlitch {
+        const NOISE_UM: f64 = 0.1;
+        let mut glitch = MeasuredGlitch::of(um, spread_um.hypot(NOISE_UM));
+        (glitch.median_um, glitch.spread_um, glitch.turns) = (median_um, spread_um, 3);
+        glitch
+    }
+
+    /// What speaks against a list that leaves a glitch in place of another one, at each of four feeds.
+    fn against(off: MeasuredGlitch, on: MeasuredGlitch) -> Vec<String> {
+        let feeds = [500.0, 1000.0, 2000.0, 5000.0];
+        let place = PlaceCompared {
+            axis: "X".to_owned(),
+            direction: Some("ccw".to_owned()),
+            off,
+            on,
+        };
+        let recorded = feeds.map(|feed| BeforeAfter {
+            feed,
+            driven: feed,
+            off: off.um,
+            on: on.um,
+            places: vec![place.clone()],
+        });
+        feeds_against(&JudgedRound {
+            feeds: &feeds,
+            recorded: &recorded,
+            accepted: None,
+            unit: "µm",
+        })
+    }
+
+    #[test]
+    fn only_a_spread_that_could_turn_the_verdict_stops_it() {
+        // R16.11: more is left than without the list, but not by more than turns of one circle differ; or less, but more
+        // than the median of the turns without it.
+        let steady = glitch(20.0, 20.0, 0.0);
+        for (off, on) in [
+            (steady, glitch(22.0, 18.0, 2.0)),
+            (glitch(20.0, 14.0, 3.0), glitch(18.0, 18.0, 0.0)),
+        ] {
+            let against = against(off, on);
+            let words = "turns of one circle differ by";
+            assert!(against.iter().any(|it| it.contains(words)), "{against:?}");
+            assert!(against[0].contains("could turn the verdict"), "{against:?}");
+            assert!(against[0].starts_with("at F500 ") && against[0].contains("X ccw"));
+        }
+        // The same spread where the list leaves much less.
+        for (off, on) in [
+            (steady, glitch(9.0, 6.0, 2.0)),
+            (glitch(20.0, 14.0, 3.0), glitch(6.0, 6.0, 0.0)),
+        ] {
+            assert!(against(off, on).is_empty(), "{:?}", against(off, on));
+        }
+        // Where it leaves more by more than the spread, it is worse, whatever the turns do.
+        let worse = against(steady, glitch(30.0, 28.0, 2.0));
+        assert!(
+            worse[0].contains("more than the 20.0 µm without it"),
+            "{worse:?}"
+        );
+        assert!(!worse[0].contains("could turn"), "{worse:?}");
+    }
+
+    #[test]
+    fn a_feed_that_the_accepted_lists_lack_is_no_proof() {
+        // R16.12
+        let recorded = |feeds: &[f64]| -> Vec<BeforeAfter> {
+            let of = |feed: &f64| BeforeAfter {
+                feed: *feed,
+                driven: *feed,
+                off: 20.0,
+                on: 6.0,
+                places: vec![PlaceCompared {
+                    axis: "X".to_owned(),
+                    direction: None,
+                    off: glitch(20.0, 20.0, 0.0),
+                    on: glitch(6.0, 6.0, 0.0),
+                }],
+            };
+            feeds.iter().map(of).collect()
+        };
+        let feeds = [500.0, 1000.0, 2000.0, 5000.0];
+        let against = feeds_against(&JudgedRound {
+            feeds: &feeds,
+            recorded: &recorded(&feeds),
+            accepted: Some((2, &recorded(&feeds[1..]))),
+            unit: "µm",
+        });
+        assert_eq!(
+            against,
+            ["F500 was not recorded with the lists of round 2, which may leave less"]
+        );
+    }
 }

@@ -21,10 +21,9 @@ mod room;
 mod runs;
 mod signature;
 mod strokes;
+mod switched;
 
-pub use actual::{
-    FollowedPosition, recorded_apart, recorded_otherwise, share_of_torque, torque_shows,
-};
+pub use actual::{FollowedPosition, recorded_apart, recorded_otherwise};
 pub use compared::{BeforeAfter, PlaceCompared, before_after};
 pub use error::PlanError;
 pub use following::{NotFollowed, actual_elsewhere};
@@ -41,3 +40,6 @@ pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
 pub use results::{RecordingOutcome, RecordingResult, refuse_strangers};
 pub use signature::{Signature, signature_in};
 pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};
+pub use switched::{
+    CompensationShown, ShareOfList, StagesOfAxis, SwitchedAs, TorqueOfList, torque_of_list,
+};

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::switched::{NONE, PART, SHOWN};
 use crate::identify::Fit;
 use frictcomp_physics::circle::{Extent, FittedDrive};
 use frictcomp_physics::simulation::DriveParameters;
@@ -172,9 +173,7 @@ impl PlantAxis {
     /// States that the friction in the circles off is not that of constant speeds, if they show it: a list was already
     /// on, or it is another machine or state (R16.13).
     pub fn other_friction_off(&self) -> Option<String> {
-        const SHOWN: f64 = 0.05;
-        const LEAST: f64 = 0.15;
-        let share = self.share_off.filter(|it| it.value.abs() > LEAST)?;
+        let share = self.share_off.filter(|it| it.value.abs() > PART)?;
         let told = format!("{:.2} to {:.2}", share.low, share.high);
         if share.low > SHOWN {
             return Some(format!(
@@ -189,6 +188,12 @@ impl PlantAxis {
                 self.axis, -share.value
             )
         })
+    }
+
+    /// Whether its circles show that no list was on in stage 1: the range of the share is about 0 (R16.13).
+    pub(super) fn is_off_shown(&self) -> bool {
+        self.share_off
+            .is_some_and(|it| it.low >= -NONE && it.high <= NONE)
     }
 
     /// States that not all of the list of the last round was on, if its circles do not show it (R16.13).

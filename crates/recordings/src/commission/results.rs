@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::actual::FollowedPosition;
 use super::at_feed::AtFeed;
 use super::found::{CirclesFound, FrictionFound};
 use super::strokes::StrokesFound;
+use super::switched::CompensationShown;
 use frictcomp_physics::circle::MeasuredGlitch;
 
 /// A recording in the folder.
@@ -90,6 +92,33 @@ impl RecordingOutcome {
             Self::Circles(found) => found.notes.push(remark),
             Self::Strokes(found) => found.notes.push(remark),
             Self::Refused(_) => {}
+        }
+    }
+
+    /// What it shows about the compensation; constant speeds show nothing.
+    pub fn compensation(&self) -> Option<&CompensationShown> {
+        match self {
+            Self::Circles(found) => Some(&found.compensation),
+            Self::Strokes(found) => Some(&found.compensation),
+            Self::Friction(_) | Self::Refused(_) => None,
+        }
+    }
+
+    /// How the actual position of an axis, by its place in the plan, follows the commanded one.
+    pub(super) fn followed(&self, axis: usize) -> Option<FollowedPosition> {
+        match self {
+            Self::Circles(found) => found.followed[axis],
+            Self::Strokes(found) => found.followed,
+            Self::Friction(_) | Self::Refused(_) => None,
+        }
+    }
+
+    /// What it shows about the compensation, to add to it.
+    pub fn compensation_mut(&mut self) -> Option<&mut CompensationShown> {
+        match self {
+            Self::Circles(found) => Some(&mut found.compensation),
+            Self::Strokes(found) => Some(&mut found.compensation),
+            Self::Friction(_) | Self::Refused(_) => None,
         }
     }
 

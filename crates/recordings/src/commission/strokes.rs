@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::actual::FollowedPosition;
 use super::at_feed::ON_FEED;
 use super::following::{Following, NotFollowed, PassedReversal};
+use super::switched::CompensationShown;
 use crate::identify::{Track, count};
 
 /// Reversals without a stop at each feed: the ends of four strokes back and forth, without the last one.
@@ -28,6 +30,10 @@ pub struct StrokesFound {
     pub unit: String,
     /// The reversals at each feed, slowest first.
     pub reversals: Vec<FeedReversals>,
+    /// What they show about the compensation, besides the following error.
+    pub compensation: CompensationShown,
+    /// How the actual position follows the commanded one, where both were recorded.
+    pub followed: Option<FollowedPosition>,
     /// Remarks.
     pub notes: Vec<String>,
     /// Reasons why nothing is concluded from it.
@@ -78,6 +84,8 @@ impl StrokesFound {
             axis: axis.to_owned(),
             unit: if unit == "mm" { "µm" } else { "0.001°" }.to_owned(),
             reversals: Vec::new(),
+            compensation: CompensationShown::default(),
+            followed: None,
             notes: Vec::new(),
             against: Vec::new(),
         };

@@ -28,7 +28,7 @@ pub struct Results {
 
 impl Results {
     /// The version that is written.
-    pub const SCHEMA: u32 = 3;
+    pub const SCHEMA: u32 = 4;
 }
 
 /// The list of an axis, or the reasons why it has none.
@@ -92,6 +92,8 @@ pub struct Round {
     pub recorded: Vec<BeforeAfter>,
     /// Reasons why the lists are not accepted; `None` before a feed is recorded off and on.
     pub against: Option<Vec<String>>,
+    /// What nothing shows, so that the lists are not accepted either (R16.13).
+    pub not_shown: Vec<String>,
 }
 
 /// Where friction shows in the recordings of a plan.
@@ -140,9 +142,19 @@ pub fn glitch_unit(plan: &Plan) -> &'static str {
 }
 
 impl Round {
-    /// Whether there are no reasons against the lists.
+    /// Whether there are no reasons against the lists, and everything that they rest on is shown.
     pub fn is_accepted(&self) -> bool {
-        self.against.as_ref().is_some_and(Vec::is_empty)
+        self.not_shown.is_empty() && self.against.as_ref().is_some_and(Vec::is_empty)
+    }
+}
+
+impl Round {
+    /// The verdict on lists that are not accepted: something speaks against them, or only proof is missing.
+    pub(crate) fn refusal(&self) -> &'static str {
+        match self.against.as_deref() {
+            Some([]) => "not proven",
+            _ => "not accepted",
+        }
     }
 }
 
@@ -178,18 +190,6 @@ impl ResultsReport {
             && !self.fitted.is_rejected()
             && self.axes.iter().all(|it| it.list.is_some())
             && self.rounds.last().is_some_and(Round::is_accepted)
-    }
-
-    /// States what an accepted round of circles does not show without a plant (R16.13).
-    pub(crate) fn not_shown(&self, round: &Round) -> Option<&'static str> {
-        let mut plants = self.fitted.found();
-        let is_shown = plants.any(|it| {
-            it.round == round.number && it.axes.iter().all(|axis| axis.share_off.is_some())
-        });
-        let concerns = round.is_accepted() && round.shows == Shows::Contour && !is_shown;
-        concerns.then_some(
-            "not shown: that no part of a list was on in stage 1; with `--plant` the circles off show it",
-        )
     }
 
     /// The friction from which the list of an axis is made.
@@ -243,9 +243,6 @@ pub fn render_results(report: &ResultsReport) -> String {
     }
     for round in &report.rounds {
         push_round(&mut out, round);
-        if let Some(limit) = report.not_shown(round) {
-            let _ = writeln!(out, "{limit}");
-        }
     }
     if report.rounds.iter().any(|it| it.against.is_some()) {
         push_plants(&mut out, &report.fitted);
@@ -332,7 +329,7 @@ fn push_round(out: &mut String, round: &Round) {
         round.shows.figure(),
         round.unit,
     );
-    if against.is_empty() {
+    if round.is_accepted() {
         let list = |it: &ValueListUsed| {
             let sum = it.sha256.get(..16).unwrap_or(&it.sha256);
             format!("{} {} ({sum})", it.axis, it.file)
@@ -347,8 +344,8 @@ fn push_round(out: &mut String, round: &Round) {
             round.shows.limit()
         );
     } else {
-        out.push_str("\nnot accepted, the earlier lists stay:\n");
-        for reason in against {
+        let _ = writeln!(out, "\n{}, the earlier lists stay:", round.refusal());
+        for reason in against.iter().chain(&round.not_shown) {
             let _ = writeln!(out, "  {}", visible_line(reason));
         }
     }

@@ -86,17 +86,14 @@ fn verdict(report: &ResultsReport) -> Markup {
     html! {
         @match report.rounds.last().map(|it| (it, it.against.as_deref())) {
             None | Some((_, None)) => p { "No list is accepted: the motion with compensation on is not recorded." },
-            Some((round, Some([]))) => p {
+            Some((round, Some(_))) if round.is_accepted() => p {
                 "Accepted: at each of the " (round.recorded.len()) " recorded feeds the lists of round " (round.number)
                 " leave no more than there was without them. Other feeds were not recorded" (round.shows.limit()) "."
             },
             Some((round, Some(against))) => {
-                p { "The lists of round " (round.number) " are not accepted; the earlier ones stay." }
-                ul { @for reason in against { li { (reason) } } }
+                p { "The lists of round " (round.number) " are " (round.refusal()) "; the earlier ones stay." }
+                ul { @for reason in against.iter().chain(&round.not_shown) { li { (reason) } } }
             }
-        }
-        @if let Some(limit) = report.rounds.last().and_then(|it| report.not_shown(it)) {
-            p { (limit) }
         }
         @if let Some(plant) = report.fitted.verdicts.last().filter(|it| !it.rejected.is_empty()) {
             p { "The plant is rejected by the recordings, and the earlier lists stay:" }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::plants::{PlantVerdict, Plants, push_plants};
 use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
-use crate::strings::to_pretty;
+use crate::strings::{counted, to_pretty};
 use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::machine::AxisType;
@@ -207,8 +207,8 @@ pub fn render_results(report: &ResultsReport) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,
-        "{} recordings, {} of them known from an earlier run\n",
-        report.results.len(),
+        "{}, {} of them known from an earlier run\n",
+        counted(report.results.len(), "recording"),
         report.kept
     );
     for result in &report.results {

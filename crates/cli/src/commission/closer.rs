@@ -45,6 +45,7 @@ impl ReadingArgs {
         });
         found.notes.extend(averaged);
     }
+
     /// Takes the share of the list of each round in the torque of its recordings, and in that of stage 1.
     pub(super) fn take_shares(
         &self,

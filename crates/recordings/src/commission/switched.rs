@@ -42,6 +42,7 @@ pub struct TorqueOfList {
 
 /// What recordings of an axis say about a state of its compensation.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum SwitchedAs {
     /// They show it.
     Shown,

@@ -42,6 +42,8 @@ struct HeldBlock {
     segment: PathSegment,
     contouring: Option<Contouring>,
     axes: [usize; 2],
+    /// The distance to the left of the contour, in mm.
+    left: f64,
 }
 
 /// Compensation with the radius of the tool.
@@ -54,9 +56,11 @@ struct Offset {
 /// How the path beside a corner goes on.
 #[derive(Debug, Clone, Copy)]
 enum CornerBeside {
+    /// One ends where the other starts.
+    Joined,
     /// Both blocks end at one place.
     Meets([f64; 2]),
-    /// A straight piece leads from one to the other, if they are apart.
+    /// A straight piece leads from one to the other.
     Straight,
     /// An arc about the corner does.
     Around(CircularArc),
@@ -108,9 +112,15 @@ impl ToolPath {
             segment,
             contouring,
             axes,
+            left: offset.left,
         };
         if block.stays() {
             return Ok(self.pass_beside(block, sink));
+        }
+        if let Held::Approach(last) | Held::Beside(last) = &self.held
+            && (last.axes != axes || last.left * offset.left < 0.0)
+        {
+            return Err("tool radius compensation changes its side or its plane here");
         }
         if matches!(self.held, Held::Nothing) {
             if !block.segment.is_straight() {
@@ -149,6 +159,7 @@ impl ToolPath {
             }
             Held::Beside(mut last) => {
                 let between = match corner {
+                    CornerBeside::Joined => None,
                     CornerBeside::Meets(place) => {
                         last.cut(1, place);
                         next.cut(0, place);
@@ -182,6 +193,7 @@ impl ToolPath {
             segment,
             contouring,
             axes,
+            left: 0.0,
         };
         if next.stays() {
             return Ok(self.pass_beside(next, sink));
@@ -322,7 +334,7 @@ impl CornerBeside {
         let end = axes.map(|axis| last.ends()[axis]);
         let start = axes.map(|axis| next.starts()[axis]);
         if distance(end, start) < SAME_PLACE {
-            return Ok(Self::Straight);
+            return Ok(Self::Joined);
         }
         let before = last.direction(axes, last.length);
         let after = next.direction(axes, 0.0);

@@ -63,6 +63,19 @@ fn a_bore_is_driven_at_the_radius_of_the_tool_centre() {
 }
 
 #[test]
+fn blocks_that_go_on_smoothly_do_so_beside_the_contour() {
+    // R11.30: two turns, and a line into an arc, at the feed of the program.
+    let program =
+        "G01 X0 Y0 F1000\nG41 X20\nY5\nG03 X-20 I-20\nG03 X20 I20\nX-20 I-20\nG01 Y-5\nG40 X0\nM30";
+    let trace = followed(program, 5.0);
+    let inside = trace.lines.iter().zip(&trace.path_velocities);
+    let within = inside.filter(|(line, _)| (5..=5).contains(*line));
+    let slowest = within.map(|it| *it.1).fold(f64::INFINITY, f64::min);
+    assert!(slowest > 0.99 * 1000.0 / 60.0, "{slowest}");
+    assert_limits(MACHINE, &AXES, &trace);
+}
+
+#[test]
 fn without_a_radius_the_programmed_contour_is_followed_and_that_is_said() {
     // R11.30
     let trace = trace("G01 X0 Y0 F1000\nG41 X20\nG03 I-20\nG40 G01 X0\nM30", &AXES);
@@ -196,10 +209,14 @@ fn a_motion_across_the_plane_and_a_dwell_keep_the_tool_beside_the_contour() {
 fn what_the_tool_cannot_follow_is_left_out_and_said() {
     // R11.30
     let slot = "G01 X0 Y0 F1000\nG41 X0 Y1\nX10\nY5\nX0\nG40 Y20\nM30";
+    let side = "G01 X0 Y0 F1000\nG41 X20\nY10\nG42 Y20\nX40\nG40 X0\nM30";
+    let plane = "G01 X0 Y0 Z0 F1000\nG41 X20\nY10\nG18 Z5\nX40\nG40 X0\nM30";
     let arc = "G01 X0 Y0 F1000\nG41 X20\nY10\nG03 X14 Y10 I-3\nG01 Y0\nG40 X0\nM30";
     for (program, reason) in [
         (slot, "the tool does not fit into the contour here"),
         (arc, "the arc is not larger than the tool"),
+        (side, "changes its side or its plane"),
+        (plane, "changes its side or its plane"),
     ] {
         let trace = followed(program, 4.0);
         assert!(

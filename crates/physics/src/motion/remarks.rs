@@ -170,8 +170,8 @@ impl MotionRemarks {
     pub(super) fn say_tool(&mut self, row: &Row<'_>) {
         let remark = MotionRemark {
             code: Code::Fc907,
-            message: "the trace follows the tool beside the contour, and passes outer corners and the first block \
-                      in its own way (`G41`, `G42`)",
+            message: "the trace follows the tool beside the contour, with the given radius whichever tool is \
+                      selected, and passes outer corners and the first block in its own way (`G41`, `G42`)",
             help: Advice::ReadPage(Code::Fc907),
         };
         self.say_once(

@@ -120,7 +120,7 @@ impl StagesOfAxis<'_> {
             )),
             None => SwitchedAs::NotShown(format!(
                 "neither torque nor positions show that the list of {axis} was on{}: record actual torque and commanded \
-                 position, or state a plant",
+                 position, or name a plant to be fitted",
                 self.range_of(self.on)
             )),
         }
@@ -163,7 +163,7 @@ impl StagesOfAxis<'_> {
         }
         SwitchedAs::NotShown(format!(
             "nothing shows that no part of a list of {axis} was on in stage 1{}: record the actual torque and the \
-             commanded position, or the state of the compensation, or state a plant",
+             commanded position, or the state of the compensation, or name a plant to be fitted",
             self.range_of(self.off)
         ))
     }
@@ -258,7 +258,7 @@ pub(super) const PART: f64 = 0.15;
 /// … that begins above this is a part of a list.
 pub(super) const SHOWN: f64 = 0.05;
 
-/// A share within this on both sides of 0 is none of a list.
+/// A share of a list within this of 0, on either side, counts as no part of it.
 pub(super) const NONE: f64 = 0.25;
 
 #[cfg(test)]

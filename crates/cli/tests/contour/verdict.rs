@@ -272,6 +272,25 @@ fn what_was_left_out_does_not_count_as_no_reversal() {
 }
 
 #[test]
+fn feed_moves_that_are_left_out_are_named_and_rapid_ones_are_not() {
+    // R18.11: the rapid motion begins where nobody knows, and the circle has no centre.
+    let bench = self::bench(
+        "G00 X0 Y0 Z0\nG01 X20 F1000\nG03 X0\nG01 X5\nM30\n",
+        MACHINE,
+    );
+    let call = bench.call(&["contour", "part.nc", "--format", "json"]);
+    let found = json(&String::from_utf8(call.stdout).expect("text"));
+    let reason = "1 motion is left out, whose start, end or feed is not known: part.nc:3";
+    assert!(
+        found["not_judged"]
+            .as_array()
+            .expect("reasons")
+            .contains(&reason.into()),
+        "{found}"
+    );
+}
+
+#[test]
 fn a_program_that_cuts_nothing_is_not_judged() {
     // R11.23: rapid moves have no contour.
     let bench = bench("G90 G00 X20\nG00 X5\nG00 X20\nM30\n", MACHINE);

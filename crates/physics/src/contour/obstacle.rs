@@ -4,9 +4,6 @@ use std::fmt;
 
 use frictcomp::diagnostic::{Code, Diagnostic};
 
-/// Most places that an obstacle names.
-const MAX_PLACES: usize = 3;
-
 /// Obstacle to a verdict on, or a comparison of, the whole contour.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -92,13 +89,6 @@ impl ContourObstacle {
                 self.to_string()
             }
         }
-    }
-
-    /// The obstacle of motions that were left out, with the messages on them.
-    pub(super) fn left_out(count: u64, remarks: &[Diagnostic]) -> Self {
-        let of_motion = |said: &&Diagnostic| matches!(said.code, Code::Fc903 | Code::Fc906);
-        let places = remarks.iter().filter(of_motion).map(place_of);
-        Self::LeftOut(count, places.take(MAX_PLACES).collect())
     }
 
     /// The obstacle of a message on a stretch that only the machine decides.

@@ -277,8 +277,10 @@ impl<S: ContourSink> ProgramContour<S> {
             obstacles.push(ContourObstacle::NothingCut);
         }
         if self.left_out_feed() > 0 {
-            let (_, remarks) = self.diagnostics();
-            obstacles.push(ContourObstacle::left_out(self.left_out_feed(), remarks));
+            obstacles.push(ContourObstacle::LeftOut(
+                self.left_out_feed(),
+                self.trace.left_out_feed_at().to_vec(),
+            ));
         }
         let undecided = self.trace.undecided().iter();
         obstacles.extend(undecided.map(ContourObstacle::undecided));

@@ -62,6 +62,9 @@ impl Default for PlannerOptions {
     }
 }
 
+/// Most places of motions that are left out.
+const MAX_PLACES: usize = 3;
+
 /// Reason to leave out a motion whose start is not known.
 const UNKNOWN_START: &str = "the position of the axes before this motion is not known";
 
@@ -89,6 +92,8 @@ pub struct TrajectoryPlanner {
     left_out: u64,
     /// The number of them that are not known to be rapid.
     left_out_feed: u64,
+    /// The places of the first of these: `part.nc:8`.
+    left_out_feed_at: Vec<String>,
     remarks: MotionRemarks,
 }
 
@@ -145,6 +150,7 @@ impl TrajectoryPlanner {
             has_lost: false,
             left_out: 0,
             left_out_feed: 0,
+            left_out_feed_at: Vec::new(),
             remarks: MotionRemarks::default(),
             names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
         }
@@ -209,6 +215,11 @@ impl TrajectoryPlanner {
     /// Returns the number of those that are not known to be rapid moves.
     pub fn left_out_feed(&self) -> u64 {
         self.left_out_feed
+    }
+
+    /// Returns the places of the first of these, as `part.nc:8`.
+    pub fn left_out_feed_at(&self) -> &[String] {
+        &self.left_out_feed_at
     }
 
     /// Returns the messages on the motions, each once per place.
@@ -441,7 +452,13 @@ impl TrajectoryPlanner {
         self.left_out += 1;
         let is_rapid =
             matches!(row.motion, Some(Motion::Travel(travel)) if travel.form == PathForm::Rapid);
-        self.left_out_feed += u64::from(!is_rapid);
+        if !is_rapid {
+            self.left_out_feed += 1;
+            if self.left_out_feed_at.len() < MAX_PLACES {
+                let place = format!("{}:{}", row.file, row.line);
+                self.left_out_feed_at.push(place);
+            }
+        }
         sink.left_out(&SkippedMotion {
             time_s: self.path.rounding().look_ahead().time_s(),
             file: row.file,

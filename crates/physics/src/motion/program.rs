@@ -135,6 +135,11 @@ impl<S: TraceSink> ProgramTrace<S> {
         self.planner.left_out_feed()
     }
 
+    /// Returns the places of the first of these, as `part.nc:8`.
+    pub fn left_out_feed_at(&self) -> &[String] {
+        self.planner.left_out_feed_at()
+    }
+
     /// The receiver of the trace.
     pub fn sink_ref(&self) -> &S {
         &self.sink

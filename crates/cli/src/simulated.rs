@@ -62,7 +62,7 @@ impl SimulationArgs {
             ("--model", self.model.is_some()),
             ("--value-list", !self.value_list.is_empty()),
             ("--start", !self.start.given().is_empty()),
-            ("--tool-radius", self.tool.radius_mm.is_some()),
+            ("--tool-radius", self.tool.radii.is_some()),
             ("--cycle-time-ms", self.cycle.seconds()?.is_some()),
             ("--max-cycles", self.max_cycles.is_some()),
         ];
@@ -108,7 +108,7 @@ impl SimulationArgs {
         Ok(PlannerOptions {
             cycle_s: check_cycle(cycle.unwrap_or(usual.cycle_s))?,
             max_cycles: self.max_cycles.unwrap_or(usual.max_cycles),
-            tool_radius_mm: self.tool.radius_mm,
+            tool_radii: self.tool.radii.clone().unwrap_or_default(),
         })
     }
 }

@@ -88,7 +88,7 @@ pub fn drive_contour<S: ContourSink>(
         naming: setup.naming,
         axes: Axes::AsTheyOccur,
     };
-    let mut ahead = Ahead::new(&loaded, setup.planner);
+    let mut ahead = Ahead::new(&loaded, &setup.planner);
     run_alone(input, &loaded, alone(), &mut ahead)?;
     if loaded.watch.is_stopped() {
         return Err(NoDrivenContour::Stopped);
@@ -103,7 +103,7 @@ pub fn drive_contour<S: ContourSink>(
     )?;
     parameterise(&mut loaded.machine, &axes);
     let options = ContourOptions::new(axes)
-        .with_planner(setup.planner)
+        .with_planner(setup.planner.clone())
         .with_model(setup.model)
         .with_reading(Reading::from(&loaded.machine.readings));
     let sink = sink(&options);
@@ -151,8 +151,8 @@ impl TraceSink for Cycles {
 }
 
 impl Ahead {
-    fn new(loaded: &LoadedMachine, planner: PlannerOptions) -> Self {
-        let trace = || ProgramTrace::new(&loaded.machine, &[], planner, Cycles::default());
+    fn new(loaded: &LoadedMachine, planner: &PlannerOptions) -> Self {
+        let trace = || ProgramTrace::new(&loaded.machine, &[], planner.clone(), Cycles::default());
         Self {
             moving: MovingAxes::default(),
             trace: loaded.watch.is_on().then(trace),

@@ -41,7 +41,7 @@ pub fn command_line(advice: &Advice) -> Option<String> {
             format!("give it, for example with `--start {}`", start.join(","))
         }
         Advice::GiveToolRadius => {
-            "give it with `--tool-radius`, in mm: in a bore the tool runs on a smaller circle, and its axes reverse with a larger acceleration"
+            "give it with `--tool-radius`, in mm, or for each D word as in `D1=5`: in a bore the tool runs on a smaller circle, and its axes reverse with a larger acceleration"
                 .to_owned()
         }
         Advice::AllowOutside => {

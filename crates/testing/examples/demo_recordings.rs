@@ -26,7 +26,7 @@ const START: [f64; 2] = [10.0, 10.0];
 
 /// Milliseconds between two rows of constant speeds, and of circles.
 const COARSE_MS: usize = 20;
-const FINE_MS: usize = 3;
+const FINE_MS: usize = 2;
 
 /// Milliseconds after which the machine is at its feed.
 const AT_FEED_MS: usize = 400;

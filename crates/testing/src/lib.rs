@@ -23,6 +23,7 @@ mod program;
 mod ramp;
 mod random;
 mod recorder;
+mod search;
 mod stand_ins;
 
 pub use axis::{Axis, Coupling};

@@ -343,6 +343,9 @@ impl Interpreter {
                 // A function may wait for its acknowledgement.
                 self.scratch.rests.set(true);
                 self.scratch.plc_acts |= letter == b'M' && self.may_acknowledge(letter, number);
+                if letter == b'D' || gives_data {
+                    self.state.control.modal.select_tool_data(number);
+                }
                 if let (b'M', Some(number)) = (letter, number) {
                     self.state.control.modal.pace.m(number);
                 }

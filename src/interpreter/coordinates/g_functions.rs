@@ -33,6 +33,9 @@ pub struct GFunctions {
     /// G40 to G42.
     #[serde(default = "without_compensation")]
     pub(super) tool_side: u32,
+    /// The number of the tool data in force, D, where it is known.
+    #[serde(default)]
+    pub tool_data: Option<u32>,
     /// Condition for the end of blocks, G359 and G360.
     pub block_end: BlockEnd,
     /// Groups whose active function is not known offline (R2.51).
@@ -59,6 +62,7 @@ impl Default for GFunctions {
             offset: 53,
             centre_absolute: false,
             tool_side: without_compensation(),
+            tool_data: None,
             block_end: BlockEnd::Through,
             unknown: GroupSet::default(),
             lacking: LackingFeeds::all(),

@@ -354,8 +354,15 @@ impl Modal {
         mine != theirs || (mine && self.value(group) != other.value(group))
     }
 
+    /// Selects the tool data of a D word; `None` if its number is not known, or if it may not have been executed.
+    pub(in crate::interpreter) fn select_tool_data(&mut self, number: Option<i64>) {
+        self.functions.tool_data = number.and_then(|it| u32::try_from(it).ok());
+    }
+
     /// The groups in which two states differ, or may, become unknown.
     fn join_functions(&mut self, other: &Self) {
+        let data = &mut self.functions.tool_data;
+        *data = data.filter(|_| *data == other.functions.tool_data);
         for group in Group::ALL {
             let differs = self.value(group) != other.value(group);
             if differs || other.functions.unknown.contains(group) {
@@ -424,6 +431,7 @@ impl Modal {
     pub(in crate::interpreter) fn havoc_words(&mut self) {
         self.havoc_g(None);
         self.havoc_feeds();
+        self.select_tool_data(None);
         self.pace.havoc();
         self.radius = None;
     }

@@ -203,8 +203,12 @@ impl Interpreter {
     ) {
         let mut configured = vec![self.configured(word)];
         let has_program = !matches!(configured[0], Configured::None);
-        if word.letter == b'T' && self.machine.programs.data_with_tool {
+        let gives_data = word.letter == b'T' && self.machine.programs.data_with_tool;
+        if gives_data {
             configured.push(self.configured(word.of_data()));
+        }
+        if word.letter == b'D' || gives_data {
+            self.state.control.modal.select_tool_data(None);
         }
         for configured in configured {
             match configured {

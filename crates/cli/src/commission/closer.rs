@@ -27,9 +27,10 @@ impl ReadingArgs {
             };
             if let Some(position) = FollowedPosition::of(&recording, 0.0) {
                 let copied = position.is_commanded(recording.track.step_s);
+                let against = copied.into_iter().chain(position.is_held());
                 found
                     .against
-                    .extend(copied.map(|it| format!("{}: {it}", axis.name)));
+                    .extend(against.map(|it| format!("{}: {it}", axis.name)));
                 found.followed[at] = Some(position);
                 followed.push((axis.name.as_str(), position));
             }
@@ -37,8 +38,9 @@ impl ReadingArgs {
         if let [(x, of_x), (y, of_y)] = followed[..] {
             found.notes.extend(recorded_apart([x, y], [of_x, of_y]));
         }
+        let is_named = found.averaged_s.is_some();
         let averaged = followed.iter().filter_map(|(axis, it)| {
-            let over_ms = it.averaged_s? * 1000.0;
+            let over_ms = it.averaged_s.filter(|_| !is_named)? * 1000.0;
             Some(format!(
                 "the positions of {axis} are averages over {over_ms:.0} ms, which hides what a reversal leaves"
             ))

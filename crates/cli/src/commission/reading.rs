@@ -222,7 +222,8 @@ impl ReadingArgs {
         }
         if found.against.is_empty() {
             let copied = followed.and_then(|it| it.is_commanded(step_s));
-            found.against.extend(copied);
+            let held = followed.and_then(|it| it.is_held());
+            found.against.extend(copied.or(held));
         }
         Ok(RecordingOutcome::Strokes(found))
     }

@@ -19,12 +19,12 @@ use frictcomp_host::{
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
-    MeasuringProgram, Plan, RecordingOutcome, RecordingResult, Stage, StagesOfAxis, SwitchedAs,
-    before_after, feeds_against, recorded_otherwise, refuse_strangers,
+    MeasuringProgram, Plan, RecordingOutcome, RecordingResult, Shows, Stage, StagesOfAxis,
+    SwitchedAs, before_after, feeds_against, recorded_otherwise, refuse_strangers,
 };
 use frictcomp_report::commission::{
-    AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
-    render_results, render_results_json,
+    AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, glitch_unit, render_results,
+    render_results_json,
 };
 use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on};
@@ -302,10 +302,7 @@ fn rounds(
             reasons.extend(otherwise(plan, plans, results));
             let [otherwise, lacking] = switched(plan, number, (plans, results, fitted));
             reasons.extend(otherwise);
-            // The torque of one recording of strokes shows little, and no plant is fitted to them.
-            if Shows::of(&plan.plan) == Shows::Contour {
-                not_shown = lacking;
-            }
+            not_shown = lacking;
             reasons.extend(plants_against(plan, fitted)?);
             against = Some(reasons);
         }
@@ -408,7 +405,6 @@ fn switched(
     number: usize,
     (plans, results, fitted): (&[PlanFile], &[RecordingResult], &Plants),
 ) -> [Vec<String>; 2] {
-    const FEEDS: usize = 2;
     let first = plans.iter().filter(|it| it.plan.stage == Stage::Off);
     let off = first.flat_map(|it| used_in(it, results));
     let off: Vec<&CompensationShown> = off.filter_map(RecordingOutcome::compensation).collect();
@@ -422,11 +418,7 @@ fn switched(
             list: &used.sha256,
             off: &off,
             on: &on,
-            fewest: match Shows::of(&plan.plan) {
-                Shows::Contour => FEEDS,
-                // All feeds are in one recording.
-                _ => 1,
-            },
+            shows: Shows::of(&plan.plan),
             plant: found.and_then(|it| it.found.axes.iter().find(|it| it.axis == used.axis)),
         };
         for state in [stages.was_on(), stages.was_off()] {

@@ -132,7 +132,7 @@ fn options(args: &CurrentArgs, loaded: &LoadedMachine) -> Result<CurrentOptions,
     let planner = PlannerOptions {
         cycle_s: check_cycle(cycle.unwrap_or(PlannerOptions::default().cycle_s))?,
         max_cycles: args.max_cycles,
-        tool_radius_mm: args.tool.radius_mm,
+        tool_radii: args.tool.radii.clone().unwrap_or_default(),
     };
     Ok(CurrentOptions::from(planner).with_reading(reading(args, loaded)))
 }

@@ -93,6 +93,7 @@ const ENDS: &[&str] = &["ends early", "one direction is missing", "not a full tu
 const AVERAGED: &[&str] = &["are averages over", "follows its command after"];
 const APART: &[&str] = &["recorded at different times", "follows its command after"];
 const MIXED: &[&str] = &["mixed", "exchanged", "another axis"];
+const STEPS: &[&str] = &["where it reverses"];
 const ROWS: &[&str] = &["rows are missing", "without a sample"];
 
 /// Faults of recordings of either stage.
@@ -220,6 +221,14 @@ fn of_circles(of: fn(&'static str, &'static [&'static str]) -> Fault) -> Vec<Fau
             recorder: |it| it.every = 4,
             ..of("a row every 4 ms", &["a sample every"])
         },
+        Fault {
+            rows: Some(|it| [3, 7].into_iter().for_each(|column| it.hold(column, 8))),
+            ..of("actual positions held for 8 ms", &["changes every"])
+        },
+        Fault {
+            machine: |it| it.axes[0].backlash_um = 5.0,
+            ..of("backlash of 5 µm on X", STEPS)
+        },
     ]
 }
 
@@ -253,6 +262,10 @@ fn of_circles_on() -> Vec<Fault> {
             ..Fault::on("actual positions in m, said to be mm", &["unit", "radius"])
         },
         Fault {
+            rows: Some(|it| (1..5).for_each(|column| it.copy(column, column + 4))),
+            ..Fault::on("the columns of X also as those of Y", &["not on a circle"])
+        },
+        Fault {
             machine: |it| it.control.part = 0.9,
             ..Fault::on("driven at 90 %", &["driven at"])
         },
@@ -272,7 +285,20 @@ fn of_circles_on() -> Vec<Fault> {
 }
 
 fn of_circles_off() -> Vec<Fault> {
-    of_circles(Fault::off)
+    let own = vec![
+        Fault {
+            rows: Some(|it| [3, 7].into_iter().for_each(|column| it.delay(column, 3))),
+            ..Fault::off("both axes recorded 3 ms late", APART)
+        },
+        Fault {
+            machine: |it| with_friction(it, 1.2),
+            ..Fault::off(
+                "circles of a cold machine, 20 % more friction",
+                &["have more friction"],
+            )
+        },
+    ];
+    of_circles(Fault::off).into_iter().chain(own).collect()
 }
 
 fn of_friction() -> Vec<Fault> {
@@ -315,6 +341,17 @@ fn of_friction() -> Vec<Fault> {
         Fault {
             machine: |it| with_friction(it, 1.2),
             ..Fault::friction("a cold machine, 20 % more friction", &["differ by"])
+        },
+        Fault {
+            rows: Some(|it| it.keep_rows(|row| row[2] >= 0.0)),
+            ..Fault::friction("the way back missing", &["direction", "missing"])
+        },
+        Fault {
+            rows: Some(|it| it.times(2, 60.0)),
+            ..Fault::friction(
+                "velocities in mm/min, said to be mm/s",
+                &["speeds are not", "driven at", "unit"],
+            )
         },
         Fault {
             machine: |it| it.control.part = 0.8,

@@ -25,10 +25,13 @@ const COMMANDED_TORQUE: [&str; 2] = ["--torque-kind", "command"];
 /// A plant is fitted, and lists keep the friction curve, which takes seconds.
 pub(crate) const FITTED: [&str; 3] = ["--plant", "mid", "--no-shaping"];
 
+/// A plant is fitted, and lists are tuned on it.
+pub(crate) const TUNED: [&str; 2] = ["--plant", "mid"];
+
 const AXES: [&str; 2] = ["X", "Y"];
 
 /// Where the first program begins, in mm.
-const START: [f64; 2] = [50.0, 0.0];
+pub(crate) const START: [f64; 2] = [50.0, 0.0];
 
 /// What is on in a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,6 +126,12 @@ impl Site {
         self.run_with(&[&CHANNELS[..], &COMMANDED_TORQUE[..]].concat())
     }
 
+    /// Runs it on the actual positions of the circles alone.
+    pub(crate) fn run_without_commands(&self) -> (Option<i32>, String) {
+        let (_, without) = CHANNELS.split_at(2);
+        self.run_with(without)
+    }
+
     fn run_with(&self, arguments: &[&str]) -> (Option<i32>, String) {
         let output = self.call(&[&["commission", "run", "m"], arguments].concat());
         (output.status.code(), said(&output))
@@ -131,9 +140,26 @@ impl Site {
     /// The lists of X and Y of a kind.
     pub(crate) fn lists(&self, kind: &str) -> [PathBuf; 2] {
         AXES.map(|axis| {
-            let names = self.names("m/lists", &format!("{axis}-{kind}-"));
-            assert_eq!(names.len(), 1, "{names:?}");
-            Path::new("m/lists").join(&names[0])
+            let lists = self.lists_of(axis, kind);
+            assert_eq!(lists.len(), 1, "{lists:?}");
+            lists[0].clone()
+        })
+    }
+
+    fn lists_of(&self, axis: &str, kind: &str) -> Vec<PathBuf> {
+        let names = self.names("m/lists", &format!("{axis}-{kind}-"));
+        let lists = names.iter().map(|it| Path::new("m/lists").join(it));
+        lists.collect()
+    }
+
+    /// The tuned lists, and the provisional one of an axis without; `None` if there is none.
+    pub(crate) fn tuned(&self) -> Option<[PathBuf; 2]> {
+        let tuned = AXES.map(|axis| self.lists_of(axis, "tuned").pop());
+        let is_any = tuned.iter().any(Option::is_some);
+        is_any.then(|| {
+            let [x, y] = self.lists("provisional");
+            let [of_x, of_y] = tuned;
+            [of_x.unwrap_or(x), of_y.unwrap_or(y)]
         })
     }
 
@@ -171,8 +197,7 @@ impl Site {
         let plan: serde_json::Value = serde_json::from_str(&text).expect("a plan");
         [0, 1].map(|at: usize| {
             let file = plan["lists"][at]["file"].as_str().expect("a list");
-            let text = std::fs::read_to_string(self.path().join(file)).expect("a list");
-            ValueList::parse(&text)
+            self.list(Path::new(file))
         })
     }
 
@@ -180,6 +205,20 @@ impl Site {
     pub(crate) fn text(&self, program: &str) -> String {
         let path = self.path().join("m").join(program);
         std::fs::read_to_string(path).expect("a program")
+    }
+
+    /// The circles of a round, to be driven on the machine itself.
+    pub(crate) fn circles(&self, round: usize) -> Vec<Program> {
+        let programs = self.programs(round, "circle");
+        let parsed = programs
+            .iter()
+            .map(|it| Program::parse(&self.text(it), AXES, START));
+        parsed.collect()
+    }
+
+    /// A list of the folder.
+    pub(crate) fn list(&self, path: &Path) -> ValueList {
+        ValueList::parse(&std::fs::read_to_string(self.path().join(path)).expect("a list"))
     }
 
     /// What a machine does in the text of a program.
@@ -291,6 +330,30 @@ impl Columns {
 
     pub(crate) fn plus(&mut self, column: usize, more: f64) {
         self.rows.iter_mut().for_each(|it| it[column] += more);
+    }
+
+    /// Holds a value for a number of rows.
+    pub(crate) fn hold(&mut self, column: usize, rows: usize) {
+        for held in self.rows.chunks_mut(rows) {
+            let value = held[0][column];
+            held.iter_mut().for_each(|it| it[column] = value);
+        }
+    }
+
+    /// Records a value a number of rows later.
+    pub(crate) fn delay(&mut self, column: usize, rows: usize) {
+        for at in (rows..self.rows.len()).rev() {
+            self.rows[at][column] = self.rows[at - rows][column];
+        }
+    }
+
+    pub(crate) fn copy(&mut self, from: usize, to: usize) {
+        self.rows.iter_mut().for_each(|it| it[to] = it[from]);
+    }
+
+    /// Keeps rows by what they hold.
+    pub(crate) fn keep_rows(&mut self, is_kept: fn(&[f64]) -> bool) {
+        self.rows.retain(|it| is_kept(it));
     }
 
     /// Keeps rows by their number.

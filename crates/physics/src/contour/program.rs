@@ -147,7 +147,7 @@ impl<S: ContourSink> ProgramContour<S> {
             axis: axis.clone(),
             ..ContourSummary::default()
         };
-        let planner = options.planner;
+        let planner = options.planner.clone();
         let lists = options.axes.iter().map(|axis| &axis.list);
         let of_currents = lists.map(|list| options.reading.rests_on(&machine.readings, list));
         let of_currents = of_currents.fold(QuestionSet::default(), QuestionSet::union);
@@ -171,7 +171,7 @@ impl<S: ContourSink> ProgramContour<S> {
             sink,
         };
         let unlimited = without_assumed_limits(machine)
-            .map(|machine| ProgramTrace::new(&machine, &[], planner, FeedOnly::default()));
+            .map(|machine| ProgramTrace::new(&machine, &[], planner.clone(), FeedOnly::default()));
         let indices = (0..).map(AxisIndex::new);
         let assumed = indices.zip(machine.axes.iter().map(AssumedLimits::of));
         let assumed = assumed.filter_map(|(axis, limits)| Some((axis, limits?)));

@@ -48,7 +48,7 @@ impl<F: FnMut(&CurrentCycle<'_>) -> ControlFlow<()>> CurrentSink for F {
 }
 
 /// Options of the currents of a program.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct CurrentOptions {
     /// Options of its trace.

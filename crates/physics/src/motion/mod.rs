@@ -33,7 +33,7 @@ pub use cycle::{CycleError, check_cycle};
 pub use frictcomp::interpreter::{Contouring, PositionFrame, Simplification, Simplifications};
 pub(crate) use limits::without_assumed_limits;
 pub use limits::{Assumed, AssumedLimits, AxisLimits};
-pub use planner::{PlannerOptions, TrajectoryPlanner};
+pub use planner::{PlannerOptions, ToolRadii, TrajectoryPlanner};
 pub use program::ProgramTrace;
 pub use rounding::{Departure, Transitions};
 pub use trace::{Cause, Movement, Sample, SkippedMotion, TraceSink};

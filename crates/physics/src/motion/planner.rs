@@ -1,5 +1,6 @@
 //! Makes the path from the rows of a session.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -9,7 +10,7 @@ use super::remarks::{MotionRemark, MotionRemarks, RemarkPlace};
 use super::rounding::{Rounding, Transitions};
 use super::sampler::Sampler;
 use super::segment::{Ends, PathSegment};
-use super::tool_path::ToolPath;
+use super::tool_path::{Beside, ToolPath};
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Advice, Budget, Code, Diagnostic};
@@ -19,16 +20,40 @@ use frictcomp::interpreter::{
 use frictcomp::machine::{Axis, Machine};
 use frictcomp::timeline::Row;
 
+/// The radii of tools in mm, for G41 and G42 (R11.30).
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum ToolRadii {
+    /// None is known: the programmed contour is followed.
+    #[default]
+    Unknown,
+    /// One for every tool.
+    Every(f64),
+    /// By the number of the D word in force; with another one the programmed contour is followed.
+    OfData(Arc<BTreeMap<u32, f64>>),
+}
+
+impl ToolRadii {
+    /// The radius with the tool data of a number, where one is known to be in force.
+    fn of(&self, data: Option<u32>) -> Option<f64> {
+        match self {
+            Self::Unknown => None,
+            Self::Every(radius) => Some(*radius),
+            Self::OfData(radii) => radii.get(&data?).copied(),
+        }
+    }
+}
+
 /// Options of a trace.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PlannerOptions {
     /// The CNC cycle.
     pub cycle_s: f64,
     /// Limit of the cycles of the trace.
     pub max_cycles: u64,
-    /// The radius of the tool in mm, for G41 and G42; without one the programmed contour is followed (R11.30).
-    pub tool_radius_mm: Option<f64>,
+    /// The radii of the tools.
+    pub tool_radii: ToolRadii,
 }
 
 impl PlannerOptions {
@@ -44,9 +69,9 @@ impl PlannerOptions {
         self
     }
 
-    /// Sets [`tool_radius_mm`](Self::tool_radius_mm).
-    pub fn with_tool_radius_mm(mut self, tool_radius_mm: f64) -> Self {
-        self.tool_radius_mm = Some(tool_radius_mm);
+    /// Sets [`tool_radii`](Self::tool_radii).
+    pub fn with_tool_radii(mut self, tool_radii: ToolRadii) -> Self {
+        self.tool_radii = tool_radii;
         self
     }
 }
@@ -57,7 +82,7 @@ impl Default for PlannerOptions {
         Self {
             cycle_s: 0.001,
             max_cycles: 100_000_000,
-            tool_radius_mm: None,
+            tool_radii: ToolRadii::Unknown,
         }
     }
 }
@@ -71,6 +96,7 @@ const UNKNOWN_START: &str = "the position of the axes before this motion is not 
 /// Turns the rows of a session into the commanded trace of some axes.
 pub struct TrajectoryPlanner {
     path: ToolPath,
+    tool_radii: ToolRadii,
     followed: Vec<AxisIndex>,
     /// The name of each axis.
     names: Vec<String>,
@@ -135,8 +161,8 @@ impl TrajectoryPlanner {
             path: ToolPath::new(
                 Rounding::new(LookAhead::new(limits, sampler), Arc::clone(&main)),
                 Arc::clone(&main),
-                options.tool_radius_mm,
             ),
+            tool_radii: options.tool_radii,
             followed: followed.to_vec(),
             main,
             stand: Vec::new(),
@@ -251,8 +277,9 @@ impl TrajectoryPlanner {
             return ControlFlow::Continue(());
         };
         self.remarks.say_frame(row, segment.cause.frame);
-        if travel.tool.is_some() && segment.cause.frame == PositionFrame::Machine {
-            self.remarks.say_tool(row);
+        let beside = self.beside(row, travel);
+        if beside.is_some() && segment.cause.frame == PositionFrame::Machine {
+            self.remarks.say_tool(row, &self.tool_radii);
         }
         let jumped = self.stand.iter().zip(&travel.from);
         if self.running == Running::Yes
@@ -271,8 +298,7 @@ impl TrajectoryPlanner {
         self.stand.clone_from(&travel.to);
         self.end.clear();
         self.end.extend_from_slice(segment.ends());
-        let tool = travel.tool.zip(self.plane(row));
-        match self.path.add((segment, travel.contouring), tool, sink) {
+        match self.path.add((segment, travel.contouring), beside, sink) {
             Ok(flow) => flow,
             Err(reason) => self.lose(row, reason, sink),
         }
@@ -290,14 +316,16 @@ impl TrajectoryPlanner {
         Some([axis(one)?, axis(two)?])
     }
 
+    /// Where the tool follows the contour, if its radius and the plane are known.
+    fn beside(&self, row: &Row<'_>, travel: &Travel) -> Option<Beside> {
+        let radius = self.tool_radii.of(row.modal.functions.tool_data);
+        Some(Beside::of(travel.tool?, self.plane(row)?, radius?))
+    }
+
     /// What separates the path that is followed from that of the machine.
     fn frame(&self, row: &Row<'_>, travel: &Travel) -> PositionFrame {
         match row.modal.frame() {
-            PositionFrame::Contour
-                if self.path.has_radius() && travel.tool.is_some() && self.plane(row).is_some() =>
-            {
-                PositionFrame::Machine
-            }
+            PositionFrame::Contour if self.beside(row, travel).is_some() => PositionFrame::Machine,
             frame => frame,
         }
     }

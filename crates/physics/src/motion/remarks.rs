@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::planner::ToolRadii;
 use frictcomp::diagnostic::{Advice, Code, Diagnostic};
 use frictcomp::interpreter::{PositionFrame, Simplifications};
 use frictcomp::text::{Place, Span};
@@ -167,11 +168,19 @@ impl MotionRemarks {
     }
 
     /// FC907: the path of the tool beside a contour.
-    pub(super) fn say_tool(&mut self, row: &Row<'_>) {
+    pub(super) fn say_tool(&mut self, row: &Row<'_>, radii: &ToolRadii) {
         let remark = MotionRemark {
             code: Code::Fc907,
-            message: "the trace follows the tool beside the contour, with the given radius whichever tool is \
-                      selected, and passes outer corners and the first block in its own way (`G41`, `G42`)",
+            message: match radii {
+                ToolRadii::OfData(_) => {
+                    "the trace follows the tool beside the contour, with the radius of its D word, and passes outer \
+                     corners and the first block in its own way (`G41`, `G42`)"
+                }
+                _ => {
+                    "the trace follows the tool beside the contour, with the given radius whichever tool is \
+                     selected, and passes outer corners and the first block in its own way (`G41`, `G42`)"
+                }
+            },
             help: Advice::ReadPage(Code::Fc907),
         };
         self.say_once(

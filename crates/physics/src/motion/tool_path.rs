@@ -21,9 +21,27 @@ const SLIGHT: f64 = 0.09;
 pub(super) struct ToolPath {
     rounding: Rounding,
     main: Arc<[bool]>,
-    /// The radius of the tool in mm, where it is known.
-    radius_mm: Option<f64>,
     held: Held,
+}
+
+/// Where the tool follows a contour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Beside {
+    /// The axes of the plane.
+    axes: [usize; 2],
+    /// The distance to the left of the contour, in mm.
+    left: f64,
+}
+
+impl Beside {
+    /// Beside a contour in the plane of these axes, with the radius of a tool in mm.
+    pub(super) fn of(side: ToolSide, axes: [usize; 2], radius_mm: f64) -> Self {
+        let left = match side {
+            ToolSide::Left => radius_mm,
+            _ => -radius_mm,
+        };
+        Self { axes, left }
+    }
 }
 
 /// What depends on the next block.
@@ -41,16 +59,7 @@ enum Held {
 struct HeldBlock {
     segment: PathSegment,
     contouring: Option<Contouring>,
-    axes: [usize; 2],
-    /// The distance to the left of the contour, in mm.
-    left: f64,
-}
-
-/// Compensation with the radius of the tool.
-struct Offset {
-    axes: [usize; 2],
-    /// The distance to the left of the contour, in mm.
-    left: f64,
+    beside: Beside,
 }
 
 /// How the path beside a corner goes on.
@@ -67,11 +76,10 @@ enum CornerBeside {
 }
 
 impl ToolPath {
-    pub(super) fn new(rounding: Rounding, main: Arc<[bool]>, radius_mm: Option<f64>) -> Self {
+    pub(super) fn new(rounding: Rounding, main: Arc<[bool]>) -> Self {
         Self {
             rounding,
             main,
-            radius_mm,
             held: Held::Nothing,
         }
     }
@@ -80,47 +88,31 @@ impl ToolPath {
         &self.rounding
     }
 
-    /// Whether the path of the tool can be computed.
-    pub(super) fn has_radius(&self) -> bool {
-        self.radius_mm.is_some()
-    }
-
-    /// Adds the next block of the program, with the side of the tool and the axes of its plane.
+    /// Adds the next block of the program, with the place of the tool beside it, where it is not on it.
     ///
     /// # Errors
     /// The reason why the tool cannot follow it.
     pub(super) fn add(
         &mut self,
         (segment, contouring): (PathSegment, Option<Contouring>),
-        tool: Option<(ToolSide, [usize; 2])>,
+        beside: Option<Beside>,
         sink: &mut dyn TraceSink,
     ) -> Result<ControlFlow<()>, &'static str> {
-        let offset = tool.zip(self.radius_mm);
-        let offset = offset.map(|((side, axes), radius)| Offset {
-            axes,
-            left: if side == ToolSide::Left {
-                radius
-            } else {
-                -radius
-            },
-        });
-        let Some(offset) = offset else {
+        let Some(beside) = beside else {
             return self.leave((segment, contouring), sink);
         };
-        let axes = offset.axes;
         let block = HeldBlock {
             segment,
             contouring,
-            axes,
-            left: offset.left,
+            beside,
         };
         if block.stays() {
             return Ok(self.pass_beside(block, sink));
         }
         if let Held::Approach(last) | Held::Beside(last) = &self.held
-            && (last.axes != axes || last.left * offset.left < 0.0)
+            && last.beside != beside
         {
-            return Err("tool radius compensation changes its side or its plane here");
+            return Err("tool radius compensation changes its side, its plane or its radius here");
         }
         if matches!(self.held, Held::Nothing) {
             if !block.segment.is_straight() {
@@ -129,13 +121,12 @@ impl ToolPath {
             self.held = Held::Approach(block);
             return Ok(ControlFlow::Continue(()));
         }
-        let segment = block.segment.beside(axes, offset.left)?;
-        let beside = HeldBlock { segment, ..block };
+        let segment = block.segment.beside(beside.axes, beside.left)?;
         let corner = match &self.held {
-            Held::Beside(last) => CornerBeside::between(&last.segment, &beside.segment, &offset)?,
+            Held::Beside(last) => CornerBeside::between(&last.segment, &segment, beside)?,
             _ => CornerBeside::Straight,
         };
-        Ok(self.join(corner, beside, sink))
+        Ok(self.join(corner, HeldBlock { segment, ..block }, sink))
     }
 
     /// Leads what is held to the next block beside the contour.
@@ -186,14 +177,13 @@ impl ToolPath {
     ) -> Result<ControlFlow<()>, &'static str> {
         let axes = match &self.held {
             Held::Nothing => return Ok(self.rounding.add((segment, contouring), sink)),
-            Held::Approach(block) | Held::Beside(block) => block.axes,
+            Held::Approach(block) | Held::Beside(block) => block.beside.axes,
             Held::Place(axes, _) => *axes,
         };
         let next = HeldBlock {
             segment,
             contouring,
-            axes,
-            left: 0.0,
+            beside: Beside { axes, left: 0.0 },
         };
         if next.stays() {
             return Ok(self.pass_beside(next, sink));
@@ -235,7 +225,7 @@ impl ToolPath {
     /// Passes on what is held; the tool stays beside the contour.
     fn rest_beside(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let axes = match &self.held {
-            Held::Beside(block) => block.axes,
+            Held::Beside(block) => block.beside.axes,
             Held::Place(axes, _) => *axes,
             Held::Nothing | Held::Approach(_) => [0, 1],
         };
@@ -260,7 +250,7 @@ impl ToolPath {
     /// A straight piece of a block in the plane, at its start.
     fn straight(&self, block: &HeldBlock, places: [[f64; 2]; 2]) -> Option<PathSegment> {
         let starts = block.segment.starts();
-        let [from, to] = places.map(|place| at_place(starts, block.axes, place));
+        let [from, to] = places.map(|place| at_place(starts, block.beside.axes, place));
         block.segment.moved(&from, &to, &self.main)
     }
 
@@ -295,13 +285,13 @@ impl HeldBlock {
         let moves = |step: f64| step.abs() > 0.0;
         !self
             .segment
-            .direction(self.axes, 0.0)
+            .direction(self.beside.axes, 0.0)
             .into_iter()
             .any(moves)
     }
 
     fn place(&self, of: fn(&PathSegment) -> &[f64]) -> [f64; 2] {
-        self.axes.map(|axis| of(&self.segment)[axis])
+        self.beside.axes.map(|axis| of(&self.segment)[axis])
     }
 
     /// Lets an end of it be at a place of its outline.
@@ -311,9 +301,9 @@ impl HeldBlock {
             self.place(PathSegment::starts),
             self.place(PathSegment::ends),
         ];
-        parts[end] = self.segment.part_at(self.axes, place);
+        parts[end] = self.segment.part_at(self.beside.axes, place);
         places[end] = place;
-        self.segment = self.segment.between(parts, (self.axes, places));
+        self.segment = self.segment.between(parts, (self.beside.axes, places));
     }
 }
 
@@ -328,9 +318,8 @@ impl CornerBeside {
     fn between(
         last: &PathSegment,
         next: &PathSegment,
-        offset: &Offset,
+        Beside { axes, left }: Beside,
     ) -> Result<Self, &'static str> {
-        let axes = offset.axes;
         let end = axes.map(|axis| last.ends()[axis]);
         let start = axes.map(|axis| next.starts()[axis]);
         if distance(end, start) < SAME_PLACE {
@@ -340,12 +329,9 @@ impl CornerBeside {
         let after = next.direction(axes, 0.0);
         let cosine = before[0] * after[0] + before[1] * after[1];
         let sine = before[0] * after[1] - before[1] * after[0];
-        let is_inner = sine * offset.left > 0.0;
+        let is_inner = sine * left > 0.0;
         let is_slight = cosine > 0.0 && sine.abs() < SLIGHT;
-        let vertex = [
-            start[0] + offset.left * after[1],
-            start[1] - offset.left * after[0],
-        ];
+        let vertex = [start[0] + left * after[1], start[1] - left * after[0]];
         let both_straight = last.is_straight() && next.is_straight();
         let is_extended = both_straight && cosine >= 0.0;
         if !(is_inner || is_extended) {
@@ -354,7 +340,7 @@ impl CornerBeside {
             }
             return Ok(Self::Around(CircularArc {
                 axes: axes.map(AxisIndex::new),
-                turn: if offset.left > 0.0 {
+                turn: if left > 0.0 {
                     Turn::Clockwise
                 } else {
                     Turn::CounterClockwise
@@ -374,7 +360,7 @@ impl CornerBeside {
             Some(place) => Ok(Self::Meets(place)),
             // A slight kink at an arc: the tangents meet.
             None if is_slight => {
-                let aside = offset.left / (1.0 + cosine);
+                let aside = left / (1.0 + cosine);
                 Ok(Self::Meets([
                     vertex[0] - aside * (before[1] + after[1]),
                     vertex[1] + aside * (before[0] + after[0]),

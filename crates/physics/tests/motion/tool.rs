@@ -1,16 +1,18 @@
 //! The path of the tool beside a contour (R11.30).
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
+use std::sync::Arc;
 
-use frictcomp_physics::motion::{PlannerOptions, PositionFrame};
+use frictcomp_physics::motion::{PlannerOptions, PositionFrame, ToolRadii};
 
 use super::{MACHINE, Trace, assert_limits, trace, trace_of};
 
 const AXES: [&str; 2] = ["X", "Y"];
 
 fn followed(program: &str, radius: f64) -> Trace {
-    let options = PlannerOptions::default().with_tool_radius_mm(radius);
+    let options = PlannerOptions::default().with_tool_radii(ToolRadii::Every(radius));
     trace_of(MACHINE, program, &AXES, options)
 }
 
@@ -31,6 +33,37 @@ fn distance(polyline: &[[f64; 2]], place: [f64; 2]) -> f64 {
         (gone[0] - share * way[0]).hypot(gone[1] - share * way[1])
     });
     each.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn each_d_word_has_its_radius() {
+    // R11.30: one that is not given, not known, or only perhaps selected leaves the programmed contour, which is said.
+    let radii = ToolRadii::OfData(Arc::new(BTreeMap::from([(1, 3.0), (2, 5.0)])));
+    let options = PlannerOptions::default().with_tool_radii(radii);
+    for (selected, expected, code) in [
+        ("D1", 17.0, "FC907"),
+        ("D1\nD2", 15.0, "FC907"),
+        ("D9", 20.0, "FC904"),
+        ("", 20.0, "FC904"),
+        ("D2\nD=V.E.A", 20.0, "FC904"),
+        ("D1\n$IF V.E.A == 1\nD2\n$ENDIF", 20.0, "FC904"),
+    ] {
+        let program =
+            format!("{selected}\nG01 X0 Y0 F1000\nG41 X20\nG03 I-20\nG40 G01 X0\nX1\nM30");
+        let trace = trace_of(MACHINE, &program, &AXES, options.clone());
+        let line = u32::try_from(selected.lines().count().max(1)).expect("few") + 3;
+        let circle = places(&trace, line..=line);
+        assert!(circle.len() > 1000, "{selected}: {:?}", trace.messages);
+        for [x, y] in circle {
+            assert!((x.hypot(y) - expected).abs() < 1e-6, "{selected}: {x} {y}");
+        }
+        let said: Vec<&str> = trace.said.iter().map(|(code, _)| code.as_str()).collect();
+        assert!(said.contains(&code), "{selected}: {said:?}");
+    }
+    let changed = "D1\nG01 X0 Y0 F1000\nG41 X20\nG03 I-20\nD2\nG01 Y10\nG40 X0\nM30";
+    let trace = trace_of(MACHINE, changed, &AXES, options);
+    let left_out = format!("{:?}", trace.left_out);
+    assert!(left_out.contains("its radius here"), "{left_out}");
 }
 
 #[test]
@@ -215,8 +248,8 @@ fn what_the_tool_cannot_follow_is_left_out_and_said() {
     for (program, reason) in [
         (slot, "the tool does not fit into the contour here"),
         (arc, "the arc is not larger than the tool"),
-        (side, "changes its side or its plane"),
-        (plane, "changes its side or its plane"),
+        (side, "changes its side, its plane or its radius"),
+        (plane, "changes its side, its plane or its radius"),
     ] {
         let trace = followed(program, 4.0);
         assert!(

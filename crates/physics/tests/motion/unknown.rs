@@ -87,7 +87,7 @@ fn a_trace_is_bounded() {
         "G01 X0 F1000\nX1\nG04 1e9\nM30",
         "G01 X0 F1000\nX100000000000000000000\nM30",
     ] {
-        let trace = trace_of(MACHINE, program, &["X"], options);
+        let trace = trace_of(MACHINE, program, &["X"], options.clone());
         assert_eq!(trace.positions.len(), 1000, "{program}");
         assert_eq!(
             trace.said.last().map(|(code, _)| code.as_str()),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::following::{STANDSTILL, commanded};
+use super::following::{COARSEST_S, STANDSTILL, commanded, step_at_reversals};
 use super::results::RecordingOutcome;
 use crate::identify::{
     AxisRecording, count, median, moving_average, noise_of, samples_in, solve_linear,
@@ -34,6 +34,10 @@ pub struct FollowedPosition {
     pub noise_mm: f64,
     /// The time in s over which each sample is an average, if its noise shows one.
     pub averaged_s: Option<f64>,
+    /// The time in s for which it is held on average while it moves fast, if that is more than a sample.
+    pub held_s: Option<f64>,
+    /// By how much it lags more in the positive direction than in the negative one, long after a reversal, in mm.
+    pub step_mm: Option<f64>,
 }
 
 impl FollowedPosition {
@@ -83,6 +87,19 @@ impl FollowedPosition {
             left_mm: (squares / count(moving.len())).sqrt(),
             noise_mm,
             averaged_s,
+            held_s: held_samples(positions, &errors, &velocities).map(|it| it * track.step_s),
+            step_mm: step_at_reversals(track, &recording.following_errors),
+        })
+    }
+
+    /// States that the actual positions do not change with every sample, if so.
+    pub fn is_held(&self) -> Option<String> {
+        self.held_s.filter(|it| *it > COARSEST_S).map(|held_s| {
+            format!(
+                "its actual position changes every {:.1} ms only, which does not show what a reversal does; record every \
+                 ms, in the full resolution",
+                held_s * 1000.0
+            )
         })
     }
 
@@ -101,9 +118,29 @@ impl FollowedPosition {
     }
 }
 
+/// The mean number of samples for which an actual position is held in fast motion, if that is more than one.
+fn held_samples(commanded: &[f64], errors: &[f64], velocities: &[f64]) -> Option<f64> {
+    /// The part of the greatest speed that is fast.
+    const FAST: f64 = 0.5;
+    /// Smaller differences, in mm, are those of numbers.
+    const SAME_MM: f64 = 1e-6;
+    const SEVERAL: f64 = 1.2;
+    let fastest = velocities
+        .iter()
+        .fold(0.0_f64, |most, it| most.max(it.abs()));
+    let is_fast = |at: &usize| velocities[*at].abs() > FAST * fastest;
+    let actual = |at: usize| commanded[at] * MM - errors[at];
+    let fast: Vec<usize> = (1..errors.len()).filter(is_fast).collect();
+    let changes = fast
+        .iter()
+        .filter(|at| (actual(**at) - actual(**at - 1)).abs() > SAME_MM);
+    let held = count(fast.len()) / count(changes.count());
+    (held > SEVERAL && held.is_finite()).then_some(held)
+}
+
 /// The number of samples over which each one is an average. Such a sample differs from the one before by a new value
 /// and by the one that drops out, so that differences as many samples apart are opposed, and no others are.
-fn averaged_samples(values: &[f64]) -> Option<usize> {
+pub(super) fn averaged_samples(values: &[f64]) -> Option<usize> {
     /// Differences are taken over this many samples, in which the averaged noise exceeds that of rounding.
     const OVER: usize = 4;
     const LONGEST: usize = 100;
@@ -150,7 +187,7 @@ fn averaged_samples(values: &[f64]) -> Option<usize> {
 }
 
 /// States how the circles or strokes of a round were recorded otherwise than those off, for each axis: averaged, later,
-/// or in another scale (R16.14, R16.18). They are not compared then.
+/// in another scale, or with a step at each reversal (R16.14, R16.18). They are not compared then.
 pub fn recorded_otherwise(
     names: &[&str],
     off: &[&RecordingOutcome],
@@ -158,21 +195,28 @@ pub fn recorded_otherwise(
 ) -> Vec<String> {
     const LATER_S: f64 = 0.001;
     const SCALE: f64 = 0.0005;
+    const STEP_MM: f64 = 0.0015;
+    /// Slow loops leave this part of a glitch for long.
+    const LASTING: f64 = 0.03;
+    let outcomes = off.iter().chain(on);
+    let largest_mm = outcomes.fold(0.0_f64, |most, it| most.max(it.largest_glitch())) / 1000.0;
+    let step_mm = STEP_MM.max(LASTING * largest_mm);
     let mut against = Vec::new();
     for (at, name) in names.iter().enumerate().take(2) {
         let of = |recorded: &[&RecordingOutcome]| -> Vec<FollowedPosition> {
             recorded.iter().filter_map(|it| it.followed(at)).collect()
         };
         let [before, after] = [of(off), of(on)];
-        let middle = |all: &[FollowedPosition], value: fn(&FollowedPosition) -> f64| {
-            median(&all.iter().map(value).collect::<Vec<_>>())
+        let middle = |all: &[FollowedPosition], value: fn(&FollowedPosition) -> Option<f64>| {
+            median(&all.iter().filter_map(value).collect::<Vec<_>>())
         };
-        let both =
-            |value: fn(&FollowedPosition) -> f64| middle(&before, value).zip(middle(&after, value));
-        let averaged = [&before, &after].map(|all| all.iter().find_map(|it| it.averaged_s));
+        let both = |value: fn(&FollowedPosition) -> Option<f64>| {
+            middle(&before, value).zip(middle(&after, value))
+        };
+        let averaged = [off, on].map(|all| all.iter().find_map(|it| it.averaged_s(at)));
         if let [Some(over_s), None] | [None, Some(over_s)] = averaged
-            && !before.is_empty()
-            && !after.is_empty()
+            && !off.is_empty()
+            && !on.is_empty()
         {
             let (which, other) = if averaged[0].is_some() {
                 ("off", "on")
@@ -186,7 +230,7 @@ pub fn recorded_otherwise(
             ));
         }
         if let Some((off_s, on_s)) =
-            both(|it| it.lag_s).filter(|(off, on)| (on - off).abs() > LATER_S)
+            both(|it| Some(it.lag_s)).filter(|(off, on)| (on - off).abs() > LATER_S)
         {
             against.push(format!(
                 "{name} follows its command after {:.1} ms in the recordings off and {:.1} ms in those on: positions are \
@@ -196,12 +240,24 @@ pub fn recorded_otherwise(
                 on_s * 1000.0
             ));
         }
-        if let Some((off, on)) = both(|it| it.longer).filter(|(off, on)| (on - off).abs() > SCALE) {
+        if let Some((off, on)) =
+            both(|it| Some(it.longer)).filter(|(off, on)| (on - off).abs() > SCALE)
+        {
             against.push(format!(
                 "the way of {name} is {:+.2} % longer than commanded in the recordings off and {:+.2} % in those on: \
                  another scale; record both alike",
                 off * 100.0,
                 on * 100.0
+            ));
+        }
+        if let Some((off, on)) =
+            both(|it| it.step_mm).filter(|(off, on)| (on - off).abs() > step_mm)
+        {
+            against.push(format!(
+                "the positions of {name} step by {:.1} µm where it reverses in the recordings off and by {:.1} µm in \
+                 those on: backlash in one of them, or its compensation was changed; record both alike",
+                off * 1000.0,
+                on * 1000.0
             ));
         }
     }

@@ -100,30 +100,9 @@ impl Following {
     /// # Errors
     /// They are missing, too coarse, or those of another motion.
     pub(super) fn of(track: &Track, errors: &[f64]) -> Result<Self, NotFollowed> {
-        if errors.is_empty() || errors.len() != track.times_s.len() {
-            return Err(NotFollowed::Absent);
-        }
         let step_s = track.step_s;
-        if !(step_s > 0.0 && step_s <= COARSEST_S) {
-            return Err(NotFollowed::Coarse {
-                step_ms: format!("{:.1}", step_s * 1000.0),
-            });
-        }
-        let gap = track
-            .times_s
-            .windows(2)
-            .find(|pair| pair[1] - pair[0] > 5.0 * step_s);
-        if let Some(&[after_s, _]) = gap {
-            return Err(NotFollowed::Gap { after_s });
-        }
-        let width = samples_in(AVERAGED_S, step_s);
-        let velocities = moving_average(&commanded(track), width);
-        let scaled: Vec<f64> = errors.iter().map(|it| it * 1e-4).collect();
-        let errors = moving_average(&scaled, width);
-        if velocities.iter().all(|it| it.abs() < STANDSTILL) {
-            return Err(NotFollowed::Still);
-        }
-        let motion = CommandedMotion::of(&velocities, step_s);
+        let (velocities, errors) = averaged(track, errors)?;
+        let motion = CommandedMotion::of(&velocities, step_s, AFTER_S);
         let answer = motion.answer(&errors);
         let left: Vec<f64> = (0..errors.len())
             .map(|at| errors[at] - answer.as_ref().map_or(0.0, |it| motion.expected(it, at)))
@@ -177,6 +156,44 @@ impl Following {
     }
 }
 
+/// By how much an actual position lags more in the positive direction than in the negative one, long after reversals,
+/// in mm or degrees: backlash between motor and scale, for one. `None` where the motion does not show it.
+pub(super) fn step_at_reversals(track: &Track, errors: &[f64]) -> Option<f64> {
+    /// Slow loops have settled after this time in s.
+    const SETTLED_S: f64 = 0.3;
+    let (velocities, errors) = averaged(track, errors).ok()?;
+    let motion = CommandedMotion::of(&velocities, track.step_s, SETTLED_S);
+    motion.answer(&errors).map(|it| 2.0 * it[DIRECTION])
+}
+
+/// The commanded velocities in mm/s or °/s and the following errors in mm or degrees, averaged.
+fn averaged(track: &Track, errors: &[f64]) -> Result<(Vec<f64>, Vec<f64>), NotFollowed> {
+    if errors.is_empty() || errors.len() != track.times_s.len() {
+        return Err(NotFollowed::Absent);
+    }
+    let step_s = track.step_s;
+    if !(step_s > 0.0 && step_s <= COARSEST_S) {
+        return Err(NotFollowed::Coarse {
+            step_ms: format!("{:.1}", step_s * 1000.0),
+        });
+    }
+    let gap = track
+        .times_s
+        .windows(2)
+        .find(|pair| pair[1] - pair[0] > 5.0 * step_s);
+    if let Some(&[after_s, _]) = gap {
+        return Err(NotFollowed::Gap { after_s });
+    }
+    let width = samples_in(AVERAGED_S, step_s);
+    let velocities = moving_average(&commanded(track), width);
+    let scaled: Vec<f64> = errors.iter().map(|it| it * 1e-4).collect();
+    let errors = moving_average(&scaled, width);
+    if velocities.iter().all(|it| it.abs() < STANDSTILL) {
+        return Err(NotFollowed::Still);
+    }
+    Ok((velocities, errors))
+}
+
 /// The commanded velocities in mm/s or °/s: as recorded, or from the positions if those are less noisy.
 pub(super) fn commanded(track: &Track) -> Vec<f64> {
     let recorded = track.velocities.as_ref();
@@ -197,6 +214,9 @@ pub(super) fn commanded(track: &Track) -> Vec<f64> {
     }
 }
 
+/// The place of the direction among the causes of a following error.
+const DIRECTION: usize = 1;
+
 /// The commanded motion, with the accelerations that still show at each sample.
 struct CommandedMotion<'a> {
     velocities: &'a [f64],
@@ -209,13 +229,14 @@ struct CommandedMotion<'a> {
 }
 
 impl<'a> CommandedMotion<'a> {
-    fn of(velocities: &'a [f64], step_s: f64) -> Self {
+    /// A motion whose samples are settled this many seconds after a start or a reversal.
+    fn of(velocities: &'a [f64], step_s: f64, after_s: f64) -> Self {
         let last = velocities.len() - 1;
         let slope = |at: usize| {
             let (from, to) = (at.saturating_sub(1), (at + 1).min(last));
             (velocities[to] - velocities[from]) / (count(to - from).max(1.0) * step_s)
         };
-        let after = samples_in(AFTER_S, step_s);
+        let after = samples_in(after_s, step_s);
         let mut direction = Ordering::Equal;
         let mut since = 0;
         let mut is_settled = vec![false; velocities.len()];
@@ -260,7 +281,7 @@ impl<'a> CommandedMotion<'a> {
         high - low
     }
 
-    /// What the loops may answer to: a constant, the direction, the velocity, past accelerations.
+    /// What the loops may answer to: a constant, the direction at [`DIRECTION`], the velocity, past accelerations.
     fn causes(&self, at: usize) -> Vec<f64> {
         let velocity = self.velocities[at];
         let direction = if velocity.abs() < STANDSTILL {

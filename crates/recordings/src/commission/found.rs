@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::actual::FollowedPosition;
+use super::actual::{FollowedPosition, averaged_samples};
 use super::at_feed::{AtFeed, ON_FEED};
 use super::following::COARSEST_S;
 use super::switched::CompensationShown;
@@ -321,6 +321,8 @@ pub struct CirclesFound {
     pub worst_um: f64,
     /// What it shows about the compensation, besides the path.
     pub compensation: CompensationShown,
+    /// The time in s over which the positions are averages, by the distances from the centre, if they are.
+    pub averaged_s: Option<f64>,
     /// How the actual position of each axis follows the commanded one, where that was recorded.
     pub followed: Box<[Option<FollowedPosition>; 2]>,
     /// The figures of ISO 230-4.
@@ -346,6 +348,13 @@ impl CirclesFound {
         let glitches: Vec<DirectionGlitches> = glitches.collect();
         let mut notes = Vec::new();
         let mut against = Vec::new();
+        let averaged_s = recording.circles.iter().find_map(averaged_over);
+        notes.extend(averaged_s.map(|over_s| {
+            format!(
+                "its positions are averages over {:.0} ms, which hides what a reversal leaves",
+                over_s * 1000.0
+            )
+        }));
         match measured_feed {
             Some(measured) if (measured / feed - 1.0).abs() > ON_FEED => notes.push(format!(
                 "driven at {measured:.0} mm/min in place of {feed:.0}: {:.2} mm/s² count",
@@ -375,6 +384,7 @@ impl CirclesFound {
         Self {
             compensation: CompensationShown::default(),
             followed: Box::default(),
+            averaged_s,
             iso: IsoFigures::of(&recording.side.figures),
             heights_um: heights.map(|(x, y)| [x, y]),
             feed,
@@ -512,8 +522,14 @@ fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     })
 }
 
+/// The time in s over which each position is an average, if its noise shows one (R16.14).
+fn averaged_over(circle: &RecordedCircle) -> Option<f64> {
+    let step_s = circle.turn_s? / count(circle.points);
+    averaged_samples(&circle.radii_mm()).map(|it| count(it) * step_s)
+}
+
 /// Points that are too far apart in time to show a reversal.
-fn coarse(circle: &RecordedCircle) -> Option<String> {
+pub(super) fn coarse(circle: &RecordedCircle) -> Option<String> {
     let step_s = circle.turn_s? / count(circle.points);
     (step_s > COARSEST_S).then(|| {
         format!(

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::found::coarse;
+
 use frictcomp_physics::circle::{
     Circle, CircleError, Crossing, Direction, LearnedCircle, PlaneAxis, RecordedCircle,
     RecordedTwice,
@@ -43,6 +45,14 @@ pub enum LearnError {
     /// A recording without times.
     #[error("`{0}` has no times, so its feed is not known")]
     NoTimes(String),
+    /// Samples that are too far apart to show a reversal.
+    #[error("`{file}` has {coarse}")]
+    Coarse {
+        /// Name of the file.
+        file: String,
+        /// How far apart they are, in words.
+        coarse: String,
+    },
     /// A feed that was recorded once, or more than twice.
     #[error(
         "F{feed:.0} {direction} was recorded {}; each circle is recorded twice with the same list",
@@ -117,6 +127,7 @@ impl LearnError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoTimes(_) => "record the time in s as well, or name its channel",
+            Self::Coarse { .. } => "a position every ms shows what a list leaves",
             Self::Count { count: 1, .. } => {
                 "record it a second time: without a second recording the spread is not known"
             }
@@ -198,10 +209,14 @@ impl LearnedCircles {
     }
 }
 
-/// Checks that all turns have the radius and the centre of the first one.
+/// Checks that all turns have the radius and the centre of the first one, and samples close enough to show a reversal.
 fn one_machine(turns: &[RecordedTurn], first: &RecordedTurn) -> Result<(), LearnError> {
     for turn in turns {
         let [radius_mm, found_mm] = [&first.circle, &turn.circle].map(|it| it.radius_mm);
+        if let Some(coarse) = coarse(&turn.circle) {
+            let file = turn.file.clone();
+            return Err(LearnError::Coarse { file, coarse });
+        }
         if !is_same(found_mm, radius_mm) {
             let file = turn.file.clone();
             return Err(LearnError::Radius {

@@ -41,5 +41,5 @@ pub use results::{RecordingOutcome, RecordingResult, refuse_strangers};
 pub use signature::{Signature, signature_in};
 pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};
 pub use switched::{
-    CompensationShown, ShareOfList, StagesOfAxis, SwitchedAs, TorqueOfList, torque_of_list,
+    CompensationShown, ShareOfList, Shows, StagesOfAxis, SwitchedAs, TorqueOfList, torque_of_list,
 };

@@ -113,6 +113,22 @@ impl RecordingOutcome {
         }
     }
 
+    /// The time in s over which the positions of an axis are averages, if they are.
+    pub(super) fn averaged_s(&self, axis: usize) -> Option<f64> {
+        let of_axis = self.followed(axis).and_then(|it| it.averaged_s);
+        match self {
+            Self::Circles(found) => of_axis.or(found.averaged_s),
+            _ => of_axis,
+        }
+    }
+
+    /// The largest glitch in µm or 0.001° that it shows; 0 if none.
+    pub(super) fn largest_glitch(&self) -> f64 {
+        let reversals = self.reversals();
+        let glitches = reversals.flat_map(|it| it.glitches);
+        glitches.fold(0.0, |most, (_, it)| most.max(it.um))
+    }
+
     /// What it shows about the compensation, to add to it.
     pub fn compensation_mut(&mut self) -> Option<&mut CompensationShown> {
         match self {

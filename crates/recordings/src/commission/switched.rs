@@ -4,6 +4,7 @@ use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::Reading;
 use serde::{Deserialize, Serialize};
 
+use super::plan::Plan;
 use super::plant_found::PlantAxis;
 use crate::identify::{AxisRecording, Predictor, Timing, TorqueKind, median, verify_followed};
 
@@ -52,6 +53,36 @@ pub enum SwitchedAs {
     NotShown(String),
 }
 
+/// Where friction shows in the recordings of a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum Shows {
+    /// On circles of two axes, recorded feed by feed.
+    Contour,
+    /// In the following error after reversals of one axis, recorded once, to which no plant is fitted: motor side, not
+    /// contour.
+    FollowingError,
+}
+
+impl Shows {
+    /// Returns what the programs of a plan show.
+    pub fn of(plan: &Plan) -> Self {
+        match plan.axes.len() {
+            1 => Self::FollowingError,
+            _ => Self::Contour,
+        }
+    }
+
+    /// The number of recordings that have to agree.
+    fn fewest(self) -> usize {
+        match self {
+            Self::Contour => 2,
+            Self::FollowingError => 1,
+        }
+    }
+}
+
 /// The recordings of an axis in both stages, and its fitted plant.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -64,8 +95,8 @@ pub struct StagesOfAxis<'a> {
     pub off: &'a [&'a CompensationShown],
     /// What those of the round show.
     pub on: &'a [&'a CompensationShown],
-    /// The number of recordings that have to agree: circles are recorded feed by feed, strokes all in one.
-    pub fewest: usize,
+    /// Where friction shows in them.
+    pub shows: Shows,
     /// The plant that was fitted to them.
     pub plant: Option<&'a PlantAxis>,
 }
@@ -119,9 +150,8 @@ impl StagesOfAxis<'_> {
                  scaling"
             )),
             None => SwitchedAs::NotShown(format!(
-                "neither torque nor positions show that the list of {axis} was on{}: record actual torque and commanded \
-                 position, or name a plant to be fitted",
-                self.range_of(self.on)
+                "neither torque nor positions show that the list of {axis} was on{}",
+                self.what_would_show("", self.on)
             )),
         }
     }
@@ -147,7 +177,7 @@ impl StagesOfAxis<'_> {
         let is_recorded = !self.off.is_empty() && self.off.iter().all(is_switched);
         let is_other = |it: &[f64; 2]| it[0] > NONE || it[1] < -NONE;
         let by_torque = self.torque_shows_on()
-            && shares.len() >= self.fewest
+            && shares.len() >= self.shows.fewest()
             && !shares.iter().any(is_other)
             && together(&shares).is_some_and(|[low, high]| low >= -NONE && high <= NONE);
         if is_recorded || by_torque || self.plant.is_some_and(PlantAxis::is_off_shown) {
@@ -162,9 +192,8 @@ impl StagesOfAxis<'_> {
             ));
         }
         SwitchedAs::NotShown(format!(
-            "nothing shows that no part of a list of {axis} was on in stage 1{}: record the actual torque and the \
-             commanded position, or the state of the compensation, or name a plant to be fitted",
-            self.range_of(self.off)
+            "nothing shows that no part of a list of {axis} was on in stage 1{}",
+            self.what_would_show("the state of the compensation, or ", self.off)
         ))
     }
 
@@ -172,7 +201,7 @@ impl StagesOfAxis<'_> {
     fn torque_shows_on(&self) -> bool {
         const LEAST: f64 = 0.7;
         let shares = self.shares(self.on);
-        shares.iter().filter(|it| it[0] >= LEAST).count() >= self.fewest
+        shares.iter().filter(|it| it[0] >= LEAST).count() >= self.shows.fewest()
             && shares.iter().all(|it| it[1] >= WHOLE_BELOW)
     }
 
@@ -209,17 +238,26 @@ impl StagesOfAxis<'_> {
         own.filter_map(|it| it.torque)
     }
 
-    /// The range of the share in the torque of recordings, for a sentence; empty where it is not known.
-    fn range_of(&self, recordings: &[&CompensationShown]) -> String {
-        together(&self.shares(recordings)).map_or_else(String::new, |[low, high]| {
-            format!(" (by its torque {low:.2} to {high:.2} of it)")
-        })
+    /// What the torque of recordings leaves open, and what to record, after what else would show it.
+    fn what_would_show(&self, other: &str, recordings: &[&CompensationShown]) -> String {
+        let or_a_plant = match self.shows {
+            Shows::Contour => ", or name a plant to be fitted",
+            Shows::FollowingError => "",
+        };
+        together(&self.shares(recordings)).map_or_else(
+            || format!(": record {other}actual torque and commanded position{or_a_plant}"),
+            |[low, high]| {
+                format!(
+                    " (by its torque {low:.2} to {high:.2} of it): record {other}more feeds, over a decade{or_a_plant}"
+                )
+            },
+        )
     }
 
     /// The range of the shares that show something, if they are enough and more than the others.
     fn agreed(&self, shares: &[[f64; 2]], shows: impl Fn(&[f64; 2]) -> bool) -> Option<[f64; 2]> {
         let agree: Vec<&[f64; 2]> = shares.iter().filter(|it| shows(it)).collect();
-        let is_enough = agree.len() >= self.fewest && 2 * agree.len() > shares.len();
+        let is_enough = agree.len() >= self.shows.fewest() && 2 * agree.len() > shares.len();
         is_enough.then(|| {
             agree
                 .iter()
@@ -287,7 +325,7 @@ mod tests {
             list: LIST,
             off: &off,
             on: &on,
-            fewest: 2,
+            shows: Shows::Contour,
             plant: None,
         };
         [stages.was_on(), stages.was_off()]

@@ -12,7 +12,7 @@ pub(crate) use plants::{list_on, parameters};
 pub use program::render_program;
 pub use readme::render_readme;
 pub use results::{
-    AxisVerdict, InputFile, Results, ResultsReport, Round, Shows, glitch_unit, render_results,
+    AxisVerdict, InputFile, Results, ResultsReport, Round, glitch_unit, render_results,
     render_results_json,
 };
 pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};

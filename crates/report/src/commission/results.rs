@@ -12,7 +12,7 @@ use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::machine::AxisType;
 use frictcomp_recordings::commission::{
-    BeforeAfter, FrictionFound, Plan, PlantFound, RecordingOutcome, RecordingResult, Stage,
+    BeforeAfter, FrictionFound, Plan, PlantFound, RecordingOutcome, RecordingResult, Shows, Stage,
 };
 
 /// The content of `results.json`.
@@ -28,7 +28,7 @@ pub struct Results {
 
 impl Results {
     /// The version that is written.
-    pub const SCHEMA: u32 = 4;
+    pub const SCHEMA: u32 = 5;
 }
 
 /// The list of an axis, or the reasons why it has none.
@@ -96,43 +96,6 @@ pub struct Round {
     pub not_shown: Vec<String>,
 }
 
-/// Where friction shows in the recordings of a plan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Shows {
-    /// On circles of two axes.
-    Contour,
-    /// In the following error after reversals of one axis: motor side, not contour.
-    FollowingError,
-}
-
-impl Shows {
-    /// Returns what the programs of a plan show.
-    pub fn of(plan: &Plan) -> Self {
-        match plan.axes.len() {
-            1 => Self::FollowingError,
-            _ => Self::Contour,
-        }
-    }
-
-    /// Returns what an acceptance does not cover.
-    pub(crate) fn limit(self) -> &'static str {
-        match self {
-            Self::Contour => "",
-            Self::FollowingError => ", and no contour",
-        }
-    }
-
-    /// Returns the figure that is compared.
-    pub(crate) fn figure(self) -> &'static str {
-        match self {
-            Self::Contour => "glitch, a mean over 8 ms without noise, the largest of all turns",
-            Self::FollowingError => "following error after reversals; motor side, not contour",
-        }
-    }
-}
-
 /// The unit of the glitches of a plan.
 pub fn glitch_unit(plan: &Plan) -> &'static str {
     match plan.axes.first() {
@@ -145,6 +108,22 @@ impl Round {
     /// Whether there are no reasons against the lists, and everything that they rest on is shown.
     pub fn is_accepted(&self) -> bool {
         self.not_shown.is_empty() && self.against.as_ref().is_some_and(Vec::is_empty)
+    }
+
+    /// What an acceptance does not cover.
+    pub(crate) fn limit(&self) -> &'static str {
+        match self.shows {
+            Shows::FollowingError => ", and no contour",
+            _ => "",
+        }
+    }
+
+    /// The figure that is compared.
+    pub(crate) fn figure(&self) -> &'static str {
+        match self.shows {
+            Shows::FollowingError => "following error after reversals; motor side, not contour",
+            _ => "glitch, a mean over 8 ms without noise, the largest of all turns",
+        }
     }
 }
 
@@ -326,7 +305,7 @@ fn push_round(out: &mut String, round: &Round) {
         out,
         "\nround {}: recorded {}, in {}\n{table}",
         round.number,
-        round.shows.figure(),
+        round.figure(),
         round.unit,
     );
     if round.is_accepted() {
@@ -341,7 +320,7 @@ fn push_round(out: &mut String, round: &Round) {
              it, nor than with the lists that were accepted before, beyond the errors. Other feeds were not recorded{}",
             visible_line(&lists.join(", ")),
             round.recorded.len(),
-            round.shows.limit()
+            round.limit()
         );
     } else {
         let _ = writeln!(out, "\n{}, the earlier lists stay:", round.refusal());

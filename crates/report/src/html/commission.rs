@@ -88,7 +88,7 @@ fn verdict(report: &ResultsReport) -> Markup {
             None | Some((_, None)) => p { "No list is accepted: the motion with compensation on is not recorded." },
             Some((round, Some(_))) if round.is_accepted() => p {
                 "Accepted: at each of the " (round.recorded.len()) " recorded feeds the lists of round " (round.number)
-                " leave no more than there was without them. Other feeds were not recorded" (round.shows.limit()) "."
+                " leave no more than there was without them. Other feeds were not recorded" (round.limit()) "."
             },
             Some((round, Some(against))) => {
                 p { "The lists of round " (round.number) " are " (round.refusal()) "; the earlier ones stay." }
@@ -167,7 +167,7 @@ fn number_or_dash(um: Option<f64>) -> String {
 }
 
 fn round_circles(round: &Round) -> Markup {
-    let caption = format!("Round {}: recorded {}", round.number, round.shows.figure());
+    let caption = format!("Round {}: recorded {}", round.number, round.figure());
     let [off, on] = ["off", "on"].map(|it| format!("{it} in {}", round.unit));
     let table = HtmlTable {
         caption: Caption::Shown(&caption),

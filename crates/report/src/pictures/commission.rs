@@ -1,8 +1,8 @@
 //! The friction of a commissioned axis, and its circles before and after.
 
-use crate::commission::{Round, Shows};
+use crate::commission::Round;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
-use frictcomp_recordings::commission::{BeforeAfter, FrictionFound};
+use frictcomp_recordings::commission::{BeforeAfter, FrictionFound, Shows};
 
 /// Friction over speed with bars of one standard error, and the points of the list.
 pub fn friction_of_axis(found: &FrictionFound) -> LineChart {

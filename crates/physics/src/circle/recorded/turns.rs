@@ -54,6 +54,13 @@ impl fmt::Display for WorseTurn {
 }
 
 impl RecordedCircle {
+    /// The distance of each point from the centre of its turn in mm, of all whole turns one after another.
+    pub fn radii_mm(&self) -> Vec<f64> {
+        const MM_PER_M: f64 = 1000.0;
+        let points = self.turns_m.iter().flatten();
+        points.map(|[x, y]| x.hypot(*y) * MM_PER_M).collect()
+    }
+
     /// Compares the whole turns with the evaluated one, as means over 8 ms at each crossing. `None` if there
     /// are not two, or no glitches and times to compare.
     pub fn whole_turns(&self) -> Option<WholeTurns> {

@@ -62,8 +62,12 @@ fn each_d_word_has_its_radius() {
     }
     let changed = "D1\nG01 X0 Y0 F1000\nG41 X20\nG03 I-20\nD2\nG01 Y10\nG40 X0\nM30";
     let trace = trace_of(MACHINE, changed, &AXES, options);
-    let left_out = format!("{:?}", trace.left_out);
-    assert!(left_out.contains("its radius here"), "{left_out}");
+    let reason = "its radius here";
+    assert!(
+        trace.messages.iter().any(|it| it.contains(reason)),
+        "{:?}",
+        trace.messages
+    );
 }
 
 #[test]

@@ -101,7 +101,7 @@ pub(crate) struct CurrentArgs {
 /// Options that have no effect on a trace (R9.71).
 const OF_PROGRAMS: [&str; 16] = [
     "max_cycles",
-    "radius_mm",
+    "radii",
     "start",
     "config",
     "isolated",

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use frictcomp_testing::{Machine, Program, ValueList};
+use frictcomp_testing::{Machine, Program, Random, ValueList};
 
 use super::plant::Recorded;
 use super::{AXIS, ZERO, call, provisional, put, run, said};
@@ -58,22 +58,27 @@ fn plan(folder: &Path, axis: &str, more: &[&str]) {
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
 }
 
-/// What a machine does in a program of the axis, with a list that the program switches.
+/// What is recorded of a machine in a program of the axis, with a list that the program switches.
 fn driven(folder: &Path, axis: &str, (program, list): (&str, Option<&str>)) -> Recorded {
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("a file");
     let start = [0.0; 2];
     let list = list.map(|name| ValueList::parse(&read(name)));
     let program = Program::parse(&read(program), [axis, "B"], start);
     let run = Machine::bristle().run(&program, start, [list.as_ref(), None]);
-    let times = |values: &[f64], factor: f64| values.iter().map(|it| it * factor).collect();
-    let commanded: Vec<f64> = times(&run.commanded.places[0], 1e4);
+    let mut random = Random::new(7);
+    let mut measured = |values: &[f64], (factor, noise): (f64, f64)| {
+        let each = values.iter();
+        each.map(|it| it * factor + noise * random.normal())
+            .collect()
+    };
+    let commanded: Vec<f64> = measured(&run.commanded.places[0], (1e4, 0.0));
     Recorded {
         t: (0..commanded.len())
             .map(|at| at as f64 * run.cycle_s)
             .collect(),
-        v: times(&run.commanded.velocities[0], 1000.0),
-        x: times(&run.load_mm[0], 1e4),
-        torque: times(&run.units[0], 1.0),
+        v: measured(&run.commanded.velocities[0], (1000.0, 0.0)),
+        x: measured(&run.load_mm[0], (1e4, 3.0)),
+        torque: measured(&run.units[0], (1.0, 1.0)),
         commanded,
     }
 }

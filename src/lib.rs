@@ -92,6 +92,7 @@ pub mod documents;
 pub mod drive_interface;
 mod facade;
 pub mod interpreter;
+mod language;
 mod lint;
 pub mod lists;
 pub mod machine;

@@ -22,15 +22,13 @@ pub use coordinates::arc::{ArcShape, SAME_PLACE};
 pub use coordinates::axis_words::AxisWord;
 pub use coordinates::contouring::{Contouring, Joining};
 pub use coordinates::g_functions::GFunctions;
-pub use coordinates::group::Group;
 pub use coordinates::modal::{AxisPosition, Modal, PositionFrame};
 pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, ToolSide, Travel,
     Turn,
 };
-pub use coordinates::moving::{Certainty, MotionKind, MovedAxis};
+pub use coordinates::moving::MovedAxis;
 pub use coordinates::pace::ProgrammedFeed;
-pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};
 pub use programs::call_sites::{CallSite, call_sites, holds_program_end};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
@@ -50,4 +48,6 @@ pub use values::carried::{ArrayShape, Carried};
 pub use values::found::FoundVariables;
 pub(crate) use values::found::VariableUse;
 pub use values::value::Value;
+
+pub use crate::language::{Certainty, Group, MotionKind, Simplification, Simplifications};
 pub(crate) use values::variable::set_name;

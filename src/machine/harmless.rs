@@ -1,5 +1,6 @@
 //! Commands of the user's own machine that are declared harmless (R2.70).
 
+use crate::language::GFunction;
 use crate::syntax::hash_name;
 
 /// `#` commands, G and M functions that change no state, no position and no value.
@@ -9,27 +10,6 @@ pub struct HarmlessWords {
     commands: Vec<String>,
     /// The letters and numbers of the functions.
     functions: Vec<(u8, i64)>,
-}
-
-/// Whether a G function takes effect in a dry run, so that it cannot be declared harmless: those of the groups, and
-/// mirroring (R2.45).
-fn is_followed(number: i64) -> bool {
-    matches!(
-        number,
-        0..=3
-            | 17..=23
-            | 40..=42
-            | 53..=59
-            | 70
-            | 71
-            | 90..=95
-            | 159
-            | 161
-            | 162
-            | 194
-            | 359
-            | 360
-    )
 }
 
 impl HarmlessWords {
@@ -83,4 +63,10 @@ impl HarmlessWords {
             functions.map(|(letter, number)| format!("{}{number}", char::from(*letter)));
         self.commands.iter().cloned().chain(functions)
     }
+}
+
+/// Whether a G function takes effect in a dry run, so that it cannot be declared harmless.
+fn is_followed(number: i64) -> bool {
+    let function = u32::try_from(number).ok().and_then(GFunction::of);
+    function.is_some_and(GFunction::is_followed)
 }

@@ -1,6 +1,7 @@
 //! The statements that open, part and close control blocks.
 
 use super::ast::{Block, Flow, Item};
+use crate::language::HashAction;
 
 /// A kind of control block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,8 +71,13 @@ pub fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> 
     use Part::{Branch, Closer, Opener};
     let flow = match item {
         Item::Flow(flow, _) => flow,
-        Item::Hash(hash) if hash.name == RealTime.opener() => return Some((RealTime, Opener)),
-        Item::Hash(hash) if hash.name == RealTime.closer() => return Some((RealTime, Closer)),
+        Item::Hash(hash) => {
+            return match hash.command.action {
+                HashAction::RealTimeLoop => Some((RealTime, Opener)),
+                HashAction::EndRealTimeLoop => Some((RealTime, Closer)),
+                _ => None,
+            };
+        }
         _ => return None,
     };
     Some(match flow {

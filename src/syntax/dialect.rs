@@ -5,8 +5,9 @@
 use std::fmt;
 
 use super::hash_words::hash_name;
-use super::keywords::{FLOW_WORDS, hash_command};
+use super::keywords::FLOW_WORDS;
 use super::pieces::code_stretches;
+use crate::language::HashCommand;
 
 /// Number of blocks at the head of a program that are looked at.
 const MAX_LOOKED_AT: usize = 400;
@@ -235,7 +236,7 @@ fn after_hash(text: &str) -> DialectEvidence {
         Some(b'<') => Dialect::Rs274,
         Some(b'0'..=b'9' | b'[') => Dialect::Fanuc,
         _ => {
-            return match hash_command(&hash_name(text).0) {
+            return match HashCommand::of(&hash_name(text).0) {
                 Some(_) => DialectEvidence::Isg,
                 None => DialectEvidence::Any,
             };

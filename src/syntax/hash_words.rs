@@ -1,7 +1,7 @@
 //! The words that a `#` command begins with.
 
-use super::keywords::command_words;
 use super::pieces::is_blank;
+use crate::language::{FurtherWord, HashAction, HashCommand, HashWords};
 
 /// Returns the words of a `#` command in upper case, and how many bytes they take.
 pub(crate) fn hash_name(code: &str) -> (String, usize) {
@@ -14,19 +14,42 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
     (name, end)
 }
 
-/// Returns the same without words that cannot follow a known command: of `#COMMENT END X[COMP ON FRICT]`
-/// the first two.
-pub(super) fn command_name(code: &str) -> (String, usize) {
+/// The words that a `#` command begins with.
+pub(super) struct CommandName {
+    /// In upper case with one blank between them.
+    pub(super) name: String,
+    /// Number of bytes that they take.
+    pub(super) length: usize,
+    /// The command, where it is known.
+    pub(super) command: Option<HashWords>,
+}
+
+/// Returns the words of a command. Words that cannot follow a known one are left out: of
+/// `#COMMENT END X[COMP ON FRICT]` the first two remain.
+pub(super) fn command_name(code: &str) -> CommandName {
     let (name, length) = hash_name(code);
-    let known = command_words(&name);
-    let Some((_, end)) = known.checked_sub(1).and_then(|last| words(code).nth(last)) else {
-        return (name, length);
+    let Some(row) = HashCommand::of(&name) else {
+        let command = None;
+        return CommandName {
+            name,
+            length,
+            command,
+        };
     };
-    let mut known_name = String::from("#");
-    words(code)
-        .take(known)
-        .for_each(|(word, _)| push_word(&mut known_name, word));
-    (known_name, end)
+    let further = name[row.words.len()..].split_ascii_whitespace();
+    let further = further.take_while(|word| FurtherWord::of(word).is_some());
+    let known = row.words.split(' ').count() + further.count();
+    let mut length = length;
+    let mut name = String::from("#");
+    for (word, end) in words(code).take(known) {
+        push_word(&mut name, word);
+        length = end;
+    }
+    CommandName {
+        command: HashWords::of(&name),
+        name,
+        length,
+    }
 }
 
 /// Whether an unknown word follows the name of a command, `#HSC ON SOFTLY [1]`, rather than text that looks
@@ -70,13 +93,18 @@ fn push_word(name: &mut String, word: &str) {
 
 /// A `#` command at the start of a block.
 pub(super) struct OpeningCommand<'a> {
-    /// Its words in upper case.
-    pub(super) name: String,
+    /// Its words.
+    pub(super) name: CommandName,
     /// The text after them.
     pub(super) rest: &'a str,
 }
 
 impl OpeningCommand<'_> {
+    /// Its action, where it is known.
+    pub(super) fn action(&self) -> Option<HashAction> {
+        self.name.command.map(|command| command.action)
+    }
+
     /// Whether nothing follows the words.
     pub(super) fn is_alone(&self) -> bool {
         self.rest.trim_matches(is_blank).is_empty()
@@ -91,8 +119,8 @@ pub(super) fn opening_command(code: &str) -> Option<OpeningCommand<'_>> {
         None => start,
     };
     start.starts_with('#').then(|| {
-        let (name, length) = command_name(start);
-        let rest = &start[length..];
+        let name = command_name(start);
+        let rest = &start[name.length..];
         OpeningCommand { name, rest }
     })
 }

@@ -5,6 +5,7 @@ use super::ast::{Address, Block, Operand, Word};
 use super::fault::Fault;
 use super::pieces::{PieceKind, is_blank, is_open_comment, pieces};
 use crate::diagnostic::{Code, Fix};
+use crate::language::GFunction;
 use crate::text::{Span, changed_direction};
 
 /// The keyword whose commands are looked for.
@@ -77,18 +78,7 @@ pub(super) fn words_without_value(text: &str, block: &mut Block) {
 /// an axis word is a number.
 fn takes_names(word: &Word) -> bool {
     let is_g = word.address == Address::Letter(b'G');
-    let takes_numbers = |number: f64| {
-        let groups = [
-            0.0..=4.0,
-            9.0..=9.0,
-            17.0..=19.0,
-            40.0..=42.0,
-            53.0..=61.0,
-            70.0..=71.0,
-            90.0..=95.0,
-        ];
-        groups.iter().any(|group| group.contains(&number))
-    };
+    let takes_numbers = |number| GFunction::of_value(number).is_some_and(GFunction::takes_numbers);
     is_g && !matches!(word.value, Some(Operand::Number(number)) if takes_numbers(number))
 }
 

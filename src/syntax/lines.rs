@@ -14,6 +14,7 @@ use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Stretch};
 use super::remarks::LatestRemarks;
 use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};
+use crate::language::{HashAction, HashWords};
 use crate::text::{LineSource, Span};
 
 /// Bytes that one continued block, or one `#VAR` region, may have. The documents state no bound;
@@ -158,11 +159,13 @@ impl<S: LineSource> BlockReader<S> {
         }
         if let Some(opening) = opening_command(&self.code) {
             let is_alone = opening.is_alone();
-            match opening.name.as_str() {
-                "#COMMENT BEGIN" if self.skip_comment_region(is_alone, block) => return None,
-                "#VAR" => self.take_region("#ENDVAR", block),
-                "#RT CYCLE" | "#RT CYCLE DEF" => self.take_region("#RT CYCLE END", block),
-                _ => {}
+            let is_comment = opening.action() == Some(HashAction::Comment);
+            let region_end = opening.name.command.and_then(HashWords::region_end);
+            if is_comment && self.skip_comment_region(is_alone, block) {
+                return None;
+            }
+            if let Some(end) = region_end {
+                self.take_region(end, block);
             }
         }
         if cut || (self.text.len() > MAX_LINE && self.text.lines().any(too_long)) {
@@ -265,7 +268,7 @@ impl<S: LineSource> BlockReader<S> {
             self.remarks.note(line, self.line, reordered(line));
             mask(line, &mut code);
             let opening = opening_command(&code);
-            if let Some(end) = opening.filter(|it| it.name == "#COMMENT END") {
+            if let Some(end) = opening.filter(|it| it.action() == Some(HashAction::EndComment)) {
                 if opener_is_alone && !end.is_alone() {
                     self.begin_block();
                     return false;
@@ -321,7 +324,7 @@ impl<S: LineSource> BlockReader<S> {
 
 /// Whether a line begins with the command that ends a region.
 fn ends(code: &str, end: &str) -> bool {
-    opening_command(code).is_some_and(|command| command.name == end)
+    opening_command(code).is_some_and(|command| command.name.name == end)
 }
 
 /// FC101: a character that programs have only in comments and strings.

@@ -53,9 +53,7 @@ pub(crate) use fault::repeated_word;
 pub use flow_scan::FlowScan;
 pub use grammar::bound_reading;
 pub(crate) use hash_words::hash_name;
-pub(crate) use keywords::{
-    Touches, hash_command, is_command, is_letter, is_program_number, is_statement,
-};
+pub(crate) use keywords::{is_letter, is_program_number, is_statement};
 #[cfg(feature = "unstable")]
 pub use lines::BlockReader;
 #[cfg(not(feature = "unstable"))]
@@ -78,7 +76,7 @@ pub use look_alike::reads_as_program;
 pub(crate) use mask::code_of;
 #[cfg(feature = "unstable")]
 pub use mask::code_of;
-pub(crate) use mask::{code_of_part, goes_on};
+pub(crate) use mask::goes_on;
 #[cfg(feature = "unstable")]
 pub use names::{NameInBlock, NameRole, Named, names_in};
 #[cfg(not(feature = "unstable"))]

@@ -7,6 +7,7 @@ use super::fault::Fault;
 use super::lines::{BlockReader, FastPath};
 use crate::comp::CompCommand;
 use crate::diagnostic::{Code, Severity, nearest};
+use crate::language::HashAction;
 use crate::text::{Span, TextLines};
 
 /// Parses one COMP command, `X[COMP ON FRICT]`; `None` where the text is something else:
@@ -74,7 +75,7 @@ pub fn is_lone_end(text: &str) -> bool {
     let is_m = |word: &Word| word.address == Address::Letter(b'M');
     let is_label = block.number.is_some_and(|number| number.label);
     let is_refused = |fault: &Fault| fault.code.severity() == Severity::Error;
-    let is_error = |item: &Item| matches!(item, Item::Hash(hash) if hash.name == "#ERROR");
+    let is_error = |item: &Item| matches!(item, Item::Hash(hash) if hash.command.action == HashAction::ReportError);
     let is_end = match (block.words.as_slice(), block.items.as_slice()) {
         ([word], []) => is_m(word),
         ([], [item]) => is_error(item),

@@ -8,6 +8,7 @@ use super::axes::{AxisUse, MAX_MACROS, own_uses, uses_of, with_macros};
 use super::hash_words::opening_command;
 use super::mask::mask;
 use super::parse::parse_block;
+use crate::language::HashAction;
 
 /// Bytes that the lines of a continued block may have together to be looked at.
 const MAX_CONTINUED: usize = 64 * 1024;
@@ -80,10 +81,9 @@ impl<Q: ScanQuestion> Scan<Q> {
         let line = String::from_utf8_lossy(line);
         let mut code = String::new();
         let masked = mask(&line, &mut code);
-        let opening = opening_command(&code);
-        match opening.as_ref().map(|command| command.name.as_str()) {
-            Some("#COMMENT BEGIN") => self.is_comment = true,
-            Some("#COMMENT END") => self.is_comment = false,
+        match opening_command(&code).and_then(|command| command.action()) {
+            Some(HashAction::Comment) => self.is_comment = true,
+            Some(HashAction::EndComment) => self.is_comment = false,
             _ => {}
         }
         if self.is_comment {

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 
 use crate::comp::AxisIndex;
 use crate::interpreter::blocks::pace::AxisBracket;
-use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis, Moves};
-use crate::interpreter::effects::couple::{ends_following, gear_of};
+use crate::interpreter::coordinates::moving::MovedAxis;
+use crate::interpreter::effects::couple::gear_of;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::work_budget::ITEM;
-use crate::syntax::code_of_part;
+use crate::language::{AxisAction, AxisWords, Certainty, HashCommand, MotionKind, Moves};
+use crate::syntax::ast::{BracketArguments, Hash};
 use crate::text::Span;
 
 impl Interpreter {
@@ -26,18 +26,16 @@ impl Interpreter {
             return;
         };
         let span = bracket.span;
-        let keyword = bracket.keyword.to_ascii_uppercase();
-        let body = code_of_part(span.of(at.text)).to_ascii_uppercase();
-        if ends_following(&keyword) {
+        if bracket.command.action == AxisAction::EndFollowing {
             self.state.control.couplings.unfollow(&gear_of(axis));
         }
-        let Some(row) = moving::of_bracket(&keyword, &body) else {
+        let Some(row) = bracket.command.motion else {
             return;
         };
         self.see(axis);
         self.state.control.modal.havoc_position(axis);
         if row.moves == Moves::Follower {
-            self.gear_in(axis, &body);
+            self.gear_in(axis, bracket.arguments, at);
             return;
         }
         self.scratch.also_moved.push(MovedAxis {
@@ -49,12 +47,12 @@ impl Interpreter {
     }
 
     /// A `#` command that moves axes at once.
-    pub(in crate::interpreter) fn command_motion(&mut self, name: &str, rest: &str, span: Span) {
-        let row = moving::of_command(name);
+    pub(in crate::interpreter) fn command_motion(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+        let row = hash.command.motion;
         let Some(row) = row.filter(|row| row.moves == Moves::NamedOrAll) else {
             return;
         };
-        let named = self.axes_in(rest);
+        let named = self.axes_in(&hash.brackets, at.text);
         let axes = if named.is_empty() {
             self.path_axes()
         } else {
@@ -63,7 +61,7 @@ impl Interpreter {
         for axis in axes {
             self.scratch.also_moved.push(MovedAxis {
                 axis,
-                span,
+                span: hash.span,
                 kind: row.kind,
                 certainty: row.certainty,
             });
@@ -72,17 +70,13 @@ impl Interpreter {
 
     /// `#ROTATION ON [ANGLE=30]`: whether a motion along one axis of the plane certainly moves the other
     /// one, too.
-    pub(in crate::interpreter) fn rotate(&mut self, name: &str, rest: &str, at: &BlockContext<'_>) {
-        if !name.starts_with("#ROTATION") {
-            return;
-        }
-        let upper = rest.to_ascii_uppercase();
-        let value = upper
-            .find("ANGLE")
-            .map(|from| &rest[from + "ANGLE".len()..]);
-        let value = value.map(|text| text.trim_start_matches([' ', '\t', '=']));
-        let value = value.and_then(|text| text.split([' ', '\t', ']']).next());
-        let angle = value.and_then(|text| self.number_in(text, at));
+    pub(in crate::interpreter) fn rotate(
+        &mut self,
+        arguments: &BracketArguments,
+        at: &BlockContext<'_>,
+    ) {
+        let angle = arguments.after("ANGLE", at.text);
+        let angle = angle.and_then(|angle| self.argument_number(angle, at));
         self.state.control.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
     }
 
@@ -156,7 +150,7 @@ impl Interpreter {
 
     /// The axes of a frame, and whether each certainly moves with another of them.
     fn frame(&self, name: &str) -> Option<(Vec<AxisIndex>, Certainty)> {
-        let row = moving::of_command(name)?;
+        let row = HashCommand::named(name)?.motion?;
         Some(match row.moves {
             Moves::Plane => {
                 let axes = self.plane_axes();
@@ -286,6 +280,6 @@ impl Interpreter {
 impl ControlState {
     fn is_skewed(&self) -> bool {
         let modal = &self.modal;
-        modal.skewed && !modal.transformed.contains("#MCS")
+        modal.skewed && !modal.are_offsets_suspended()
     }
 }

@@ -4,11 +4,11 @@ use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
 };
 use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
-use crate::interpreter::coordinates::chain;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::language::{ChainStep, HashCommand};
 use crate::machine::{Axis, AxisSet, Origin, Parameterisation};
 use crate::readings::Question;
 use crate::syntax::{Fault, is_axis_name};
@@ -169,7 +169,7 @@ impl Interpreter {
     fn warn_transformed(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let active = self.state.control.modal.transformed.iter();
         let active: Vec<String> = active
-            .filter(|name| chain::is_transformation(name))
+            .filter(|name| is_transformation(name))
             .map(|name| format!("`{name}`"))
             .collect();
         if active.is_empty() {
@@ -398,4 +398,10 @@ impl Interpreter {
         }
         diagnostic.with_help(Advice::AddAxis(name.to_owned()))
     }
+}
+
+/// Whether a name is one of a transformation between the coordinates of the program and those of the axes.
+fn is_transformation(name: &str) -> bool {
+    let row = HashCommand::named(name);
+    row.is_some_and(|row| row.chain == Some(ChainStep::Coordinates))
 }

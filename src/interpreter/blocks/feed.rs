@@ -2,7 +2,6 @@
 
 use super::reported::StopScope;
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::call_sites::is_main_program;
 use crate::interpreter::programs::wanted::FunctionWord;
@@ -10,6 +9,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::values::value::rounded;
+use crate::language::AxisWords;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, Item, Operand, Word};
 use crate::text::Span;

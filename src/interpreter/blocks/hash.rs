@@ -2,14 +2,7 @@
 
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::coordinates::chain;
-use crate::interpreter::coordinates::geometry::foreign_command;
-use crate::interpreter::effects::descriptions::description_end;
-use crate::interpreter::effects::exchange::is_exchange;
-use crate::interpreter::effects::machine_data::{WriteTarget, enables, is_machine_data, written};
-use crate::interpreter::effects::plc::lets_plc_act;
-use crate::interpreter::programs::file_names::is_file_name;
+use crate::interpreter::effects::machine_data::{WriteTarget, enables, written};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::ModalCycles;
@@ -17,9 +10,10 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
+use crate::language::{AxisWords, HashAction, PathFlow, Touches};
 use crate::readings::{Alternative, Question};
+use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
-use crate::syntax::{Fault, Touches, hash_command};
 use crate::text::Span;
 
 /// Number of axes that a message names.
@@ -32,24 +26,24 @@ impl Interpreter {
         at: &BlockContext<'_>,
         outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
-        let rest = &*hash.code(at.text);
-        if !goes_on(&hash.name) {
+        let command = hash.command;
+        if command.path == PathFlow::MayRest {
             self.scratch.rests.set(true);
         }
-        self.scratch.plc_acts |= lets_plc_act(&hash.name);
-        match hash.name.as_str() {
-            "#WAIT FOR" => self.wait_for(hash, at, outcome)?,
-            "#INIT" if initialises_all(rest) => {
-                self.pass_over("#INIT", hash.span, at);
+        self.scratch.plc_acts |= command.lets_plc_act();
+        match command.action {
+            HashAction::Wait => self.wait_for(hash, at, outcome)?,
+            HashAction::Initialise if hash.names_all_externals(at.text) => {
+                self.pass_over(command.words, hash.span, at);
                 self.state
                     .track
                     .write_anything(&mut self.state.control.memory);
                 self.state.control.memory.initialise(at.as_setter());
                 self.scratch.wrote = true;
             }
-            "#VAR" => return self.declare(&hash.declarations, at),
-            "#DELETE" => return self.delete(hash, at),
-            "#TIME" => {
+            HashAction::Declare => return self.declare(&hash.declarations, at),
+            HashAction::Delete => return self.delete(hash, at),
+            HashAction::Dwell => {
                 outcome.axis_words = AxisWords::Other;
                 self.scratch.dwells = true;
                 if let Some(&time) = hash.arguments.first() {
@@ -57,95 +51,97 @@ impl Interpreter {
                     self.scratch.geometry().dwell = Some(seconds);
                 }
             }
-            // PM/207120267
-            "#SET AX LINK" | "#AX LINK" => {
-                let axes = self.axes_in(rest);
-                self.define_coupling(rest, axes, at);
+            HashAction::DefineCoupling(by) => {
+                let axes = self.members(by, &hash.brackets, at.text);
+                self.define_coupling(hash, axes, at);
             }
-            "#SET AX LINK NBR" | "#AX LINK NBR" => {
-                let axes = self.axes_by_number(rest);
-                self.define_coupling(rest, axes, at);
-            }
-            // PM/207133579
-            "#ENABLE AX LINK" | "#AX LINK ON" => self.enable_coupling(rest, at),
-            "#DISABLE AX LINK" | "#AX LINK OFF" => self.disable_coupling(rest, at),
-            "#DISABLE AX LINK ALL" | "#AX LINK OFF ALL" => self.release_couplings(),
-            "#DISABLE MODAL CYCLE" => self.state.control.cycles = ModalCycles::default(),
-            "#INIT MACRO TAB" => {
+            HashAction::EnableCoupling => self.enable_coupling(hash, at),
+            HashAction::ReleaseCoupling => self.disable_coupling(hash, at),
+            HashAction::ReleaseCouplings => self.release_couplings(),
+            HashAction::EndModalCycles => self.state.control.cycles = ModalCycles::default(),
+            HashAction::ForgetMacros => {
                 self.state.control.memory.clear_macros();
                 self.define_machine_macros();
             }
-            "#RETAIN CYCLE CHANGES" => self.state.control.retain_cycle_changes(),
-            "#COMMENT END" | "#ENDVAR" => {}
-            name if is_file_name(name) => self.name_programs(hash, at),
-            opener if description_end(opener).is_some() => self.state.control.describe(hash, at),
-            end if self.state.control.ends_description(end) => {
-                if let Some(description) = self.state.control.described.take() {
-                    self.state
-                        .control
-                        .modal
-                        .end_description(&description.before);
+            HashAction::RetainCycleChanges => self.state.control.retain_cycle_changes(),
+            HashAction::EndComment | HashAction::EndDeclarations | HashAction::EndRealTimeLoop => {}
+            HashAction::NamePrograms => self.name_programs(hash, at),
+            HashAction::Describe => self.state.control.describe(hash, at),
+            HashAction::EndDescription if self.state.control.end_description(command.words) => {}
+            HashAction::RealTimeLoop => self.real_time_loop(hash.span, at, outcome),
+            HashAction::ReportError => return self.report_error(hash, at, outcome),
+            HashAction::ExchangeAxes(exchange) => self.exchange_axes(exchange, hash, at),
+            HashAction::PassOver
+            | HashAction::Comment
+            | HashAction::Initialise
+            | HashAction::EndDescription
+            | HashAction::Rotate
+            | HashAction::Override
+            | HashAction::SelectSpindle
+            | HashAction::Round(_)
+            | HashAction::SelectSlope(_)
+            | HashAction::WriteMachineData => return self.pass_over_command(hash, at),
+        }
+        Ok(())
+    }
+
+    /// A command that is passed over, apart from its effects on what is followed.
+    fn pass_over_command(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
+        let (command, name) = (hash.command, hash.name.as_str());
+        self.state.control.modal.hash(command);
+        if command.action == HashAction::Rotate {
+            self.rotate(&hash.brackets, at);
+        }
+        self.couple_by(hash, at);
+        self.command_motion(hash, at);
+        if command.unmodelled.is_some() {
+            self.scratch.geometry().foreign = command.unmodelled;
+        }
+        self.pace_command(hash, at);
+        for target in &hash.written {
+            let place = self.target_place(target.place, at)?;
+            match place {
+                AssignedPlace::Variable(whole)
+                    if command.action == HashAction::Initialise && whole.starts_with("V.E.") =>
+                {
+                    self.write(AssignedPlace::Variable(whole.clone()), 0.0.into());
+                    self.state.control.memory.zero(&whole, &at.as_setter());
                 }
+                place => self.write(place, Value::Unknown(name.into())),
             }
-            "#RT WHILE" => self.real_time_loop(hash.span, at, outcome),
-            "#RT ENDWHILE" => {}
-            "#ERROR" => return self.report_error(hash, at, outcome),
-            name if is_exchange(name) => self.exchange_axes(hash, at),
-            name => {
-                self.state.control.modal.hash(name);
-                self.rotate(name, rest, at);
-                self.couple_by(name, rest);
-                self.command_motion(name, rest, hash.span);
-                if let Some(reason) = foreign_command(name) {
-                    self.scratch.geometry().foreign = Some(reason);
-                }
-                self.pace_command(name, rest, at);
-                for target in &hash.written {
-                    let place = self.target_place(target.place, at)?;
-                    match place {
-                        AssignedPlace::Variable(whole)
-                            if name == "#INIT" && whole.starts_with("V.E.") =>
-                        {
-                            self.write(AssignedPlace::Variable(whole.clone()), 0.0.into());
-                            self.state.control.memory.zero(&whole, &at.as_setter());
-                        }
-                        place => self.write(place, Value::Unknown(name.into())),
-                    }
-                }
-                let word = match chain::command(name) {
-                    Some((words, ..)) => words,
-                    None => name.trim_end_matches(" OFF").trim_end_matches(" ON"),
-                };
-                self.pass_over(word, hash.span, at);
-                self.touch(hash, at);
-                if is_machine_data(name) {
-                    self.write_machine_data(hash, at);
-                }
-            }
+        }
+        let word = match command.chain {
+            Some(_) => command.name(),
+            None => name.trim_end_matches(" OFF").trim_end_matches(" ON"),
+        };
+        self.pass_over(word, hash.span, at);
+        self.touch(hash, at);
+        if command.action == HashAction::WriteMachineData {
+            self.write_machine_data(hash, at);
         }
         Ok(())
     }
 
     /// Applies the side effects of a command to the followed state (R2.93).
     fn touch(&mut self, hash: &Hash, at: &BlockContext<'_>) {
-        match hash_command(&hash.name) {
-            Some(Touches::Motion) => {
+        match hash.command.touches {
+            Touches::Motion => {
                 self.state.control.modal.havoc_positions();
                 self.perhaps_move_all();
             }
-            Some(Touches::Plane) => {
+            Touches::Plane => {
                 for axis in self.plane_axes() {
                     self.state.control.modal.havoc_position(axis);
                     self.scratch.perhaps_move(axis);
                 }
             }
-            Some(Touches::Friction) => {
-                for axis in self.axes_or_all(&hash.code(at.text)) {
+            Touches::Friction => {
+                for axis in self.axes_or_all(&hash.brackets, at.text) {
                     self.havoc(axis, KindSet::of(Kind::Frict));
                 }
                 self.say_undescribed(hash, at);
             }
-            _ => {}
+            Touches::Nothing | Touches::Values | Touches::Axes => {}
         }
     }
 
@@ -175,9 +171,9 @@ impl Interpreter {
 
     /// FC314: the whole axis list is transferred again (R2.92).
     fn write_machine_data(&mut self, hash: &Hash, at: &BlockContext<'_>) {
-        let text = &*hash.code(at.text);
         let lost = self.transferred(hash, at);
-        let friction = written(text) == WriteTarget::Friction;
+        let enables = enables(&hash.brackets, at.text);
+        let friction = written(&hash.brackets, at.text) == WriteTarget::Friction;
         if lost.is_empty() && !friction {
             return;
         }
@@ -186,11 +182,11 @@ impl Interpreter {
         self.state.rests_on.insert(Question::MachineData);
         for (axis, kinds) in lost {
             match reading {
-                Some(Alternative::First) if !friction || enables(text) => {
+                Some(Alternative::First) if !friction || enables => {
                     self.return_to_start(axis);
                     self.havoc(axis, kinds.without(KindSet::of(Kind::Frict)));
                 }
-                Some(Alternative::Second) if !friction || enables(text) => {
+                Some(Alternative::Second) if !friction || enables => {
                     self.havoc(axis, kinds.without(KindSet::of(Kind::Frict)));
                 }
                 _ => self.havoc(axis, kinds),
@@ -241,17 +237,4 @@ impl ControlState {
             frame.restores = None;
         }
     }
-}
-
-/// Whether `#INIT` names the whole family `V.E.` (PM/207988747).
-fn initialises_all(rest: &str) -> bool {
-    rest.split(',')
-        .any(|name| name.trim().eq_ignore_ascii_case("V.E."))
-}
-
-/// Whether the axes certainly keep moving through a command.
-fn goes_on(name: &str) -> bool {
-    ["#VAR", "#ENDVAR", "#COMMENT", "#MSG"]
-        .iter()
-        .any(|known| name.starts_with(known))
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::chain;
+use crate::interpreter::coordinates::modal::is_named_m;
 use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::file_names::{FileName, file_names};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
@@ -12,6 +12,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::value::Value;
+use crate::language::{CoordinateEffect, GFunction};
 use crate::syntax::Fault;
 use crate::syntax::ast::{CallScope, GCall, Hash};
 use crate::text::Span;
@@ -28,7 +29,7 @@ impl Interpreter {
         let FunctionWord { letter, number } = word;
         if letter == b'M' {
             match number {
-                Some(number) if !chain::is_named_m(number) => {
+                Some(number) if !is_named_m(number) => {
                     let called = self.call_word(word, span, at, outcome);
                     if !called && !self.machine.harmless.has_function(letter, number) {
                         self.state
@@ -84,17 +85,20 @@ impl Interpreter {
         if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at, outcome) {
             return true;
         }
-        if chain::is_implicit_call(number) {
+        let function = GFunction::known(number);
+        if function.is_some_and(GFunction::is_call) {
             self.call_without_program(number, span, at, outcome);
             return true;
         }
         if self.machine.harmless.has_function(b'G', i64::from(number)) {
             return false;
         }
-        if !chain::is_known_g(number) {
+        let Some(function) = function else {
             self.warn_unknown_g(number, span, at);
             self.pass_over_implicit(number);
-        } else if !chain::is_named_g(number) {
+            return false;
+        };
+        if function.coordinates == CoordinateEffect::Unfollowed {
             self.state
                 .control
                 .modal
@@ -167,7 +171,7 @@ impl Interpreter {
 
     /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
     pub(in crate::interpreter) fn name_programs(&mut self, hash: &Hash, at: &BlockContext<'_>) {
-        for (word, name) in file_names(&hash.code(at.text)) {
+        for (word, name) in file_names(hash, at.text) {
             let value = match name {
                 FileName::Written(name) => Value::Text(name.into()),
                 FileName::Elsewhere(name) => self.state.control.named_elsewhere(name),

@@ -5,8 +5,6 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::pace::AxisBracket;
-use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::effects::plc::has_function;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::block_scratch::{AfterError, BlockScratch};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -16,6 +14,7 @@ use crate::interpreter::run::stopping::{is_harmless, stops};
 use crate::interpreter::values::cause::PROBE;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::{Value, rounded};
+use crate::language::{AxisWords, Plc};
 use crate::syntax::ast::{Block, Flow, Item, Operand};
 use crate::syntax::{FastPath, Fault, hash_name};
 use crate::text::Span;
@@ -159,13 +158,18 @@ impl Interpreter {
             Item::Bracket {
                 axis,
                 keyword,
+                command,
+                arguments,
+                spindle,
                 span,
             } => {
                 let (name, keyword) = (axis.of(at.text), keyword.of(at.text));
-                self.scratch.plc_acts |= has_function(span.of(at.text));
+                self.scratch.plc_acts |= command.plc == Plc::Acts;
                 let bracket = AxisBracket {
                     name,
-                    keyword,
+                    command: *command,
+                    arguments,
+                    spindle,
                     span: *span,
                 };
                 self.bracket(bracket, at);

@@ -1,10 +1,9 @@
 //! Blocks whose jump waits for the signal of a probe (R2.91).
 
-use crate::interpreter::coordinates::chain::is_measuring;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::values::value::exact;
+use crate::language::GFunction;
 use crate::syntax::ast::{Address, Item};
 
 impl Interpreter {
@@ -34,5 +33,5 @@ impl Interpreter {
 /// G310 measures, and `$GOTO` in its block is taken if the probe answers (TF5200 Programming manual,
 /// 206197003). Its effect with the other measuring functions is not documented; they wait for the probe, too.
 fn measures(number: f64) -> bool {
-    exact(number).is_some_and(is_measuring)
+    GFunction::of_value(number).is_some_and(GFunction::is_measuring)
 }

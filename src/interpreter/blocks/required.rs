@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::coordinates::moving::{Certainty, MotionKind, MovedAxis};
+use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::AfterError;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -13,6 +12,7 @@ use crate::interpreter::run::options::{Branches, StopPolicy};
 use crate::interpreter::run::possible::Split;
 use crate::interpreter::run::possible_state::ways_of;
 use crate::interpreter::run::way_condition::limit_to;
+use crate::language::{AxisWords, Certainty, MotionKind};
 use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::text::Span;

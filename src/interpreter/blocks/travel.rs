@@ -1,9 +1,8 @@
 //! The motion of a block, from its words (R5.1).
 
 use crate::comp::AxisIndex;
-use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
+use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::{Geometry, WordValue};
-use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{
     Arc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
 };
@@ -12,6 +11,7 @@ use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
+use crate::language::{AxisWords, Group};
 use crate::machine::AxisType;
 use crate::text::Span;
 

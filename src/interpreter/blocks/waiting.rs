@@ -19,7 +19,7 @@ impl Interpreter {
         at: &BlockContext<'_>,
         outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
-        self.pass_over("#WAIT FOR", hash.span, at);
+        self.pass_over(hash.command.words, hash.span, at);
         // The PLC acts while the program waits, not after it.
         self.let_plc_act();
         self.scratch.plc_acts = false;

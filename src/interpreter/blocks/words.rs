@@ -5,13 +5,8 @@ use std::sync::Arc;
 
 use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
-use crate::interpreter::coordinates::chain;
-use crate::interpreter::coordinates::geometry::foreign;
-use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
-use crate::interpreter::coordinates::moving;
-use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::AxisNameMeaning;
@@ -21,20 +16,10 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::value::{exact, rounded};
+use crate::language::{AxisWords, GAction, GFunction, Group};
 use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, is_program_number, not_known, repeated_word};
 use crate::text::Span;
-
-/// G functions whose axis words are not a motion: software limits, gain, weighting of velocity,
-/// acceleration, ramp time and jerk, feedforward (PM/206573067, 206590731, 206596619, 206565643), manual mode (PM/206639371),
-/// mirroring by axis (PM/206266379).
-const NO_MOTION: [u32; 23] = [
-    98, 99, 112, 127, 130, 131, 132, 133, 134, 135, 136, 137, 200, 201, 202, 230, 231, 233, 333,
-    334, 338, 339, 351,
-];
-
-/// Homing: the axes move, but their words are not coordinates.
-const HOMING: u32 = 74;
 
 /// A word of one letter with its value, where that is known.
 #[derive(Debug, Clone, Copy)]
@@ -380,78 +365,95 @@ impl Interpreter {
             self.pass_over(&format!("G{number}"), span, at);
             return Ok(());
         };
-        let group = Group::of(number);
-        outcome.probes |= chain::is_measuring(number);
-        if outcome.is_second_of_group(number, group) {
+        let function = GFunction::of(number);
+        outcome.probes |= function.is_some_and(GFunction::is_measuring);
+        if function.is_some_and(|function| outcome.is_second_of_group(function)) {
             let message =
                 format!("`G{number:02}` is the second G function of its group in this block");
             let fault = Fault::new(Code::Fc313, span, message)
                 .with_help("a block takes one G function of each group");
             return Err(Box::new(fault));
         }
-        match (group, number) {
-            (Some(group), _) => self.state.control.modal.set(group, number),
-            (None, 4) => {
-                outcome.axis_words = AxisWords::Other;
+        let Some(function) = function else {
+            self.further_g(number, span, at, outcome);
+            return Ok(());
+        };
+        if let Some(group) = function.group {
+            self.state.control.modal.set(group, number);
+            return Ok(());
+        }
+        if let Some(step) = function.chain {
+            self.state.control.modal.chain(step);
+        }
+        match function.action {
+            GAction::Mirror | GAction::SwitchSpline => return Ok(()),
+            GAction::Dwell => {
+                outcome.axis_words = function.axis_words;
                 self.scratch.plc_acts = true;
                 self.scratch.dwells = true;
+                return Ok(());
             }
-            (None, 20..=23) => self.state.control.modal.mirror(number),
-            // PM/207256971, 207263627
-            (None, 150) => self.state.control.modal.hash("#SPLINE OFF"),
-            (None, 151) => self.state.control.modal.hash("#SPLINE ON"),
-            // PM/969743115: its axis words are the centre of the rotation.
-            (None, 68) => {
-                self.state.control.modal.hash("#ROTATION ON");
-                outcome.axis_words = AxisWords::Other;
-                self.pass_over("G68", span, at);
-            }
-            (None, 69) => {
-                self.state.control.modal.hash("#ROTATION OFF");
-                self.pass_over("G69", span, at);
-            }
-            (None, 60) => {
+            GAction::RestAtEnd => {
                 self.scratch.rests.set(true);
                 self.scratch.geometry().end = BlockEnd::ExactStop;
+                return Ok(());
             }
-            // PM/206744331
-            (None, 166) => self.scratch.geometry().at_full_speed = true,
-            (None, 163) if self.radius_word(span, at) => outcome.radius = Some(at.in_block(span)),
-            (None, 129) => {
-                self.weigh_rapid(span, at);
-                self.pass_over("G129", span, at);
+            GAction::RunAtFullSpeed => {
+                self.scratch.geometry().at_full_speed = true;
+                return Ok(());
             }
-            (None, 96 | 97) => {
-                self.state.control.modal.pace.cut(number == 96);
-                self.pass_over(&format!("G{number}"), span, at);
+            GAction::SetReference => {
+                outcome.axis_words = function.axis_words;
+                return Ok(());
             }
-            (None, 92) => outcome.axis_words = AxisWords::Reference,
-            // G61 and the like have no bearing on the compensation; a configured cycle has.
-            (None, _) => {
-                if self.g_program(number, span, at, outcome) {
-                    return Ok(());
-                }
-                if let Some(row) = moving::of_g(number) {
-                    self.scratch.word_row = Some(row);
-                    self.scratch.rests.set(true);
-                }
-                if number == HOMING {
-                    outcome.axis_words = AxisWords::Homing;
-                } else if NO_MOTION.contains(&number) {
-                    outcome.axis_words = AxisWords::Other;
-                } else if let Some(reason) = foreign(number) {
-                    self.scratch.geometry().foreign = Some(reason);
-                    if chain::is_measuring(number) {
-                        outcome.axis_words = AxisWords::Measuring;
-                    }
-                }
-                if let Some((what, holds)) = simplified::of_g(number) {
-                    self.simplify(what, holds);
-                }
-                self.pass_over(&format!("G{number}"), span, at);
+            GAction::SetRadius if self.radius_word(span, at) => {
+                outcome.radius = Some(at.in_block(span));
+                return Ok(());
+            }
+            // PM/969743115
+            GAction::Rotate if function.axis_words != AxisWords::Motion => {
+                outcome.axis_words = function.axis_words;
+            }
+            GAction::Rotate => {}
+            GAction::WeighRapid => self.weigh_rapid(span, at),
+            GAction::SetCuttingSpeed => self.state.control.modal.pace.cut(true),
+            GAction::SetSpindleSpeed => self.state.control.modal.pace.cut(false),
+            GAction::PassOver | GAction::Call | GAction::SetRadius => {
+                self.further_g(number, span, at, outcome);
+                return Ok(());
             }
         }
+        self.pass_over(&format!("G{number}"), span, at);
         Ok(())
+    }
+
+    /// A G function without a bearing on the compensation, G61 and the like; a configured cycle has one.
+    fn further_g(
+        &mut self,
+        number: u32,
+        span: Span,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+    ) {
+        if self.g_program(number, span, at, outcome) {
+            return;
+        }
+        if let Some(function) = GFunction::of(number) {
+            if let Some(motion) = function.motion {
+                self.scratch.word_row = Some(motion);
+                self.scratch.rests.set(true);
+            }
+            if function.axis_words != AxisWords::Motion {
+                outcome.axis_words = function.axis_words;
+            }
+            if function.unmodelled.is_some() {
+                self.scratch.geometry().foreign = function.unmodelled;
+            }
+            if let Some((what, holds)) = function.simplifies {
+                self.simplify(what, holds);
+            }
+        }
+        self.pass_over(&format!("G{number}"), span, at);
     }
 
     /// Turns axis words into positions when the whole block is known: G90, G91, G70 and G92 apply

@@ -17,22 +17,6 @@ pub struct AxisWord {
     pub from: Option<f64>,
 }
 
-/// Meaning of the axis words of a block.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(in crate::interpreter) enum AxisWords {
-    /// Coordinates to move to.
-    #[default]
-    Motion,
-    /// G74: the axes move to an unknown position.
-    Homing,
-    /// A measuring motion, which ends where the probe triggers.
-    Measuring,
-    /// G92: offsets.
-    Reference,
-    /// G04 and the like: other values.
-    Other,
-}
-
 /// A coordinate that counts from a place; unknown if any part is, or if the sum leaves the range of
 /// numbers.
 #[inline]

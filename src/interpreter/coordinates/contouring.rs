@@ -4,6 +4,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::language::ContouringCommand;
+use crate::syntax::ast::{Argument, BracketArguments};
+
 /// Rounding of transitions between blocks. Lengths are in mm; `None` means no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -30,15 +33,6 @@ pub enum Joining {
     WithinTolerance,
 }
 
-/// A command that sets the parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum ContouringCommand {
-    /// `#CONTOUR MODE` (PM/475147915).
-    Contour,
-    /// `#HSC` (PM/207278475).
-    HighSpeed,
-}
-
 /// Default of `PATH_DEV` and `PRE_DIST` (PM/475164939, PM/475180811).
 const CONTOUR_MM: f64 = 1.0;
 /// Default of `CONTERROR` (PM/207285131).
@@ -48,33 +42,18 @@ const SPLINE_MM: f64 = 0.2;
 const SPLINE_ANGLE_DEG: f64 = 5.0;
 
 impl ContouringCommand {
-    /// The command by its words.
-    pub(in crate::interpreter) fn of(name: &str) -> Option<Self> {
-        let begins = |words: &str| {
-            name.strip_prefix(words)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
-        };
-        if begins("#CONTOUR MODE") {
-            Some(Self::Contour)
-        } else {
-            begins("#HSC").then_some(Self::HighSpeed)
-        }
-    }
-
     /// Returns the parameters in the bracket of the command; `number` gives the value of an expression.
     /// A value that is not named is that of `before`; in a bracket of `#CONTOUR MODE` with a mode, and in
     /// any bracket of `#HSC`, it is the default.
     pub(in crate::interpreter) fn parameters(
         self,
         before: Contouring,
-        bracket: &str,
-        mut number: impl FnMut(&str) -> Option<f64>,
+        (arguments, text): (&BracketArguments, &str),
+        mut number: impl FnMut(&Argument) -> Option<f64>,
     ) -> Contouring {
-        let upper = bracket.to_ascii_uppercase();
-        let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let has = |word: &str| upper.split(|c| !is_word(c)).any(|it| it == word);
+        let has = |word: &str| arguments.has(word, text);
         // `Some(None)` is a value that is not known.
-        let mut value = |key: &str| value_after(key, bracket, &upper).map(&mut number);
+        let mut value = |key: &str| arguments.after(key, text).map(&mut number);
         match self {
             Self::Contour => {
                 let mut next = before;
@@ -106,7 +85,7 @@ impl ContouringCommand {
             }
             Self::HighSpeed => {
                 let spline = has("BSPLINE") || has("SURFACE");
-                let mut next = if bracket.trim().is_empty() {
+                let mut next = if arguments.iter().next().is_none() {
                     before
                 } else {
                     Contouring::high_speed()
@@ -169,44 +148,34 @@ impl Contouring {
     }
 }
 
-/// The word after a keyword and its `=`.
-pub(super) fn value_after<'a>(key: &str, text: &'a str, upper: &str) -> Option<&'a str> {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let mut from = 0;
-    loop {
-        let start = from + upper.get(from..)?.find(key)?;
-        let end = start + key.len();
-        let before = upper[..start].chars().next_back();
-        let after = upper[end..].chars().next();
-        from = end;
-        if before.is_some_and(is_word) || after.is_some_and(is_word) {
-            continue;
-        }
-        let rest = text.get(end..)?.trim_start();
-        let value = rest.strip_prefix('=').unwrap_or(rest).trim_start();
-        let length = value
-            .find(|c: char| c.is_whitespace() || c == ']' || c == ',')
-            .unwrap_or(value.len());
-        return Some(&value[..length]);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interpreter::coordinates::slope::plain_number;
+    use crate::language::HashAction;
+    use crate::syntax::ast::Item;
+    use crate::syntax::parse_block;
 
-    fn of(command: ContouringCommand, bracket: &str) -> Contouring {
+    fn of(command: &str, bracket: &str) -> Contouring {
+        let text = format!("{command} {bracket}");
+        let block = parse_block(&text);
+        let [Item::Hash(hash)] = block.items.as_slice() else {
+            panic!("{text}")
+        };
+        let HashAction::Round(command) = hash.command.action else {
+            panic!("{text}")
+        };
         let before = match command {
             ContouringCommand::Contour => Contouring::default(),
             ContouringCommand::HighSpeed => Contouring::high_speed(),
         };
-        command.parameters(before, bracket, |value| value.parse().ok())
+        command.parameters(before, (&hash.brackets, &text), plain_number)
     }
 
     #[test]
     fn parameters_are_those_of_the_bracket() {
         // R11.21
-        let contour = |bracket| of(ContouringCommand::Contour, bracket);
+        let contour = |bracket| of("#CONTOUR MODE", bracket);
         assert_eq!(contour("").tolerance_mm, Some(1.0));
         assert_eq!(contour("[DEV PATH_DEV=0.25]").tolerance_mm, Some(0.25));
         assert_eq!(contour("[dev path_dev = 0.5 ]").tolerance_mm, Some(0.5));
@@ -217,7 +186,7 @@ mod tests {
             (None, Some(2.0))
         );
         assert!((contour("[DEV REMAIN_PART=20]").reach - 0.4).abs() < 1e-12);
-        let fast = |bracket| of(ContouringCommand::HighSpeed, bracket);
+        let fast = |bracket| of("#HSC", bracket);
         assert_eq!(fast("").tolerance_mm, Some(0.1));
         assert_eq!(fast("[OPMODE 1 CONTERROR 0.01]").tolerance_mm, Some(0.01));
         assert_eq!(fast("[OPMODE 2]").tolerance_mm, None);

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::group::{Group, GroupSet};
 use super::lacking_feed::LackingFeeds;
 use super::motion::BlockEnd;
 use super::pace::ProgrammedFeed;
+use crate::language::{Group, GroupSet};
 
 /// Places of the feeds of G94 and G95.
 pub(super) const PER_MINUTE: usize = 1;

@@ -1,7 +1,7 @@
 //! The words of a block that shape its motion: I, J, K, R and the like (R2.46).
 
 use super::motion::BlockEnd;
-use super::simplified::Simplifications;
+use crate::language::Simplifications;
 use crate::text::Span;
 
 /// Value of a word: absent, or a value that may be unknown.
@@ -29,25 +29,4 @@ pub(in crate::interpreter) struct Geometry {
     pub(in crate::interpreter) around: usize,
     /// A G function that makes the block's motion something else.
     pub(in crate::interpreter) foreign: Option<&'static str>,
-}
-
-/// Reason why the motion of axis words with a G function is not modelled.
-pub(in crate::interpreter) fn foreign(number: u32) -> Option<&'static str> {
-    Some(match number {
-        33 => "G33 follows a spindle",
-        63 => "G63 follows a spindle",
-        100..=102 | 106 | 108 | 310 => "a measuring motion ends where the probe triggers",
-        301 | 302 => "G301 and G302 insert a contour",
-        303 => "G303 is an arc in space",
-        _ => return None,
-    })
-}
-
-/// Reason why a motion with a `#` command among its words is not modelled (PM/206123787, 206609163).
-pub(in crate::interpreter) fn foreign_command(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "#ANG" => "`#ANG` computes a coordinate from an angle",
-        "#CHF" | "#CHR" | "#RND" => "`#CHF`, `#CHR` and `#RND` insert a contour",
-        _ => return None,
-    })
 }

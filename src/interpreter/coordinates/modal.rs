@@ -5,15 +5,16 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use super::axis_words::{AxisWord, shifted};
-use super::chain::{self, ChainStep};
-use super::contouring::{Contouring, ContouringCommand};
+use super::contouring::Contouring;
 use super::g_functions::{GFunctions, PER_MINUTE, PER_REVOLUTION};
-use super::group::Group;
 use super::motion::{BlockEnd, ToolSide};
 use super::pace::{Pace, ProgrammedFeed};
-use super::simplified::{self, Holds, Simplification, Simplifications};
 use super::slope::SlopeSelection;
 use crate::comp::AxisIndex;
+use crate::language::{
+    ChainStep, ContouringCommand, GAction, GFunction, Group, HashAction, HashCommand, HashWords,
+    Holds, OnOff, Simplification, Simplifications,
+};
 use crate::machine::{ChannelSettings, SlopeProfile};
 
 /// Whether a position is one of the machine, and if not, what separates it from one; what separates more
@@ -184,11 +185,6 @@ impl Modal {
         }
     }
 
-    /// G20 switches mirroring off, G21 to G23 switch it on.
-    pub(in crate::interpreter) fn mirror(&mut self, number: u32) {
-        self.transform("G21", number != 20);
-    }
-
     /// A command or function that a commanded trace does not follow in full.
     pub(in crate::interpreter) fn simplify(&mut self, what: Simplification, holds: Holds) {
         self.simplified = match holds {
@@ -266,17 +262,28 @@ impl Modal {
     }
 
     /// Applies a `#` command to the coordinate chain.
-    pub fn hash(&mut self, name: &str) {
-        let Some((words, step, off)) = chain::command(name) else {
-            return;
+    pub(in crate::interpreter) fn hash(&mut self, command: HashWords) {
+        let switch = if command.is_off() {
+            OnOff::Off
+        } else {
+            OnOff::On
         };
+        if let Some(step) = command.chain {
+            self.chain((step, command.name(), switch));
+        }
+    }
+
+    /// Applies a step of a name to the coordinate chain.
+    pub(in crate::interpreter) fn chain(&mut self, (step, name, switch): (ChainStep, &str, OnOff)) {
         match step {
-            ChainStep::Coordinates => self.transform(words, !off),
-            ChainStep::Machine => self.machine_coordinates(words, off),
-            ChainStep::Path if off => _ = self.transformed.remove(words),
-            ChainStep::Path => self.note_transformed(words),
+            ChainStep::Coordinates | ChainStep::Kinematics => {
+                self.transform(name, switch == OnOff::On);
+            }
+            ChainStep::Machine => self.machine_coordinates(name, switch),
+            ChainStep::Path if switch == OnOff::Off => _ = self.transformed.remove(name),
+            ChainStep::Path => self.note_transformed(name),
             ChainStep::Origin => {
-                self.note_transformed(words);
+                self.note_transformed(name);
                 self.havoc_positions();
             }
         }
@@ -284,8 +291,8 @@ impl Modal {
 
     /// `#MCS ON` suspends all offsets until `#MCS OFF`. Positions programmed after either of them
     /// are not certainly machine positions any more.
-    fn machine_coordinates(&mut self, words: &str, off: bool) {
-        if off {
+    fn machine_coordinates(&mut self, name: &str, switch: OnOff) {
+        if switch == OnOff::Off {
             if let Some(references) = self.suspended.take() {
                 self.references = references;
             }
@@ -293,8 +300,17 @@ impl Modal {
             let none = vec![Some(0.0); self.references.len()];
             self.suspended = Some(std::mem::replace(&mut self.references, none));
         }
-        self.note_transformed(words);
+        self.note_transformed(name);
         self.havoc_positions();
+    }
+
+    /// Whether offsets may be switched off.
+    pub(in crate::interpreter) fn are_offsets_suspended(&self) -> bool {
+        let mut rows = self
+            .transformed
+            .iter()
+            .filter_map(|name| HashCommand::named(name));
+        rows.any(|row| row.chain == Some(ChainStep::Machine))
     }
 
     /// Positions are in program coordinates from here on.
@@ -305,10 +321,15 @@ impl Modal {
     }
 
     /// A `#` command that may or may not have been executed.
-    pub(in crate::interpreter) fn havoc_hash(&mut self, name: &str) {
-        self.skewed &= !name.starts_with("#ROTATION");
+    pub(in crate::interpreter) fn havoc_hash(&mut self, command: HashWords) {
+        self.skewed &= command.action != HashAction::Rotate;
         let mut after = self.clone();
-        after.hash(name);
+        after.hash(command);
+        self.havoc_chain(after);
+    }
+
+    /// A step of the coordinate chain, with this state after it, may or may not have been executed.
+    fn havoc_chain(&mut self, after: Self) {
         if after != *self {
             if after.references != self.references {
                 self.references.fill(None);
@@ -444,20 +465,29 @@ impl Modal {
             self.references.fill(None);
             return;
         };
-        match Group::of(number) {
+        let Some(function) = GFunction::of(number) else {
+            return;
+        };
+        match function.group {
             Some(Group::Offset) => self.havoc_positions(),
             Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
-            None if (21..=23).contains(&number) => self.transform("G21", true),
-            None if number == 151 => self.note_transformed("#SPLINE"),
-            None if matches!(number, 68 | 69) => self.havoc_hash("#ROTATION ON"),
-            None if matches!(number, 96 | 97) => self.pace.havoc_spindle(),
-            None if number == 129 => self.pace.havoc_overrides(),
             _ => {}
         }
-        if let Some((what, Holds::On)) = simplified::of_g(number) {
+        match function.action {
+            GAction::SetCuttingSpeed | GAction::SetSpindleSpeed => self.pace.havoc_spindle(),
+            GAction::WeighRapid => self.pace.havoc_overrides(),
+            GAction::Rotate => self.skewed = false,
+            _ => {}
+        }
+        if let Some(step) = function.chain {
+            let mut after = self.clone();
+            after.chain(step);
+            self.havoc_chain(after);
+        }
+        if let Some((what, Holds::On)) = function.simplifies {
             self.perhaps_simplify(what);
         }
-        if let Some(group) = Group::of(number) {
+        if let Some(group) = function.group {
             self.functions.unknown.insert(group);
         }
     }
@@ -564,7 +594,7 @@ impl Modal {
     /// What separates positions from those of the machine.
     pub fn frame(&self) -> PositionFrame {
         let names = self.transformed.iter();
-        let frames = names.map(|name| chain::frame(name));
+        let frames = names.map(|name| frame_of(name));
         frames.max().unwrap_or(PositionFrame::Machine)
     }
 
@@ -578,4 +608,24 @@ impl Modal {
             _ => None,
         }
     }
+}
+
+/// What the command or function of a name makes of positions (R11.30): an M, T or D function that may move the
+/// origin leaves paths as they are; one whose number is not known may call any program.
+fn frame_of(name: &str) -> PositionFrame {
+    if name == "G41" {
+        return PositionFrame::Contour;
+    }
+    let is_function = name.starts_with(['M', 'T', 'D']) && name[1..].parse::<u64>().is_ok();
+    match HashCommand::named(name).and_then(|row| row.chain) {
+        Some(ChainStep::Origin | ChainStep::Machine) => PositionFrame::Shifted,
+        None if is_function => PositionFrame::Shifted,
+        _ => PositionFrame::Programmed,
+    }
+}
+
+/// Whether an M function is known not to move an origin: those of DIN 66025-2 and of the manual's overview
+/// (tccncprogramming/15557312651).
+pub(in crate::interpreter) fn is_named_m(number: i64) -> bool {
+    matches!(number, 0..=17 | 19 | 29..=31 | 40..=49 | 60)
 }

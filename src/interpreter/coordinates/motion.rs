@@ -5,8 +5,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::contouring::Contouring;
-use super::simplified::Simplifications;
 use crate::comp::AxisIndex;
+use crate::language::Simplifications;
 use crate::machine::SlopeProfile;
 
 /// Whether blocks report their motion.

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::g_functions::GFunctions;
-use super::group::Group;
 use super::modal::Modal;
+use crate::language::Group;
 
 /// G functions that separate positions from those of the machine.
 const TRANSFORMING: [&str; 2] = ["G41", "G21"];

@@ -2,8 +2,9 @@
 //!
 //! PM/n is page n of the TF5200 programming manual, HSC/n one of the HSC package.
 
-use super::contouring::value_after;
+use crate::language::SlopeForm;
 use crate::machine::SlopeProfile;
+use crate::syntax::ast::{Argument, BracketArguments};
 
 /// A selection of the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,71 +17,84 @@ pub(in crate::interpreter) enum SlopeSelection {
     Unknown,
 }
 
+/// The profiles that `TYPE` names.
+const PROFILES: [(&str, SlopeProfile); 4] = [
+    ("STEP", SlopeProfile::Step),
+    ("TRAPEZ", SlopeProfile::Trapez),
+    ("SIN2", SlopeProfile::Sin2),
+    ("HSC", SlopeProfile::Hsc),
+];
+
 impl SlopeSelection {
-    /// The selection of `#SLOPE [TYPE=SIN2]`, `#SLOPE DEFAULT` (PM/207190411) or the older
-    /// `#SET SLOPE PROFIL [2]` (HSC/15427921547); `None` for another command.
+    /// The selection of a command; `None` where its bracket names no profile.
     pub(in crate::interpreter) fn of(
-        name: &str,
-        bracket: &str,
-        mut number: impl FnMut(&str) -> Option<f64>,
+        form: SlopeForm,
+        (arguments, text): (&BracketArguments, &str),
+        mut number: impl FnMut(&Argument) -> Option<f64>,
     ) -> Option<Self> {
-        let upper = bracket.to_ascii_uppercase();
-        let profile = match name {
-            "#SLOPE DEFAULT" => return Some(Self::Channel),
-            "#SLOPE" => match value_after("TYPE", &upper, &upper)? {
-                "STEP" => Some(SlopeProfile::Step),
-                "TRAPEZ" => Some(SlopeProfile::Trapez),
-                "SIN2" => Some(SlopeProfile::Sin2),
-                "HSC" => Some(SlopeProfile::Hsc),
-                _ => None,
-            },
-            "#SET SLOPE PROFIL" => {
-                let first = bracket.trim_matches(['[', ']']).split(',').next()?;
-                number(first.trim()).and_then(SlopeProfile::numbered)
+        let profile = match form {
+            SlopeForm::Channel => return Some(Self::Channel),
+            SlopeForm::Named => {
+                let named = arguments.after("TYPE", text)?.span.of(text);
+                let named = PROFILES
+                    .iter()
+                    .find(|(name, _)| name.eq_ignore_ascii_case(named));
+                named.map(|(_, profile)| *profile)
             }
-            _ => return None,
+            SlopeForm::Numbered => {
+                let first = arguments.iter().next()?;
+                number(first).and_then(SlopeProfile::numbered)
+            }
         };
-        let optimized = value_after("NO_OPT", bracket, &upper).map(&mut number);
+        let optimized = arguments.after("NO_OPT", text).map(&mut number);
         let is_plain = optimized.is_none_or(|given| given == Some(1.0));
         let known = profile.filter(|_| is_plain);
         Some(known.map_or(Self::Unknown, Self::Program))
     }
 }
 
+/// The value of an argument that is a plain number.
+#[cfg(test)]
+pub(super) fn plain_number(argument: &Argument) -> Option<f64> {
+    match argument.value? {
+        crate::syntax::ast::Operand::Number(number) => Some(number),
+        crate::syntax::ast::Operand::Expression(_) => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::HashAction;
+    use crate::syntax::ast::Item;
+    use crate::syntax::parse_block;
 
     #[test]
     fn commands_select_a_profile() {
         // R11.20
-        let of =
-            |name, bracket| SlopeSelection::of(name, bracket, |value: &str| value.parse().ok());
+        let of = |text: &str| {
+            let block = parse_block(text);
+            let [Item::Hash(hash)] = block.items.as_slice() else {
+                panic!("{text}")
+            };
+            let HashAction::SelectSlope(form) = hash.command.action else {
+                panic!("{text}")
+            };
+            SlopeSelection::of(form, (&hash.brackets, text), plain_number)
+        };
         let program = |profile| Some(SlopeSelection::Program(profile));
-        assert_eq!(of("#SLOPE", "[TYPE=SIN2]"), program(SlopeProfile::Sin2));
+        let unknown = Some(SlopeSelection::Unknown);
+        assert_eq!(of("#SLOPE [TYPE=SIN2]"), program(SlopeProfile::Sin2));
         assert_eq!(
-            of("#SLOPE", "[ type = hsc NO_OPT=1 ]"),
+            of("#SLOPE [ type = hsc NO_OPT=1 ]"),
             program(SlopeProfile::Hsc)
         );
-        assert_eq!(
-            of("#SLOPE", "[TYPE=STEP NO_OPT=0]"),
-            Some(SlopeSelection::Unknown)
-        );
-        assert_eq!(of("#SLOPE", "[TYPE=ROUND]"), Some(SlopeSelection::Unknown));
-        assert_eq!(of("#SLOPE", "[]"), None);
-        assert_eq!(of("#SLOPE DEFAULT", ""), Some(SlopeSelection::Channel));
-        assert_eq!(
-            of("#SET SLOPE PROFIL", "[1]"),
-            program(SlopeProfile::Trapez)
-        );
-        assert_eq!(
-            of("#SET SLOPE PROFIL", "[0, 2]"),
-            program(SlopeProfile::Step)
-        );
-        assert_eq!(
-            of("#SET SLOPE PROFIL", "[V.E.A]"),
-            Some(SlopeSelection::Unknown)
-        );
-        assert_eq!(of("#HSC ON", ""), None);
+        assert_eq!(of("#SLOPE [TYPE=STEP NO_OPT=0]"), unknown);
+        assert_eq!(of("#SLOPE [TYPE=ROUND]"), unknown);
+        assert_eq!(of("#SLOPE []"), None);
+        assert_eq!(of("#SLOPE DEFAULT"), Some(SlopeSelection::Channel));
+        assert_eq!(of("#SET SLOPE PROFIL [1]"), program(SlopeProfile::Trapez));
+        assert_eq!(of("#SET SLOPE PROFIL [0, 2]"), program(SlopeProfile::Step));
+        assert_eq!(of("#SET SLOPE PROFIL [V.E.A]"), unknown);
     }
 }

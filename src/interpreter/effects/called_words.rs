@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::chain;
-use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::coordinates::modal::is_named_m;
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -12,6 +11,7 @@ use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::value::Value;
+use crate::language::{CoordinateEffect, GFunction};
 use crate::syntax::Fault;
 use crate::syntax::ast::CallScope;
 use crate::text::Span;
@@ -226,18 +226,15 @@ impl Interpreter {
         match (letter, word.number) {
             (_, Some(number)) => {
                 let number = u32::try_from(number).unwrap_or(u32::MAX);
+                let function = GFunction::known(number).filter(|_| letter == 'G');
                 let known = match letter {
-                    'M' => chain::is_named_m(i64::from(number)),
-                    'G' => {
-                        Group::of(number).is_some()
-                            || matches!(number, 20..=23 | 150 | 151)
-                            || chain::is_named_g(number)
-                    }
+                    'M' => is_named_m(i64::from(number)),
+                    'G' => function.is_some_and(|it| it.coordinates == CoordinateEffect::None),
                     _ => true,
                 };
                 let harmless = &self.machine.harmless;
                 let is_harmless = harmless.has_function(word.letter, i64::from(number));
-                if letter == 'G' && chain::is_implicit_call(number) {
+                if function.is_some_and(GFunction::is_call) {
                     if is_harmless {
                         self.pass_over_implicit(number);
                     } else if !has_program {
@@ -253,7 +250,7 @@ impl Interpreter {
                 if is_harmless {
                     return;
                 }
-                if letter == 'G' && !chain::is_known_g(number) {
+                if letter == 'G' && function.is_none() {
                     self.pass_over_implicit(number);
                 } else if !known {
                     let word = format!("{letter}{number}");

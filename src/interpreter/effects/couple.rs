@@ -1,27 +1,27 @@
 //! Commands that define, enable and release coupling groups (R2.47).
 
 use crate::comp::AxisIndex;
-use crate::interpreter::coordinates::moving::{self, Moves, is_between};
-use crate::interpreter::coordinates::simplified::{Holds, Simplification};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::language::{FurtherWord, Holds, MembersBy, Moves, OnOff, Simplification};
+use crate::syntax::ast::{Argument, BracketArguments, Hash};
 
 impl Interpreter {
     pub(in crate::interpreter) fn define_coupling(
         &mut self,
-        rest: &str,
+        hash: &Hash,
         axes: Vec<AxisIndex>,
         at: &BlockContext<'_>,
     ) {
-        let group = self.group_of(rest, at);
+        let group = self.group_of(hash, at);
         self.scratch.wrote = true;
         let changed = self.state.control.couplings.define(&group, axes);
         self.state.control.mark_coupled(changed);
     }
 
-    pub(in crate::interpreter) fn enable_coupling(&mut self, rest: &str, at: &BlockContext<'_>) {
-        let group = self.group_of(rest, at);
+    pub(in crate::interpreter) fn enable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+        let group = self.group_of(hash, at);
         self.simplify(Simplification::Coupling, Holds::On);
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         let changed = self.state.control.couplings.enable(&group, axes);
@@ -30,8 +30,8 @@ impl Interpreter {
     }
 
     /// Without a group the last one that was enabled is released.
-    pub(in crate::interpreter) fn disable_coupling(&mut self, rest: &str, at: &BlockContext<'_>) {
-        let group = self.group_of(rest, at);
+    pub(in crate::interpreter) fn disable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+        let group = self.group_of(hash, at);
         let changed = if group.is_empty() {
             self.state.control.couplings.release_last()
         } else {
@@ -64,15 +64,16 @@ impl Interpreter {
     }
 
     /// Commands by which an axis follows others, apart from the coupling groups (R10.7).
-    pub(in crate::interpreter) fn couple_by(&mut self, name: &str, rest: &str) {
-        let Some(row) = moving::of_command(name) else {
+    pub(in crate::interpreter) fn couple_by(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+        let command = hash.command;
+        let Some(motion) = command.motion else {
             return;
         };
-        let off = name.split(' ').any(|word| word == "OFF");
-        match row.moves {
+        let off = command.has(FurtherWord::Off);
+        match motion.moves {
             Moves::Gantry if off => self.state.control.couplings.unfollow(GANTRY),
             Moves::Gantry => {
-                let mut axes = self.axes_in(rest);
+                let mut axes = self.axes_in(&hash.brackets, at.text);
                 axes.dedup();
                 if axes.len() < 2 {
                     axes = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
@@ -87,24 +88,22 @@ impl Interpreter {
                     .couplings
                     .follow(GANTRY.to_owned(), pairs);
             }
-            Moves::Follower => self.link_gear(rest, off),
+            Moves::Follower => {
+                let switch = if off { OnOff::Off } else { OnOff::On };
+                self.link_gear(&hash.brackets, switch, at);
+            }
             _ => {}
         }
     }
 
     /// `#GEAR LINK [TARGET=X AX1=Y NUM1=1 DENOM1=2]` (PM/546229387), `#CAXTRACK ON [AX=C]`.
-    fn link_gear(&mut self, rest: &str, off: bool) {
-        let words: Vec<&str> = rest.split(is_between).filter(|it| !it.is_empty()).collect();
-        let after = |key: &str| {
-            let named = words.windows(2).filter(move |pair| {
-                let rest = pair[0]
-                    .get(..key.len())
-                    .filter(|it| it.eq_ignore_ascii_case(key));
-                rest.is_some()
-            });
-            let axes = named.filter_map(|pair| self.axis_or_number(pair[1]));
+    fn link_gear(&mut self, arguments: &BracketArguments, switch: OnOff, at: &BlockContext<'_>) {
+        let after = |key| {
+            let named = arguments.after_beginning(key, at.text);
+            let axes = named.filter_map(|axis| self.axis_or_number(axis, at.text));
             axes.collect::<Vec<_>>()
         };
+        let off = switch == OnOff::Off;
         let (targets, sources) = (after("TARGET"), after("AX"));
         let target = targets.first().copied();
         let key = target.map_or_else(|| CAXTRACK.to_owned(), gear_of);
@@ -126,14 +125,15 @@ impl Interpreter {
         }
     }
 
-    /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531). All text is in
-    /// upper case.
-    pub(in crate::interpreter) fn gear_in(&mut self, axis: AxisIndex, body: &str) {
-        let mut words = body.split(is_between).filter(|it| !it.is_empty());
-        let master = words
-            .find(|word| *word == "MASTER")
-            .and_then(|_| words.next());
-        match master.and_then(|master| self.axis_or_number(master)) {
+    /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531).
+    pub(in crate::interpreter) fn gear_in(
+        &mut self,
+        axis: AxisIndex,
+        arguments: &BracketArguments,
+        at: &BlockContext<'_>,
+    ) {
+        let master = arguments.after("MASTER", at.text);
+        match master.and_then(|master| self.axis_or_number(master, at.text)) {
             Some(master) => {
                 let pairs = vec![(axis, master)];
                 self.state.control.couplings.follow(gear_of(axis), pairs);
@@ -142,42 +142,47 @@ impl Interpreter {
         }
     }
 
-    fn axis_or_number(&self, word: &str) -> Option<AxisIndex> {
-        let number = word.parse().ok();
+    fn axis_or_number(&self, argument: &Argument, text: &str) -> Option<AxisIndex> {
+        let number = argument.logical_number(text);
         let by_number = || {
             let mut axes = self.machine.axes.iter();
             let position = axes.position(|axis| number.is_some() && axis.number == number);
             position.map(AxisIndex::new)
         };
-        self.axis_now(word).or_else(by_number)
+        self.axis_now(argument.span.of(text)).or_else(by_number)
     }
 
-    /// The axes that a definition of a coupling group names; `None` for any other command.
-    pub(in crate::interpreter) fn defined_axes(
+    /// The axes that a definition of a coupling group names.
+    pub(in crate::interpreter) fn members(
         &self,
-        name: &str,
-        rest: &str,
-    ) -> Option<Vec<AxisIndex>> {
-        match name {
-            "#SET AX LINK" | "#AX LINK" => Some(self.axes_in(rest)),
-            "#SET AX LINK NBR" | "#AX LINK NBR" => Some(self.axes_by_number(rest)),
-            _ => None,
+        by: MembersBy,
+        arguments: &BracketArguments,
+        text: &str,
+    ) -> Vec<AxisIndex> {
+        match by {
+            MembersBy::Name => self.axes_in(arguments, text),
+            MembersBy::Number => self.axes_by_number(arguments, text),
         }
     }
 
     /// The coupling group that `[1, …]` or `[P1+1]` names; empty without one.
-    fn group_of(&mut self, rest: &str, at: &BlockContext<'_>) -> String {
-        let inside = rest.trim_start().strip_prefix('[').unwrap_or_default();
-        let text = inside.split([',', ']']).next().unwrap_or_default().trim();
-        match self.number_in(text, at) {
+    fn group_of(&mut self, hash: &Hash, at: &BlockContext<'_>) -> String {
+        let Some(group) = hash.brackets.iter().next() else {
+            return String::new();
+        };
+        match self.argument_number(group, at) {
             Some(number) => number.round().to_string(),
-            None => text.to_owned(),
+            None => group.span.of(at.text).to_owned(),
         }
     }
 
     /// The axes that a command names, or else all.
-    pub(in crate::interpreter) fn axes_or_all(&self, rest: &str) -> Vec<AxisIndex> {
-        let named = self.axes_in(rest);
+    pub(in crate::interpreter) fn axes_or_all(
+        &self,
+        arguments: &BracketArguments,
+        text: &str,
+    ) -> Vec<AxisIndex> {
+        let named = self.axes_in(arguments, text);
         if named.is_empty() {
             (0..self.machine.axes.len()).map(AxisIndex::new).collect()
         } else {
@@ -185,18 +190,18 @@ impl Interpreter {
         }
     }
 
-    pub(in crate::interpreter) fn axes_in(&self, text: &str) -> Vec<AxisIndex> {
-        names_in(text)
-            .filter_map(|word| self.axis_now(word))
-            .collect()
+    pub(in crate::interpreter) fn axes_in(
+        &self,
+        arguments: &BracketArguments,
+        text: &str,
+    ) -> Vec<AxisIndex> {
+        let words = arguments.words(text);
+        words.filter_map(|word| self.axis_now(word)).collect()
     }
 
     /// The axes with the logical numbers of `[1, 8 = 2]`, the group left out.
-    pub(in crate::interpreter) fn axes_by_number(&self, text: &str) -> Vec<AxisIndex> {
-        let pairs = text.split_once(',').map_or("", |(_, pairs)| pairs);
-        let numbers: Vec<u32> = names_in(pairs)
-            .filter_map(|word| word.parse().ok())
-            .collect();
+    fn axes_by_number(&self, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
+        let numbers = arguments.logical_numbers(text);
         let axes = self.machine.axes.iter().enumerate();
         axes.filter(|(_, axis)| axis.number.is_some_and(|number| numbers.contains(&number)))
             .map(|(position, _)| AxisIndex::new(position))
@@ -229,26 +234,11 @@ impl ControlState {
     }
 }
 
-/// Whether a command determines which axes follow others, apart from coupling groups.
-pub(in crate::interpreter) fn is_follower_command(name: &str) -> bool {
-    let row = moving::of_command(name);
-    row.is_some_and(|row| matches!(row.moves, Moves::Gantry | Moves::Follower))
-}
-
-/// Whether an axis follows no other one after the command with this keyword in its bracket.
-pub(in crate::interpreter) fn ends_following(keyword: &str) -> bool {
-    keyword.starts_with("MC_GEAROUT") || keyword.starts_with("MC_STOP")
-}
-
 /// Returns the name of the gear of an axis.
 pub(in crate::interpreter) fn gear_of(axis: AxisIndex) -> String {
     format!("gear {}", axis.get())
 }
 
-/// Name of the followers of other commands.
-const GANTRY: &str = "#GANTRY";
-const CAXTRACK: &str = "#CAXTRACK";
-
-fn names_in(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
-}
+/// Names of the followers of other commands.
+const GANTRY: &str = "gantry";
+const CAXTRACK: &str = "track";

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::PositionFrame;
-use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
@@ -17,7 +17,7 @@ use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::variable::canonical;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Assignment, BinaryOperator, Block, Expression, Node, Operand, Owner};
+use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
 use crate::text::Span;
 
 /// Different words that are counted as passed over, one by one.
@@ -385,17 +385,22 @@ impl Interpreter {
         numeric(&self.value(operand, at)?, span)
     }
 
-    /// The number that a text is, `2` or `P1+1`, if it is known.
-    pub(in crate::interpreter) fn number_in(
+    /// The number that an argument of a command means; `None` where it is not known.
+    pub(in crate::interpreter) fn argument_number(
         &mut self,
-        text: &str,
+        argument: &Argument,
         at: &BlockContext<'_>,
     ) -> Option<f64> {
-        let mut block = Block::default();
-        let operand = crate::syntax::parse_expression(text, &mut block)?;
-        let shown = ShownBlockLines::default();
-        let inner = at.part(text, &block, &shown);
-        match self.value(operand, &inner) {
+        self.operand_number(argument.value?, at)
+    }
+
+    /// The number of a value; `None` where it is not known.
+    pub(in crate::interpreter) fn operand_number(
+        &mut self,
+        value: Operand,
+        at: &BlockContext<'_>,
+    ) -> Option<f64> {
+        match self.value(value, at) {
             Ok(Value::Number(number)) => Some(number),
             _ => None,
         }

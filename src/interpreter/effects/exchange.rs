@@ -15,51 +15,30 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
 use crate::interpreter::values::work_budget::ITEM;
+use crate::language::{Exchange, FurtherWord};
 use crate::readings::Question;
 use crate::syntax::Fault;
-use crate::syntax::ast::Hash;
-
-/// Kind of an exchange command.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Exchange {
-    /// The named axes come.
-    Request,
-    /// The named axes go.
-    Release,
-    /// The named axes come; all others go.
-    Define,
-    /// The axes are again those of an earlier moment.
-    Restore,
-    /// Axes come or go in a way that no public page describes.
-    Undescribed,
-}
-
-/// The exchange commands by their first words.
-const COMMANDS: [(&str, Exchange); 8] = [
-    ("#ACHSTAUSCH", Exchange::Undescribed),
-    ("#CALL AX", Exchange::Request),
-    ("#AX REQUEST", Exchange::Request),
-    ("#PUT AX", Exchange::Release),
-    ("#AX RELEASE", Exchange::Release),
-    ("#SET AX", Exchange::Define),
-    ("#AX DEF", Exchange::Define),
-    ("#LOAD CONFIG", Exchange::Restore),
-];
+use crate::syntax::ast::{Argument, BracketArguments, Hash};
 
 impl Interpreter {
     /// Executes an exchange command.
-    pub(in crate::interpreter) fn exchange_axes(&mut self, hash: &Hash, at: &BlockContext<'_>) {
-        let Some(exchange) = exchange(&hash.name) else {
-            return;
-        };
-        self.state.control.modal.hash(&hash.name);
-        let rest = &*hash.code(at.text);
-        let every = |word: &str| hash.name.ends_with(word) || rest.trim_start().starts_with(word);
-        if every("DEFAULT") {
+    pub(in crate::interpreter) fn exchange_axes(
+        &mut self,
+        exchange: Exchange,
+        hash: &Hash,
+        at: &BlockContext<'_>,
+    ) {
+        self.state.control.modal.hash(hash.command);
+        let command = hash.command;
+        if command.has(FurtherWord::Default) {
             self.state.control.channel_axes = ChannelAxes::default();
         }
-        let mut names = groups(rest).flat_map(|group| names_of(exchange, group));
-        if let Some(name) = names.find(|name| !name.bytes().all(is_name_byte)) {
+        let named = NamedInExchange {
+            arguments: &hash.brackets,
+            text: at.text,
+        };
+        let names = named.names(exchange);
+        if let Some(name) = names.iter().find(|name| !name.bytes().all(is_name_byte)) {
             self.state.control.havoc_exchange();
             let message = format!(
                 "`{name}` is not an axis name; which axes `{}` exchanges is not known, and a COMP command after it may \
@@ -86,28 +65,21 @@ impl Interpreter {
                 );
                 self.scratch.diagnostics.push(at.diagnostic(fault));
             }
-            Exchange::Request => self.request_axes(rest, at),
-            Exchange::Release if every("ALL") => self.release_others(&[]),
-            Exchange::Release => {
-                let names = groups(rest).flat_map(|group| names_of(exchange, group));
-                names.for_each(|name| self.release_axis(name));
-            }
+            Exchange::Request => self.request_axes(named, at),
+            Exchange::Release if command.has(FurtherWord::All) => self.release_others(&[]),
+            Exchange::Release => names.into_iter().for_each(|name| self.release_axis(name)),
             Exchange::Define => {
-                if !every("DEFAULT") {
-                    let names = groups(rest).flat_map(|group| names_of(exchange, group));
-                    self.release_others(&names.collect::<Vec<_>>());
+                if !command.has(FurtherWord::Default) {
+                    self.release_others(&names);
                 }
-                self.request_axes(rest, at);
+                self.request_axes(named, at);
             }
         }
     }
 
-    fn request_axes(&mut self, rest: &str, at: &BlockContext<'_>) {
-        for group in groups(rest) {
-            let (Some(name), number) = axis_of(&group) else {
-                continue;
-            };
-            let number = number.and_then(|number| self.number_in(number, at));
+    fn request_axes(&mut self, named: NamedInExchange<'_>, at: &BlockContext<'_>) {
+        for (name, number) in named.axes() {
+            let number = number.and_then(|number| self.argument_number(number, at));
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);
             if let Some(AxisNameMeaning::Axis(axis)) = meaning
@@ -215,65 +187,63 @@ impl ControlState {
     }
 }
 
-fn exchange(name: &str) -> Option<Exchange> {
-    let begins = |words: &str| {
-        let rest = name.strip_prefix(words);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
-    };
-    let is_coupling = name.starts_with("#SET AX LINK");
-    let row = COMMANDS.iter().find(|(words, _)| begins(words));
-    row.filter(|_| !is_coupling).map(|(_, exchange)| *exchange)
+/// The axes in the brackets of an exchange command.
+#[derive(Clone, Copy)]
+struct NamedInExchange<'a> {
+    arguments: &'a BracketArguments,
+    text: &'a str,
 }
 
-/// Whether a `#` command exchanges axes.
-pub(in crate::interpreter) fn is_exchange(name: &str) -> bool {
-    exchange(name).is_some()
-}
-
-/// The words of each bracket, `[X, 1, 0][Y, 2, 1]`.
-fn groups(text: &str) -> impl Iterator<Item = Vec<&str>> {
-    let brackets = text.split('[').skip(1);
-    brackets.map(|group| {
-        let inside = group.split(']').next().unwrap_or_default();
-        inside.split(',').map(str::trim).collect()
-    })
-}
-
-/// The names of a bracket: `[X, B]` and `[NAME=X]` of a release, one of a request.
-fn names_of(exchange: Exchange, group: Vec<&str>) -> Vec<&str> {
-    match exchange {
-        Exchange::Release => {
-            let names = group.into_iter();
-            names
-                .map(|name| keyed(name, "NAME").unwrap_or(name))
-                .collect()
+impl<'a> NamedInExchange<'a> {
+    /// The names: of `[X, B]` and `[NAME=X]` of a release, of each bracket of a request.
+    fn names(self, exchange: Exchange) -> Vec<&'a str> {
+        match exchange {
+            Exchange::Release => {
+                let items = self.arguments.items();
+                items
+                    .map(|item| self.keyed(item, "NAME").unwrap_or(self.whole(item)))
+                    .collect()
+            }
+            Exchange::Request | Exchange::Define => self.axes().map(|(name, _)| name).collect(),
+            Exchange::Restore | Exchange::Undescribed => Vec::new(),
         }
-        Exchange::Request | Exchange::Define => axis_of(&group).0.into_iter().collect(),
-        Exchange::Restore | Exchange::Undescribed => Vec::new(),
     }
-}
 
-/// The value of a key, `X` of `NAME = X NR = 1`.
-fn keyed<'a>(words: &'a str, key: &str) -> Option<&'a str> {
-    let (_, rest) = words.split_once(key)?;
-    let value = rest.trim_start().strip_prefix('=')?;
-    value.split_whitespace().next()
+    /// The name and the logical number of each bracket, `[X, 1, 0]` or `[NAME=X NR=1 IDX=0]`, unless it holds switches
+    /// for conflicts, `[NAM, NBR, IDX]`.
+    fn axes(self) -> impl Iterator<Item = (&'a str, Option<&'a Argument>)> {
+        self.arguments.groups().filter_map(move |group| {
+            let mut items = group.chunk_by(|one, other| one.item == other.item);
+            let first = items.next()?;
+            let whole = self.whole(first);
+            if first.iter().any(|argument| argument.key.is_some()) {
+                let number = group.iter().find(|it| self.has_key(it, "NR"));
+                return Some((self.keyed(group, "NAME").unwrap_or(whole), number));
+            }
+            let is_switch = matches!(whole, "NAM" | "NBR" | "IDX" | "FAST");
+            let number = items.next().and_then(<[_]>::first);
+            (!is_switch).then_some((whole, number))
+        })
+    }
+
+    fn has_key(self, argument: &Argument, key: &str) -> bool {
+        argument.key.is_some_and(|it| it.of(self.text) == key)
+    }
+
+    /// The value of a key, `X` of `NAME = X NR = 1`.
+    fn keyed(self, arguments: &[Argument], key: &str) -> Option<&'a str> {
+        let argument = arguments.iter().find(|it| self.has_key(it, key))?;
+        Some(argument.span.of(self.text))
+    }
+
+    /// The text of arguments without commas in between.
+    fn whole(self, item: &[Argument]) -> &'a str {
+        let start = item.first().map(|first| first.key.unwrap_or(first.span));
+        let whole = start.zip(item.last());
+        whole.map_or("", |(start, last)| start.to(last.span).of(self.text))
+    }
 }
 
 fn is_name_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
-}
-
-/// The name and the logical number of a bracket, `X, 1, 0` or `NAME=X NR=1 IDX=0`; no name where
-/// it holds switches for conflicts, `NAM, NBR, IDX`.
-fn axis_of<'a>(group: &[&'a str]) -> (Option<&'a str>, Option<&'a str>) {
-    let first = group.first().copied().unwrap_or_default();
-    if first.contains('=') {
-        let value = |key: &str| group.iter().find_map(|words| keyed(words, key));
-        return (value("NAME").or(Some(first)), value("NR"));
-    }
-    if first.is_empty() || matches!(first, "NAM" | "NBR" | "IDX" | "FAST") {
-        return (None, None);
-    }
-    (Some(first), group.get(1).copied())
 }

@@ -2,11 +2,8 @@
 
 use std::sync::Arc;
 
-use super::couple::is_follower_command;
-use super::descriptions::DESCRIPTIONS;
 use crate::comp::{AxisIndex, KindSet};
-use crate::interpreter::coordinates::moving::{Certainty, MotionKind, MovedAxis};
-use crate::interpreter::coordinates::simplified::{self, Holds};
+use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
@@ -14,6 +11,7 @@ use crate::interpreter::values::found::VariableUse;
 use crate::interpreter::values::memory::unescaped;
 use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
+use crate::language::{Certainty, HashAction, HashWords, Holds, MotionKind};
 use crate::syntax::ast::Effect as Unread;
 use crate::text::Span;
 
@@ -109,38 +107,32 @@ impl Interpreter {
     }
 
     /// A command that may or may not have been executed (R2.51).
-    pub(in crate::interpreter) fn havoc_hash(&mut self, name: &str, cause: &Arc<str>) {
-        match name {
-            "#DISABLE MODAL CYCLE" => self.state.control.cycles.havoc(),
-            "#INIT MACRO TAB" => self.havoc_macros(cause),
-            "#ENABLE AX LINK"
-            | "#AX LINK ON"
-            | "#DISABLE AX LINK"
-            | "#AX LINK OFF"
-            | "#DISABLE AX LINK ALL"
-            | "#AX LINK OFF ALL" => self.havoc_couplings(),
-            name if is_follower_command(name) => self.state.control.couplings.havoc_followers(&[]),
-            "#RETAIN CYCLE CHANGES" => {
+    pub(in crate::interpreter) fn havoc_hash(&mut self, command: HashWords, cause: &Arc<str>) {
+        match command.action {
+            HashAction::EndModalCycles => self.state.control.cycles.havoc(),
+            HashAction::ForgetMacros => self.havoc_macros(cause),
+            HashAction::EnableCoupling
+            | HashAction::ReleaseCoupling
+            | HashAction::ReleaseCouplings => self.havoc_couplings(),
+            HashAction::RetainCycleChanges => {
                 if let Some(frame) = self.state.control.frames.cycle_mut() {
                     frame.retains = Retains::Perhaps;
                 }
             }
-            name if DESCRIPTIONS
-                .iter()
-                .any(|(begin, end)| [*begin, *end].contains(&name)) =>
-            {
+            HashAction::Describe | HashAction::EndDescription => {
                 // The blocks after it may or may not be a description.
                 let modal = &mut self.state.control.modal;
                 modal.havoc_words();
-                modal.note_transformed(name);
+                modal.note_transformed(command.words);
             }
-            "#OVERRIDE" => self.state.control.modal.pace.havoc_overrides(),
-            "#MAIN SPINDLE" => self.state.control.modal.pace.havoc_spindle(),
-            name => {
-                if let Some((what, Holds::On)) = simplified::of_command(name) {
+            HashAction::Override => self.state.control.modal.pace.havoc_overrides(),
+            HashAction::SelectSpindle => self.state.control.modal.pace.havoc_spindle(),
+            _ if command.links_axes() => self.state.control.couplings.havoc_followers(&[]),
+            _ => {
+                if let Some((what, Holds::On)) = command.simplification() {
                     self.state.control.modal.perhaps_simplify(what);
                 }
-                self.state.control.modal.havoc_hash(name);
+                self.state.control.modal.havoc_hash(command);
             }
         }
     }

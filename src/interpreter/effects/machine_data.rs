@@ -6,7 +6,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
 use crate::machine::Machine;
-use crate::syntax::ast::Hash;
+use crate::syntax::ast::{BracketArguments, Hash, Operand};
 
 /// Target of a write to the machine data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,37 +17,24 @@ pub(in crate::interpreter) enum WriteTarget {
     Other,
 }
 
-/// An axis as the command names it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum AxisName<'a> {
-    Name(&'a str),
-    Number(&'a str),
-}
-
-/// Whether a `#` command writes machine data.
-pub(in crate::interpreter) fn is_machine_data(name: &str) -> bool {
-    let rest = name.strip_prefix("#MACHINE DATA");
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
-}
-
-/// Returns the target in the text of a command.
-pub(in crate::interpreter) fn written(text: &str) -> WriteTarget {
-    let text = text.to_ascii_lowercase();
-    let is_friction = text.contains("frict_comp") || text.contains("p-axis-00522");
-    if is_friction {
+/// Returns the target of a command.
+pub(in crate::interpreter) fn written(arguments: &BracketArguments, text: &str) -> WriteTarget {
+    let is_friction = |key| arguments.mention(key, text);
+    if FRICTION_KEYS.into_iter().any(is_friction) {
         WriteTarget::Friction
     } else {
         WriteTarget::Other
     }
 }
 
-/// Whether the text of a command sets P-AXIS-00522 to 1.
-pub(in crate::interpreter) fn enables(text: &str) -> bool {
-    let text = text.to_ascii_lowercase();
-    let keys = ["p-axis-00522", "lr_param.frict_comp"];
-    let value = keys.iter().find_map(|key| Some(text.split_once(key)?.1));
-    let value = value.map(|value| number(value.trim_start_matches([' ', '\t', '='])));
-    value.is_some_and(|value| value == "1")
+/// The parameters of friction compensation, and P-AXIS-00522 among them.
+const FRICTION_KEYS: [&str; 2] = ["frict_comp", "p-axis-00522"];
+
+/// Whether a command sets P-AXIS-00522 to 1.
+pub(in crate::interpreter) fn enables(arguments: &BracketArguments, text: &str) -> bool {
+    let keys = ["P-AXIS-00522", "lr_param.frict_comp"];
+    let value = keys.iter().find_map(|key| arguments.after(key, text));
+    value.is_some_and(|value| value.value == Some(Operand::Number(1.0)))
 }
 
 impl Interpreter {
@@ -58,19 +45,20 @@ impl Interpreter {
         hash: &Hash,
         at: &BlockContext<'_>,
     ) -> Vec<(AxisIndex, KindSet)> {
-        let text = &*hash.code(at.text);
-        let axes = match named(text) {
-            Some(AxisName::Number(number)) => {
-                let number = self.number_in(number, at).and_then(rounded);
+        let (arguments, text) = (&hash.brackets, at.text);
+        let axes = match arguments.after("AXNR", text) {
+            Some(number) => {
+                let number = self.argument_number(number, at).and_then(rounded);
                 numbered(&self.machine, number)
             }
-            other => plainly_named(&self.machine, other, text),
+            None => named(&self.machine, arguments, text),
         };
         let start = self.machine.compensation();
         let now = &self.state.control.compensation;
         let is_lost = |axis: AxisIndex, kind: &Kind| {
             let (now, start) = (now.state(axis, *kind), start.state(axis, *kind));
-            written(text) == WriteTarget::Friction || (now != start && now != State::Unknown)
+            written(arguments, text) == WriteTarget::Friction
+                || (now != start && now != State::Unknown)
         };
         let lost = axes.into_iter().map(|axis| {
             let kinds = Kind::ALL.into_iter().filter(|kind| is_lost(axis, kind));
@@ -80,53 +68,19 @@ impl Interpreter {
     }
 
     /// The axes that the command may name in a region that may or may not be executed.
-    pub(in crate::interpreter) fn perhaps_transferred(&self, text: &str) -> Vec<AxisIndex> {
-        match named(text) {
-            Some(AxisName::Number(number)) => {
-                let number = number.parse().ok().and_then(rounded);
+    pub(in crate::interpreter) fn perhaps_transferred(
+        &self,
+        arguments: &BracketArguments,
+        text: &str,
+    ) -> Vec<AxisIndex> {
+        match arguments.after("AXNR", text) {
+            Some(number) => {
+                let number = number.logical_number(text).map(i64::from);
                 numbered(&self.machine, number)
             }
-            other => plainly_named(&self.machine, other, text),
+            None => named(&self.machine, arguments, text),
         }
     }
-}
-
-/// The axis of a command: `AX=X`, `AX X`, `AXNR=1`, with blanks and in either case.
-fn named(text: &str) -> Option<AxisName<'_>> {
-    let mut rest = text;
-    while let Some(at) = rest.find(|c: char| c.is_ascii_alphanumeric()) {
-        rest = &rest[at..];
-        let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '-'));
-        let (word, after) = rest.split_at(end.unwrap_or(rest.len()));
-        let value = after.trim_start().trim_start_matches('=').trim_start();
-        if word.eq_ignore_ascii_case("AX") {
-            let end = value.find(|c: char| c.is_whitespace() || matches!(c, ']' | ','));
-            return Some(AxisName::Name(&value[..end.unwrap_or(value.len())]));
-        }
-        if word.eq_ignore_ascii_case("AXNR") {
-            return Some(AxisName::Number(number(value)));
-        }
-        rest = after;
-    }
-    None
-}
-
-/// The expression at the start of a text.
-fn number(text: &str) -> &str {
-    if !text.starts_with('[') {
-        let end = text.find(|c: char| c.is_whitespace() || matches!(c, ']' | ','));
-        return &text[..end.unwrap_or(text.len())];
-    }
-    let mut depth = 0_usize;
-    let end = text.char_indices().find(|(_, c)| {
-        match c {
-            '[' => depth += 1,
-            ']' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        depth == 0
-    });
-    &text[..end.map_or(text.len(), |(at, _)| at + 1)]
 }
 
 /// The axes with a logical number; those without one may have any.
@@ -145,45 +99,67 @@ fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
     }
 }
 
-/// The axis of a name. A command that names none writes to any axis, unless it is about the channel.
-fn plainly_named(machine: &Machine, named: Option<AxisName<'_>>, text: &str) -> Vec<AxisIndex> {
-    match named {
-        Some(AxisName::Name(name)) => {
-            let name = name.trim_matches('"');
-            let upper = name.to_ascii_uppercase();
-            let found = machine.find(name).or_else(|| machine.find(&upper));
+/// The axis of a name, in either case. A command that names none writes to any axis, unless it is about the channel.
+fn named(machine: &Machine, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
+    match arguments.after("AX", text) {
+        Some(axis) => {
+            let name = axis.quoted(text).unwrap_or(axis.span.of(text));
+            let mut axes = machine.axes.iter();
+            let mut in_capitals = || axes.position(|axis| axis.name.eq_ignore_ascii_case(name));
+            let found = machine
+                .find(name)
+                .or_else(|| in_capitals().map(AxisIndex::new));
             found.into_iter().collect()
         }
-        _ if text.to_ascii_uppercase().contains("P-CHAN") => Vec::new(),
-        _ => numbered(machine, None),
+        None if arguments.mention("p-chan", text) => Vec::new(),
+        None => numbered(machine, None),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::syntax::ast::Item;
+    use crate::syntax::parse_block;
+
+    fn arguments(text: &str) -> BracketArguments {
+        let block = parse_block(text);
+        match block.items.as_slice() {
+            [Item::Hash(hash)] => hash.brackets.clone(),
+            _ => panic!("{text}"),
+        }
+    }
 
     #[test]
     fn axes_are_named_in_each_form() {
         // R2.92
-        for text in [
+        let machine = Machine::enabled(["X", "Y"]);
+        let axes = |text: &str| named(&machine, &arguments(text), text).len();
+        for bracket in [
             "[AX=X P-AXIS-00522=0]",
             "[SYN AX=X P-AXIS-00522 0]",
             "[ ax = X p-axis-00522 = 0 ]",
             "[AX X,P-AXIS-00522=0]",
+            "[AX=x P-AXIS-00522=0]",
         ] {
-            assert_eq!(named(text), Some(AxisName::Name("X")), "{text}");
-            assert_eq!(written(text), WriteTarget::Friction, "{text}");
+            let text = format!("#MACHINE DATA {bracket}");
+            let is_friction = written(&arguments(&text), &text) == WriteTarget::Friction;
+            assert!(axes(&text) == 1 && is_friction, "{text}");
         }
-        assert_eq!(
-            named("[AXNR=[P1 + 1] a=2]"),
-            Some(AxisName::Number("[P1 + 1]"))
-        );
-        assert_eq!(named("[AXNR 2 a=2]"), Some(AxisName::Number("2")));
-        assert_eq!(named("[P-CHAN-00001=0]"), None);
-        assert_eq!(written("[AX=X kenngr.swe_pos=1]"), WriteTarget::Other);
-        assert!(enables("[AX=X P-AXIS-00522=1]") && enables("[AX X lr_param.frict_comp 1]"));
-        assert!(!enables("[AX=X P-AXIS-00522=0]") && !enables("[AX=X P-AXIS-00522=10]"));
-        assert!(is_machine_data("#MACHINE DATA SYN") && !is_machine_data("#MACHINE DATABASE"));
+        assert_eq!(axes("#MACHINE DATA [P-CHAN-00001=0]"), 0);
+        let every = machine.axes.len();
+        assert_eq!(axes("#MACHINE DATA [P-AXIS-00001=0]"), every);
+        let other = "#MACHINE DATA [AX=X kenngr.swe_pos=1]";
+        assert_eq!(written(&arguments(other), other), WriteTarget::Other);
+    }
+
+    #[test]
+    fn a_parameter_of_one_enables() {
+        // R2.92
+        let is_enabled = |text: &str| enables(&arguments(text), text);
+        assert!(is_enabled("#MACHINE DATA [AX=X P-AXIS-00522=1]"));
+        assert!(is_enabled("#MACHINE DATA [AX X lr_param.frict_comp 1]"));
+        assert!(!is_enabled("#MACHINE DATA [AX=X P-AXIS-00522=0]"));
+        assert!(!is_enabled("#MACHINE DATA [AX=X P-AXIS-00522=10]"));
     }
 }

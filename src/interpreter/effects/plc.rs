@@ -69,27 +69,6 @@ impl Doubt {
     }
 }
 
-/// Whether the PLC acts by design at a `#` command: a dwell, a wait, an acknowledgement.
-pub(in crate::interpreter) fn lets_plc_act(command: &str) -> bool {
-    let mut words = command.split(' ');
-    match words.next() {
-        // Late M functions are acknowledged at `#EXPL` (tf5200_m_and_h_func/286004619).
-        Some("#TIME" | "#WAIT" | "#EXPL") => true,
-        Some("#FLUSH") => words.any(|word| word == "WAIT"),
-        Some("#MSG") => words.any(|word| matches!(word, "ACK" | "SYN_ACK")),
-        _ => false,
-    }
-}
-
-/// Whether the bracket of an axis or a spindle has an M or H function, `S[M3 REV1000]`.
-pub(in crate::interpreter) fn has_function(bracket: &str) -> bool {
-    let mut words = bracket.split(|it: char| !it.is_ascii_alphanumeric());
-    words.any(|word| {
-        let number = word.strip_prefix(['M', 'H', 'm', 'h']);
-        number.is_some_and(|it| !it.is_empty() && it.bytes().all(|it| it.is_ascii_digit()))
-    })
-}
-
 impl Interpreter {
     /// Whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
     /// P-CHAN-00041, P-CHAN-00027.

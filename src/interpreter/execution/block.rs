@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
@@ -20,6 +19,7 @@ use crate::interpreter::run::step::{ControlStep, NextBlock, Request};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::untouched::FoundStates;
 use crate::interpreter::run::way_condition::limit_to;
+use crate::language::AxisWords;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Item};
 use crate::text::Span;

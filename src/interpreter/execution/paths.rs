@@ -10,7 +10,6 @@ use std::collections::BTreeMap;
 use super::endless::watches;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::control::ControlState;
@@ -23,6 +22,7 @@ use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::work_budget::ITEM;
+use crate::language::Group;
 
 impl Interpreter {
     /// Continues with a way.

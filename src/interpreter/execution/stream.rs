@@ -21,8 +21,9 @@ use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
 use crate::interpreter::run::step::{ControlStep, NextBlock};
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::values::value::rounded;
+use crate::language::HashAction;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
-use crate::syntax::{BlockReader, ControlBlock, RawBlock, Stretch, no_program};
+use crate::syntax::{BlockReader, RawBlock, Stretch, no_program};
 use crate::text::{LineSource, SourceFile};
 
 /// Progress of the program.
@@ -404,7 +405,7 @@ fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
                     Item::Label(_) | Item::Flow(..) | Item::MacroUse(_) => true,
                     Item::Call(call) => call.scope == CallScope::Local,
                     Item::Sequence(sequence) => sequence.name.is_none(),
-                    Item::Hash(hash) => hash.name == ControlBlock::RealTime.opener(),
+                    Item::Hash(hash) => hash.command.action == HashAction::RealTimeLoop,
                     _ => false,
                 })
         }

@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use super::index::{
-    EntryIndex, Index, IndexEntry, LabelName, Links, ProgramSection, not_a_program,
+    EntryIndex, Index, IndexEntry, JumpTargets, LabelName, Links, ProgramSection, not_a_program,
 };
 use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::syntax::{
-    BlockReader, ControlBlock, FastPath, Fault, LostRemarks, Part, Stretch, control_part,
-    is_statement, no_program,
+    BlockReader, ControlBlock, FastPath, Fault, LostRemarks, MAX_MACROS, Part, Stretch,
+    control_part, is_statement, no_program, with_macros,
 };
 use crate::text::{Place, SourceFile, Span, TextLines};
 
@@ -51,6 +51,7 @@ impl Index {
                 links: BTreeMap::new(),
                 loops: Vec::new(),
                 labels: HashMap::new(),
+                targets: JumpTargets::default(),
                 locals: HashMap::new(),
                 repeated: HashMap::new(),
                 remarks: HashMap::new(),
@@ -261,6 +262,14 @@ impl Builder {
                 self.refuse(entry, Fault::new(Code::Fc209, number.span, message));
             }
         }
+        let targets = &mut self.index.targets;
+        with_macros(block, text, MAX_MACROS, &mut |block, text| {
+            for item in &block.items {
+                if let Item::Flow(Flow::Goto(target), _) = item {
+                    targets.take(target, text);
+                }
+            }
+        });
         let at = |span| Statement { entry, span, text };
         self.before_cases(block, at(Span::new(0, text.trim_end().len())));
         self.shares_block(block, at);
@@ -488,10 +497,8 @@ impl Builder {
     }
 
     fn jump(&mut self, target: &BlockReference, at: Statement<'_>) {
-        let label = match target {
-            BlockReference::Number(Operand::Number(number)) => LabelName::numbered(*number),
-            BlockReference::Label(name) => LabelName::Text(name.of(at.text).to_owned()),
-            _ => return,
+        let Some(label) = LabelName::of(target, at.text) else {
+            return;
         };
         self.jumps.push(PendingJump {
             section: self.index.sections.len() - 1,

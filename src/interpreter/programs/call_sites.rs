@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::file_names::{FileName, file_names, is_file_name};
+use super::file_names::{FileName, file_names};
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::rounded;
+use crate::language::HashAction;
 use crate::machine::{ConfiguredPrograms, canonical_word};
 use crate::syntax::ast::{Address, Block, CallName, CallScope, Hash, Item, Operand, Word};
 use crate::syntax::{
@@ -166,7 +167,9 @@ impl Sites<'_> {
                     }
                 }
                 Item::GCall(call) => self.function('G', Some(i64::from(call.number))),
-                Item::Hash(hash) if is_file_name(&hash.name) => self.name_programs(hash, text),
+                Item::Hash(hash) if hash.command.action == HashAction::NamePrograms => {
+                    self.name_programs(hash, text);
+                }
                 _ => {}
             }
         }
@@ -185,7 +188,7 @@ impl Sites<'_> {
     }
 
     fn name_programs(&mut self, hash: &Hash, text: &str) {
-        for (word, name) in file_names(&hash.code(text)) {
+        for (word, name) in file_names(hash, text) {
             let name = match name {
                 FileName::Written(name) => Some(name.to_owned()),
                 FileName::Elsewhere(_) => None,

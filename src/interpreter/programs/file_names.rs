@@ -1,13 +1,12 @@
 //! `#FILE NAME`: words and the programs that they call (PM/207504523).
 
-/// Whether a command names programs; the older manuals write one word.
-pub(in crate::interpreter) fn is_file_name(name: &str) -> bool {
-    matches!(name, "#FILE NAME" | "#FILENAME")
-}
+use crate::machine::canonical_word;
+use crate::syntax::ast::{Argument, Hash};
 
 /// The words that get a program after `#FILE NAME`.
-pub(in crate::interpreter) fn named_words(text: &str) -> impl Iterator<Item = String> {
-    file_names(text).into_iter().map(|(word, _)| word)
+pub(in crate::interpreter) fn named_words(hash: &Hash, text: &str) -> Vec<String> {
+    let names = file_names(hash, text).into_iter();
+    names.map(|(word, _)| word).collect()
 }
 
 /// The name of a program after `#FILE NAME`.
@@ -23,61 +22,58 @@ const LETTERS: [&str; 4] = ["D", "G", "M", "T"];
 
 /// The words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional. With any
 /// other text, the program of every word is unknown.
-pub(in crate::interpreter) fn file_names(text: &str) -> Vec<(String, FileName<'_>)> {
+pub(in crate::interpreter) fn file_names<'a>(
+    hash: &Hash,
+    text: &'a str,
+) -> Vec<(String, FileName<'a>)> {
     let mut names = Vec::new();
-    let mut rest = text.trim_start().strip_prefix('[').unwrap_or(text);
-    loop {
-        rest = rest.trim_start_matches([' ', '\t', '\r', '\n', ',']);
-        let length = rest
-            .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
-            .unwrap_or(rest.len());
-        if length == 0 {
-            if !rest.is_empty() && !rest.starts_with(']') {
-                names.extend(unknown_words(rest));
-            }
-            return names;
-        }
-        let (word, after) = rest.split_at(length);
+    let mut arguments = hash.brackets.iter();
+    while let Some(argument) = arguments.next() {
+        let (word, name) = match argument.key {
+            Some(word) => (word, Some(argument)),
+            None => (argument.span, arguments.next()),
+        };
+        let word = word.of(text);
         if !is_word(word) {
-            names.extend(unknown_words(word));
+            names.extend(LETTERS.map(|letter| (letter.to_owned(), FileName::Elsewhere(word))));
         }
-        let after = after.trim_start();
-        let after = after.strip_prefix('=').unwrap_or(after).trim_start();
-        let word = crate::machine::canonical_word(word);
-        if let Some((name, after)) = after.strip_prefix('"').and_then(|it| it.split_once('"')) {
-            names.push((word, FileName::Written(name.trim())));
-            rest = after;
-        } else {
-            let end = after
-                .find([' ', '\t', '\n', ']', ','])
-                .unwrap_or(after.len());
-            names.push((word, FileName::Elsewhere(&after[..end])));
-            rest = &after[end..];
-        }
+        names.extend(name.map(|name| (canonical_word(word), file_name(name, text))));
+    }
+    names
+}
+
+fn file_name<'a>(argument: &Argument, text: &'a str) -> FileName<'a> {
+    match argument.quoted(text) {
+        Some(name) => FileName::Written(name.trim()),
+        None => FileName::Elsewhere(argument.span.of(text)),
     }
 }
 
-fn unknown_words(text: &str) -> impl Iterator<Item = (String, FileName<'_>)> {
-    LETTERS
-        .map(|letter| (letter.to_owned(), FileName::Elsewhere(text.trim())))
-        .into_iter()
-}
-
 fn is_word(word: &str) -> bool {
-    let (letter, number) = word.split_at(1);
-    LETTERS.contains(&letter.to_ascii_uppercase().as_str())
+    let Some((letter, number)) = word.split_at_checked(1) else {
+        return false;
+    };
+    let mut letters = LETTERS.iter();
+    letters.any(|known| known.eq_ignore_ascii_case(letter))
         && number.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::syntax::ast::Item;
+    use crate::syntax::parse_block;
 
     #[test]
     fn file_names_are_read_with_and_without_an_equals_sign() {
         // R2.75
-        let shown = |text| {
-            let names = file_names(text).into_iter();
+        let shown = |bracket: &str| {
+            let text = format!("#FILE NAME {bracket}");
+            let block = parse_block(&text);
+            let Some(Item::Hash(hash)) = block.items.first() else {
+                panic!("{text}")
+            };
+            let names = file_names(hash, &text).into_iter();
             let names = names.map(|(word, name)| match name {
                 FileName::Written(name) => format!("{word}={name}"),
                 FileName::Elsewhere(name) => format!("{word}?{name}"),
@@ -87,11 +83,7 @@ mod tests {
         let text = " [ G080=\"a b.nc\" m06 \"c.nc\",T = \"\" D=V.P.NAME ]";
         assert_eq!(shown(text), "G80=a b.nc M6=c.nc T= D?V.P.NAME");
         assert_eq!(shown(""), "");
-        assert_eq!(shown("[G80=\"open"), "G80?\"open");
-        assert_eq!(
-            shown("[M6=\"a.nc\" / T]"),
-            "M6=a.nc D?/ T] G?/ T] M?/ T] T?/ T]"
-        );
+        assert_eq!(shown("[M6=\"a.nc\" / ]"), "M6=a.nc D?/ G?/ M?/ T?/");
         assert_eq!(shown("[FOO=\"a.nc\"]"), "D?FOO G?FOO M?FOO T?FOO FOO=a.nc");
     }
 }

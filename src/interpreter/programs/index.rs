@@ -3,14 +3,14 @@
 //! It holds offsets, not trees: blocks are parsed when they are executed, and kept only when they
 //! are executed again.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::{Code, Collected, Diagnostic};
 use crate::interpreter::values::value::rounded;
-use crate::syntax::ast::{Block, Operand};
+use crate::syntax::ast::{Block, BlockReference, Operand};
 use crate::syntax::{BlockReader, FastPath, LostRemarks, Remark, Stretch};
 use crate::text::{Place, SourceFile, Span, TextLines};
 
@@ -74,6 +74,15 @@ impl LabelName {
         rounded(number).map_or_else(|| Self::Text(format!("N{number}")), Self::Number)
     }
 
+    /// The label that a jump names; `None` where it computes it.
+    pub(super) fn of(target: &BlockReference, text: &str) -> Option<Self> {
+        match target {
+            BlockReference::Number(Operand::Number(number)) => Some(Self::numbered(*number)),
+            BlockReference::Label(name) => Some(Self::Text(name.of(text).to_owned())),
+            BlockReference::Number(Operand::Expression(_)) | BlockReference::Variable(_) => None,
+        }
+    }
+
     /// Returns the label of a block number for a text label such as `[N40]`, and the reverse.
     pub(in crate::interpreter) fn in_other_form(&self) -> Option<Self> {
         match self {
@@ -95,6 +104,32 @@ impl std::fmt::Display for LabelName {
     }
 }
 
+/// The targets of the jumps of a program.
+#[derive(Debug, Default)]
+pub(in crate::interpreter) struct JumpTargets {
+    named: HashSet<LabelName>,
+    /// Whether a jump computes its target.
+    are_computed: bool,
+}
+
+impl JumpTargets {
+    /// Takes the target of a jump.
+    pub(super) fn take(&mut self, target: &BlockReference, text: &str) {
+        match LabelName::of(target, text) {
+            Some(name) => _ = self.named.insert(name),
+            None => self.are_computed = true,
+        }
+    }
+
+    /// Whether a label may be one of them, in either form.
+    pub(in crate::interpreter) fn may_be(&self, label: &LabelName) -> bool {
+        let other = label.in_other_form();
+        self.are_computed
+            || self.named.contains(label)
+            || other.is_some_and(|other| self.named.contains(&other))
+    }
+}
+
 /// The index of one file.
 #[derive(Debug)]
 pub(in crate::interpreter) struct Index {
@@ -105,6 +140,7 @@ pub(in crate::interpreter) struct Index {
     /// The statements that open loops.
     pub(in crate::interpreter) loops: Vec<EntryIndex>,
     pub(in crate::interpreter) labels: HashMap<(usize, LabelName), EntryIndex>,
+    pub(in crate::interpreter) targets: JumpTargets,
     /// The local subprograms by name, the first of each.
     pub(in crate::interpreter) locals: HashMap<String, usize>,
     /// The names that several local subprograms have, each with the section of the second.

@@ -183,21 +183,6 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A part of the block that was read again, with its own spans.
-    pub(in crate::interpreter) fn part(
-        &self,
-        text: &'a str,
-        block: &'a Block,
-        shown: &'a ShownBlockLines,
-    ) -> Self {
-        Self {
-            block,
-            text,
-            shown,
-            ..*self
-        }
-    }
-
     /// The code of a macro that is used at a span of this block or macro.
     pub(in crate::interpreter) fn in_macro(
         &self,

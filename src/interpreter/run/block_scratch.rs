@@ -12,10 +12,11 @@ use crate::diagnostic::Diagnostic;
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
-use crate::interpreter::coordinates::moving::{MovedAxis, MovingRow};
+use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::values::externals::HeldValues;
 use crate::interpreter::values::value::Value;
+use crate::language::MotionEffect;
 use crate::syntax::Fault;
 use crate::syntax::ast::Block;
 use crate::text::{Place, Span};
@@ -83,7 +84,7 @@ pub(in crate::interpreter) struct BlockScratch {
     /// The axes that it moves, or may, without their own word.
     pub(in crate::interpreter) also_moved: Vec<MovedAxis>,
     /// Motion of its axis words, where the G functions in force do not decide it.
-    pub(in crate::interpreter) word_row: Option<MovingRow>,
+    pub(in crate::interpreter) word_row: Option<MotionEffect>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
     /// Words of axes that the machine does not have.

@@ -18,10 +18,10 @@ use super::way_set::WaySet;
 use super::ways::join_names;
 use crate::comp::Compensation;
 use crate::interpreter::coordinates::modal::Modal;
-use crate::interpreter::coordinates::simplified::{Holds, Simplification};
 use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
+use crate::language::{Holds, Simplification};
 
 /// The state of the control. A copy is cheap: it shares the parts that do not change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -141,7 +141,7 @@ impl ControlState {
                 let openers = mine.as_deref().into_iter().chain(theirs);
                 for description in openers {
                     self.modal.havoc_words();
-                    self.modal.note_transformed(&description.opener);
+                    self.modal.note_transformed(description.opener.words);
                     self.modal.join(&description.before);
                 }
             }

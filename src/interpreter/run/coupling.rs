@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{AxisIndex, Coupling};
-use crate::interpreter::coordinates::moving::Certainty;
+use crate::language::Certainty;
 
 /// The coupling groups of a run.
 ///

@@ -3,13 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use crate::interpreter::coordinates::modal::Modal;
+use crate::language::HashCommand;
 use crate::text::Place;
 
 /// A description of geometry whose blocks do not move (R2.81).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Description {
     /// Command that opened it, `#CONTOUR BEGIN`.
-    pub(in crate::interpreter) opener: String,
+    pub(in crate::interpreter) opener: &'static HashCommand,
     pub(in crate::interpreter) place: Place,
     /// State in force before it.
     pub(in crate::interpreter) before: Modal,

@@ -4,9 +4,8 @@ use std::collections::BTreeSet;
 
 use super::event::EndedBy;
 use super::step::ControlStep;
-use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::programs::wanted::WantedCall;
+use crate::language::{AxisWords, BlockGroup, GFunction, Group};
 use crate::syntax::ast::Block;
 use crate::text::Span;
 
@@ -20,22 +19,6 @@ pub(in crate::interpreter) enum Feed {
     Given(Option<f64>),
 }
 
-/// Groups of G functions that are not modelled: contour transitions, diameter programming, deceleration, measuring,
-/// selection of the cutter radius compensation, centre correction and look-ahead (TF5200 Diagnosis, errors 20113,
-/// 20115, 20977, 20123, 20126, 20128, 20124).
-const OTHER_GROUPS: [&[u32]; 7] = [
-    &[25, 26],
-    &[51, 52],
-    &[9, 900, 901],
-    &[100, 101, 102, 103, 104, 105, 106, 107, 108],
-    &[138, 139],
-    &[164, 165],
-    &[115, 116, 117],
-];
-
-/// The bit of the last of them, with which N is a number of blocks, `G115 N5`.
-const LOOK_AHEAD: usize = Group::COUNT + OTHER_GROUPS.len() - 1;
-
 /// Actions of a block after its words.
 #[derive(Default)]
 pub(in crate::interpreter) struct BlockOutcome {
@@ -47,7 +30,7 @@ pub(in crate::interpreter) struct BlockOutcome {
     pub(in crate::interpreter) step: Option<ControlStep>,
     /// Calls, in the order in which they are made.
     pub(in crate::interpreter) calls: Vec<WantedCall>,
-    /// The groups of its G functions, a bit each: those of [`Group`], then [`OTHER_GROUPS`].
+    /// The groups of its G functions, a bit each: those of [`Group`], then those of [`BlockGroup`].
     groups: u32,
     /// The letters of which it has a word and may have one, D at bit 0.
     letters: u32,
@@ -71,19 +54,10 @@ pub(in crate::interpreter) struct BlockOutcome {
 
 impl BlockOutcome {
     /// Takes a G function; returns whether the control refuses it, because the block has one of its group.
-    pub(in crate::interpreter) fn is_second_of_group(
-        &mut self,
-        number: u32,
-        group: Option<Group>,
-    ) -> bool {
-        // TF5200 Diagnosis, error 20117
-        let is_block_end = matches!(number, 60 | 61 | 260 | 261);
-        if let Some(group) = group.or(is_block_end.then_some(Group::ExactStop)) {
-            return !self.take_group(group);
-        }
-        let of_number = |group: &&[u32]| group.contains(&number);
-        let other = OTHER_GROUPS.iter().position(of_number);
-        other.is_some_and(|other| !self.take_bit(Group::COUNT + other))
+    pub(in crate::interpreter) fn is_second_of_group(&mut self, function: &GFunction) -> bool {
+        let group = function.group.map(|group| group as usize);
+        let place = group.or(function.one_of.map(BlockGroup::place));
+        place.is_some_and(|place| !self.take_bit(place))
     }
 
     /// Takes a G function of a group; returns whether it is the first one.
@@ -106,7 +80,7 @@ impl BlockOutcome {
         block: &Block,
     ) -> bool {
         match letter {
-            b'N' if self.groups & 1 << LOOK_AHEAD != 0 => false,
+            b'N' if self.groups & 1 << BlockGroup::LookAhead.place() != 0 => false,
             b'N' if block.number.is_some() => true,
             b'F' => matches!(self.feed, Feed::Given(_)),
             b'M' => number.is_some_and(|it| !self.functions.get_or_insert_default().insert(it)),

@@ -5,10 +5,10 @@ use std::hash::Hash;
 
 use super::event::EndedBy;
 use crate::comp::{AxisIndex, KindSet};
-use crate::interpreter::coordinates::simplified::Simplification;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::values::target::RegionTarget;
+use crate::language::{HashWords, Simplification};
 use crate::syntax::ast::Owner;
 use crate::text::Span;
 
@@ -36,7 +36,7 @@ pub(in crate::interpreter) enum RegionEffect {
     /// The offset of G92 of an axis.
     Reference(AxisIndex),
     /// A `#` command.
-    Hash(String),
+    Hash(HashWords),
     /// These axes may follow others from here on, or no longer.
     Followers(Vec<AxisIndex>),
     /// A coupling group is defined with these axes.

@@ -10,13 +10,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
-use crate::interpreter::coordinates::group::Group;
-use crate::interpreter::coordinates::moving::{self, Moves};
-use crate::interpreter::coordinates::simplified;
-use crate::interpreter::effects::couple::{ends_following, is_follower_command};
-use crate::interpreter::effects::machine_data::is_machine_data;
-use crate::interpreter::effects::plc::{has_function, lets_plc_act};
-use crate::interpreter::programs::file_names::{is_file_name, named_words};
+use crate::interpreter::programs::file_names::named_words;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
@@ -31,11 +25,14 @@ use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::variable::{canonical, with_subscripts};
 use crate::interpreter::values::work_budget::ITEM;
+use crate::language::{
+    AxisAction, AxisCommand, GAction, GFunction, HashAction, Moves, Plc, Touches,
+};
 use crate::syntax::ast::{
     Address, Block, BlockReference, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, Node, Operand, Owner, ReturnLevels, Word,
 };
-use crate::syntax::{Stretch, Touches, code_of_part, hash_command, is_letter, is_program_number};
+use crate::syntax::{Stretch, is_letter, is_program_number};
 use crate::text::Span;
 
 /// A region that is being analysed.
@@ -212,35 +209,32 @@ impl MayEffects<'_> {
             }
             Item::Return(_) => self.exit(Exit::Return),
             Item::Unread(Unread::Spindle, _) => self.effect(RegionEffect::Spindle),
-            Item::Bracket { axis, keyword, .. } => {
-                let name = axis.of(at.text);
-                let keyword = keyword.of(at.text).to_ascii_uppercase();
-                let body = code_of_part(item.span().of(at.text)).to_ascii_uppercase();
-                self.bracket(name, &keyword, &body);
-            }
+            Item::Bracket { axis, command, .. } => self.bracket(axis.of(at.text), *command),
             Item::BadCommand(_) | Item::BareNumber(..) | Item::Label(_) => {}
         }
     }
 
     /// A command in the bracket of an axis or spindle.
-    fn bracket(&mut self, name: &str, keyword: &str, body: &str) {
-        if keyword.starts_with("OVERRIDE") {
+    fn bracket(&mut self, name: &str, command: AxisCommand) {
+        if command.action == AxisAction::Override {
             self.effect(RegionEffect::Overrides);
         } else if name.starts_with('S') {
             self.effect(RegionEffect::Spindle);
         }
-        if has_function(body) {
+        if command.plc == Plc::Acts {
             self.effect(RegionEffect::Plc);
         }
-        if let Some(what) = simplified::of_bracket(keyword, body) {
+        if let Some(what) = command.simplifies {
             self.effect(RegionEffect::Simplified(what));
         }
         if let Some(axis) = self.run.axis_named(name) {
-            let row = moving::of_bracket(keyword, body);
+            let row = command.motion;
             if row.is_some() {
                 self.effect(RegionEffect::Position(axis));
             }
-            if row.is_some_and(|row| row.moves == Moves::Follower) || ends_following(keyword) {
+            if row.is_some_and(|row| row.moves == Moves::Follower)
+                || command.action == AxisAction::EndFollowing
+            {
                 self.effect(RegionEffect::Followers(vec![axis]));
             }
         }
@@ -303,49 +297,54 @@ impl MayEffects<'_> {
     }
 
     fn hash(&mut self, hash: &HashCommand, at: &BlockContext<'_>) {
-        let ends = hash.name == "#ERROR" && hash.arguments != [Operand::Number(0.0)];
+        let command = hash.command;
+        let ends =
+            command.action == HashAction::ReportError && hash.arguments != [Operand::Number(0.0)];
         self.region.refuse_if(ends, self.place);
-        let rest = &*hash.code(at.text);
         for declaration in &hash.declarations {
             let name = declared_name(declaration, at);
             self.effect(RegionEffect::Declaration(name));
         }
-        if is_file_name(&hash.name) {
-            for word in named_words(rest) {
-                self.effect(RegionEffect::FileName(word));
+        match command.action {
+            HashAction::NamePrograms => {
+                for word in named_words(hash, at.text) {
+                    self.effect(RegionEffect::FileName(word));
+                }
+                return;
             }
-            return;
-        }
-        if hash.name == "#DELETE" {
-            for argument in &hash.arguments {
-                if let Operand::Expression(place) = argument {
-                    self.deletes(*place, at);
+            HashAction::Delete => {
+                for argument in &hash.arguments {
+                    if let Operand::Expression(place) = argument {
+                        self.deletes(*place, at);
+                    }
+                }
+                return;
+            }
+            HashAction::DefineCoupling(by) => {
+                let axes = self.run.members(by, &hash.brackets, at.text);
+                self.effect(RegionEffect::Coupling(axes));
+                return;
+            }
+            HashAction::WriteMachineData => {
+                for axis in self.run.perhaps_transferred(&hash.brackets, at.text) {
+                    let name = self.run.machine.axis(axis).name.clone();
+                    self.effect(RegionEffect::Compensation(name, KindSet::ALL));
                 }
             }
-            return;
+            _ => {}
         }
-        if let Some(axes) = self.run.defined_axes(&hash.name, rest) {
-            self.effect(RegionEffect::Coupling(axes));
-            return;
-        }
-        if is_machine_data(&hash.name) {
-            for axis in self.run.perhaps_transferred(rest) {
-                let name = self.run.machine.axis(axis).name.clone();
-                self.effect(RegionEffect::Compensation(name, KindSet::ALL));
-            }
-        }
-        if is_follower_command(&hash.name) {
-            let axes = self.run.axes_in(rest);
+        if command.links_axes() {
+            let axes = self.run.axes_in(&hash.brackets, at.text);
             self.effect(RegionEffect::Followers(axes));
         }
-        if lets_plc_act(&hash.name) {
+        if command.lets_plc_act() {
             self.effect(RegionEffect::Plc);
         }
-        self.effect(RegionEffect::Hash(hash.name.clone()));
-        match hash_command(&hash.name) {
-            Some(Touches::Motion | Touches::Plane) => self.effect(RegionEffect::Positions),
-            Some(Touches::Friction) => {
-                for axis in self.run.axes_or_all(rest) {
+        self.effect(RegionEffect::Hash(command));
+        match command.touches {
+            Touches::Motion | Touches::Plane => self.effect(RegionEffect::Positions),
+            Touches::Friction => {
+                for axis in self.run.axes_or_all(&hash.brackets, at.text) {
                     let name = self.run.machine.axis(axis).name.clone();
                     self.effect(RegionEffect::Compensation(name, KindSet::of(Kind::Frict)));
                 }
@@ -481,16 +480,20 @@ impl MayEffects<'_> {
 
     fn g(&mut self, number: Option<i64>) {
         let plain = number.and_then(|number| u32::try_from(number).ok());
-        let matters = plain.is_none_or(|number| {
-            Group::of(number).is_some() || matches!(number, 20..=23 | 68 | 69)
-        });
-        let weighs = plain.is_some_and(|number| {
-            matches!(number, 96 | 97 | 129) || simplified::of_g(number).is_some()
-        });
-        if matters || weighs || number == Some(151) {
+        let function = plain.and_then(GFunction::of);
+        let is_group = function.is_some_and(|function| function.group.is_some());
+        let matters = |function: &GFunction| {
+            function.chain.is_some()
+                || function.simplifies.is_some()
+                || matches!(
+                    function.action,
+                    GAction::SetCuttingSpeed | GAction::SetSpindleSpeed | GAction::WeighRapid
+                )
+        };
+        if plain.is_none() || is_group || function.is_some_and(matters) {
             self.effect(RegionEffect::G(number));
         }
-        if plain.is_none_or(|number| Group::of(number).is_none()) {
+        if !is_group {
             self.effect(RegionEffect::Function(FunctionWord {
                 letter: b'G',
                 number,

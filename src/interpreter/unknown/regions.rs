@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Caller;
@@ -22,6 +21,7 @@ use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
+use crate::language::HashAction;
 use crate::syntax::ast::Call;
 use crate::text::Span;
 
@@ -219,9 +219,9 @@ impl Interpreter {
                 self.state.control.memory.havoc_macro(name, cause);
                 self.scratch.wrote = true;
             }
-            RegionEffect::Hash(name) => {
-                self.havoc_hash(name, cause);
-                if is_exchange(name) {
+            RegionEffect::Hash(command) => {
+                self.havoc_hash(*command, cause);
+                if matches!(command.action, HashAction::ExchangeAxes(_)) {
                     self.state.control.havoc_exchange();
                     self.state.control.modal.havoc_positions();
                 }

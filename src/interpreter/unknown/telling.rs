@@ -7,9 +7,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::Motions;
-use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
@@ -19,6 +17,7 @@ use crate::interpreter::run::undecided::{Differing, Undecided};
 use crate::interpreter::run::ways::JumpTarget;
 use crate::interpreter::values::cause::{decided_level, how_to_set, unknown_value};
 use crate::interpreter::values::target::RegionTarget;
+use crate::language::{GAction, GFunction, Group, HashAction, HashWords};
 use crate::machine::Parameters;
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -181,14 +180,7 @@ impl Interpreter {
             RegionEffect::Compensation(..) => differing.decides |= !is_skip,
             RegionEffect::All => differing.name("everything that a program can change"),
             RegionEffect::Coupling(_) => differing.name("axis couplings"),
-            RegionEffect::Hash(name) if is_coupling(name) => differing.name("axis couplings"),
-            RegionEffect::Hash(name) if is_exchange(name) => {
-                differing.name("the axes of the channel");
-            }
-            RegionEffect::Hash(name) if name == "#DISABLE MODAL CYCLE" => {
-                differing.name("modal cycles");
-            }
-            RegionEffect::Hash(name) if name == "#ERROR" => differing.decides = true,
+            RegionEffect::Hash(command) => weigh_command(*command, differing),
             RegionEffect::Declaration(name) if outlives(name) => {
                 differing.name(format!("`{name}`"));
             }
@@ -293,14 +285,27 @@ pub(in crate::interpreter) fn of_axes(kind: Kind, axes: &[&str]) -> String {
 /// Whether a G function stays in force after a motion and is not a motion itself.
 fn is_modal_word(number: Option<i64>) -> bool {
     let number = number.and_then(|number| u32::try_from(number).ok());
-    number.is_none_or(|number| match Group::of(number) {
+    let Some(function) = number.map(GFunction::of) else {
+        return true;
+    };
+    function.is_some_and(|function| match function.group {
         Some(group) => group != Group::Motion,
-        None => (20..=23).contains(&number),
+        None => function.action == GAction::Mirror,
     })
 }
 
-fn is_coupling(name: &str) -> bool {
-    name.contains("AX LINK")
+/// Notes what a `#` command changes that may differ afterwards.
+fn weigh_command(command: HashWords, differing: &mut Differing) {
+    match command.action {
+        HashAction::DefineCoupling(_)
+        | HashAction::EnableCoupling
+        | HashAction::ReleaseCoupling
+        | HashAction::ReleaseCouplings => differing.name("axis couplings"),
+        HashAction::ExchangeAxes(_) => differing.name("the axes of the channel"),
+        HashAction::EndModalCycles => differing.name("modal cycles"),
+        HashAction::ReportError => differing.decides = true,
+        _ => {}
+    }
 }
 
 /// Whether a variable is read by others than the program that writes it (R2.34, R2.36).

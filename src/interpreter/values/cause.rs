@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::externals::SetVariable;
 use crate::diagnostic::Advice;
-use crate::syntax::is_command;
+use crate::language::is_command;
 
 /// The name of a skip level as a cause.
 const SKIP: &str = "skip level ";

@@ -2,10 +2,13 @@
 
 use std::borrow::Cow;
 
+use super::arguments::BracketArguments;
 use super::call::{Call, GCall, Return, SequenceCall};
 use super::expression::{Node, Operand, Target};
 use super::flow::Flow;
 use crate::comp::CompCommand;
+use crate::language::{AxisCommand, BlockSharing, HashWords};
+use crate::readings::Question;
 use crate::syntax::fault::Fault;
 use crate::syntax::mask::code_of_part;
 use crate::text::Span;
@@ -23,6 +26,8 @@ pub struct Block {
     pub items: Vec<Item>,
     /// Whether a `$GOTO` is among them; an `$IF` in its block opens no control block.
     pub jumps: bool,
+    /// The values after the numbers of words, `G163=50`, each with its word.
+    pub second_values: Vec<(Span, Operand)>,
     /// The expressions of the block.
     pub nodes: Vec<Node>,
     /// The source of each node.
@@ -51,6 +56,12 @@ impl Block {
         self.words.iter().chain(later)
     }
 
+    /// The value after the number of a word, `G163=50`.
+    pub(crate) fn second_value(&self, word: Span) -> Option<Operand> {
+        let mut values = self.second_values.iter();
+        values.find(|(of, _)| *of == word).map(|(_, value)| *value)
+    }
+
     /// Empties the block and keeps its memory.
     #[inline]
     pub fn clear(&mut self) {
@@ -59,6 +70,7 @@ impl Block {
         self.words.clear();
         self.items.clear();
         self.jumps = false;
+        self.second_values.clear();
         self.nodes.clear();
         self.spans.clear();
         self.faults.clear();
@@ -116,6 +128,12 @@ pub enum Item {
         axis: Span,
         /// The first keyword.
         keyword: Span,
+        /// The command that it opens.
+        command: AxisCommand,
+        /// All words and values in the bracket.
+        arguments: BracketArguments,
+        /// The words of a spindle that are followed.
+        spindle: Vec<SpindleWord>,
         /// The whole command.
         span: Span,
     },
@@ -143,6 +161,15 @@ pub enum Item {
     MacroUse(Span),
     /// Text that has the form of the language, but no known meaning (FC210, R2.70).
     Unread(Effect, Span),
+}
+
+/// A word in the bracket of a spindle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SpindleWord {
+    /// The speed, `REV1000`, where it is understood.
+    Speed(Option<Operand>),
+    /// An M function, `M3`.
+    M(i64),
 }
 
 impl Item {
@@ -194,10 +221,14 @@ pub struct Assignment {
 /// A `#` command.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hash {
+    /// Its row in the table of the language, and its further words.
+    pub(crate) command: HashWords,
     /// Its words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
     pub name: String,
     /// Text after the words.
     pub rest: Span,
+    /// The arguments in its brackets, where a dry run follows them.
+    pub brackets: BracketArguments,
     /// The value of `#TIME`, the targets of `#DELETE`, the remedy class of `#ERROR`.
     pub arguments: Vec<Operand>,
     /// The declarations of `#VAR`.
@@ -211,21 +242,22 @@ pub struct Hash {
 }
 
 impl Hash {
+    /// The open question on which its effect rests.
+    pub fn basis(&self) -> Option<Question> {
+        self.command.basis
+    }
+
+    /// Whether it names all variables that the program shares with the PLC, `V.E.` (PM/207988747).
+    pub(crate) fn names_all_externals(&self, text: &str) -> bool {
+        let code = self.code(text);
+        code.split(',')
+            .any(|name| name.trim().eq_ignore_ascii_case("V.E."))
+    }
+
     /// The text after its words as the parser sees it, without comments.
     pub(crate) fn code<'a>(&self, text: &'a str) -> Cow<'a, str> {
         code_of_part(self.rest.of(text))
     }
-}
-
-/// What may share the block with a `#` command (R2.47).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BlockSharing {
-    /// Nothing.
-    None,
-    /// Words before it.
-    WordsBefore,
-    /// Words before and after it.
-    Words,
 }
 
 /// One declaration in `#VAR` … `#ENDVAR`.

@@ -3,13 +3,16 @@
 //! Names are spans into the block's text. One vector per block holds its expressions, each operand
 //! before its operator, so that they are evaluated with a stack and without recursion.
 
+mod arguments;
 mod block;
 mod call;
 mod expression;
 mod flow;
 
+pub use crate::language::{AxisCommand, BlockSharing};
+pub use arguments::{Argument, BracketArguments};
 pub use block::{
-    Address, Assignment, Block, BlockNumber, BlockSharing, Declaration, Effect, Hash, Item, Word,
+    Address, Assignment, Block, BlockNumber, Declaration, Effect, Hash, Item, SpindleWord, Word,
 };
 pub use call::{
     Call, CallForm, CallName, CallScope, GCall, Repetition, Return, ReturnLevels, SequenceCall,

@@ -4,10 +4,9 @@ use pest::iterators::Pair;
 
 use super::lowering::{BlockLowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, Fix, did_you_mean, nearest};
+use crate::language::AxisCommand;
 use crate::syntax::ast::{Address, Effect, Item, Word};
-use crate::syntax::keywords::{
-    axis_commands, is_axis_command, is_spindle_command, is_spindle_word,
-};
+use crate::syntax::keywords::{is_spindle_command, is_spindle_word};
 use crate::syntax::{
     comp::{CompWords, end_of_command},
     expression,
@@ -62,12 +61,23 @@ impl BlockLowering<'_> {
             let known = if spindle {
                 is_spindle_command(first)
             } else {
-                is_axis_command(first)
+                AxisCommand::is_known(first)
             };
             if known {
+                let words: Vec<&str> = words.iter().map(|word| word.of(self.code)).collect();
+                let command = AxisCommand::of(first, &words);
+                let arguments = self.arguments_in(body);
+                let spindle = if spindle {
+                    self.spindle_words(&arguments)
+                } else {
+                    Vec::new()
+                };
                 self.block.items.push(Item::Bracket {
                     axis,
                     keyword,
+                    command,
+                    arguments,
+                    spindle,
                     span,
                 });
             } else if spindle {
@@ -136,7 +146,7 @@ fn near_comp(word: &str) -> bool {
 }
 
 fn invalid_keyword(span: Span, word: &str) -> Fault {
-    let known = axis_commands().chain(["COMP"]);
+    let known = AxisCommand::keywords().chain(["COMP"]);
     let fault = Fault::new(
         Code::PErr21301,
         span,

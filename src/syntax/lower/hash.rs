@@ -5,21 +5,15 @@ use pest::iterators::Pair;
 
 use super::lowering::{BlockLowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, nearest};
-use crate::syntax::ast::{BlockSharing, Effect, Hash, Item, Operand, Target};
+use crate::language::{
+    BlockSharing, FurtherWord, HashAction, HashArguments, HashCommand, HashWords, Touches,
+};
+use crate::syntax::ast::{BracketArguments, Effect, Hash, Item, Operand, Target};
 use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule};
-use crate::syntax::hash_words::{command_name, goes_on, hash_name, opening_command};
-use crate::syntax::keywords::{
-    Touches, hash_command, hash_commands, is_further_word, takes_coordinates,
-};
+use crate::syntax::hash_words::{CommandName, command_name, goes_on, hash_name, opening_command};
 use crate::syntax::{expression, pieces::is_blank, unread::not_known};
 use crate::text::Span;
-
-/// Commands followed by a region, whose lines are not arguments.
-const REGIONS: [&str; 3] = ["#VAR", "#RT CYCLE", "#RT CYCLE DEF"];
-
-/// Commands that may follow words (TF5200 Diagnosis, errors 20207, 20450).
-const AFTER_WORDS: [&str; 5] = ["#ACHSE", "#ADD", "#PRESET", "#PSET", "#SUPPRESS OFFSETS"];
 
 impl BlockLowering<'_> {
     /// Words before a `#` command, which must be alone in its block (R2.47; TF5200 Diagnosis, error 20207).
@@ -30,10 +24,11 @@ impl BlockLowering<'_> {
         let Some(first) = words.chain(items.map(Item::span)).next() else {
             return;
         };
-        let (name, _) = command_name(span.of(self.code));
-        if hash_command(&name).is_some() && !AFTER_WORDS.contains(&name.as_str()) {
+        let found = command_name(span.of(self.code));
+        let is_alone = |command: HashWords| command.sharing == BlockSharing::None;
+        if found.command.is_some_and(is_alone) {
             let words = Span::new(first.start as usize, span.start as usize);
-            self.beside(&format!("`{name}`"), words);
+            self.beside(&format!("`{}`", found.name), words);
             self.block.items.sort_by_key(|item| item.span().start);
         }
     }
@@ -48,26 +43,30 @@ impl BlockLowering<'_> {
 
     pub(super) fn hash(&mut self, span: Span) {
         let code = span.of(self.code);
-        let (name, length) = command_name(code);
+        let CommandName {
+            name,
+            length,
+            command,
+        } = command_name(code);
         let name_end = span.start as usize + length;
         self.note_case(Span::new(span.start as usize, name_end));
-        let touches = hash_command(&name).filter(|_| !goes_on(code, &name));
-        let Some(touches) = touches else {
+        let command = command.filter(|_| !goes_on(code, &name));
+        let Some(command) = command else {
             let (name, length) = hash_name(code);
             return self.unknown_hash(&name, length, span);
         };
         let behind = Span::new(name_end, span.end as usize);
-        let is_region = REGIONS.contains(&name.as_str());
+        let is_region = command.region_end().is_some();
         let rest = if is_region {
             behind
         } else {
-            self.arguments(&name, behind)
+            self.arguments(command, behind)
         };
         // A correctly opened comment is not a block (R2.6).
-        if name == "#COMMENT BEGIN" && rest.end == span.end {
+        if command.action == HashAction::Comment && rest.end == span.end {
             return self.beside("other words", span);
         }
-        self.command(name.clone(), touches, rest, span);
+        self.command((command, name.clone()), rest, span);
         if is_region {
             self.region_end(rest);
         } else {
@@ -76,29 +75,30 @@ impl BlockLowering<'_> {
         }
     }
 
-    fn command(&mut self, name: String, touches: Touches, rest: Span, span: Span) {
-        let arguments = match name.as_str() {
-            "#TIME" | "#DELETE" | "#WAIT FOR" => self.expressions_in(rest),
-            "#ERROR" => self.remedy_class(rest).into_iter().collect(),
+    fn command(&mut self, (command, name): (HashWords, String), rest: Span, span: Span) {
+        let arguments = match command.arguments {
+            HashArguments::Expressions => self.expressions_in(rest),
+            HashArguments::RemedyClass => self.remedy_class(rest).into_iter().collect(),
             _ => Vec::new(),
         };
-        let declarations = if name == "#VAR" {
-            self.declarations(rest)
-        } else {
-            Vec::new()
+        let declarations = match command.arguments {
+            HashArguments::Declarations => self.declarations(rest),
+            _ => Vec::new(),
         };
-        let written = match touches {
+        let brackets = if command.reads_brackets() {
+            self.arguments_in(rest)
+        } else {
+            BracketArguments::default()
+        };
+        let written = match command.touches {
             Touches::Values => self.places_in(rest),
             _ => Vec::new(),
         };
-        let sharing = if AFTER_WORDS.contains(&name.as_str()) {
-            BlockSharing::WordsBefore
-        } else {
-            BlockSharing::None
-        };
         self.block.items.push(Item::Hash(Hash {
+            command,
             name,
-            sharing,
+            sharing: command.sharing,
+            brackets,
             rest,
             arguments,
             declarations,
@@ -108,10 +108,10 @@ impl BlockLowering<'_> {
     }
 
     /// The arguments at the start of the text after the words of a command.
-    fn arguments(&self, name: &str, behind: Span) -> Span {
+    fn arguments(&self, command: HashWords, behind: Span) -> Span {
         let is_argument = |pair: &Pair<'_, Rule>| match pair.as_rule() {
-            Rule::hash_coordinate => takes_coordinates(name),
-            Rule::hash_further => is_further_word(pair.as_str()),
+            Rule::hash_coordinate => command.arguments == HashArguments::Coordinates,
+            Rule::hash_further => FurtherWord::of(pair.as_str()).is_some(),
             _ => true,
         };
         let read = NcParser::parse(Rule::hash_arguments, behind.of(self.read));
@@ -156,7 +156,7 @@ impl BlockLowering<'_> {
         if let Some(command) = command {
             let end = region.end as usize;
             self.beside(
-                &format!("`{}`", command.name),
+                &format!("`{}`", command.name.name),
                 Span::new(end - command.rest.len(), end),
             );
         }
@@ -166,7 +166,7 @@ impl BlockLowering<'_> {
     fn unknown_hash(&mut self, name: &str, length: usize, span: Span) {
         let mut fault = not_known(name, span);
         let start = span.start as usize;
-        let near = nearest(name, hash_commands());
+        let near = nearest(name, HashCommand::all_words());
         fault = fault.with_near(Span::new(start, start + length), &near);
         fault = fault.with_help(format!(
             "if it affects nothing that frictcomp follows, add `harmless = [\"{name}\"]` to `[machine]` in frictcomp.toml"

@@ -1,5 +1,6 @@
 //! pest pairs to blocks.
 
+mod arguments;
 mod block;
 mod bracket;
 mod call;

@@ -106,7 +106,8 @@ impl BlockLowering<'_> {
         let letter = byte.to_ascii_uppercase();
         // `M200=1200`, `G159=3` (PM/205952267)
         let carries = matches!(letter, b'M' | b'H' | b'T' | b'G') && !main;
-        if inner.next().is_some() && !carries {
+        let second = inner.next();
+        if second.is_some() && !carries {
             // `L10=5` may call something, `R1=5` assigns to something.
             let effect = if letter == b'L' {
                 Effect::Everything
@@ -117,6 +118,10 @@ impl BlockLowering<'_> {
             return;
         }
         let value = expression::lower(value, 0, self.block);
+        if let Some(second) = second.and_then(|second| second.into_inner().next()) {
+            let second = expression::lower(second, 0, self.block);
+            self.block.second_values.push((span, second));
+        }
         let address = if main {
             Address::Main(byte.to_ascii_uppercase())
         } else {

@@ -234,9 +234,9 @@ fn rests_on(row: &Row<'_>, loaded: &LoadedMachine) -> Vec<&'static str> {
     let block = parse_block(row.text);
     let is_comp = |item: &&Item| matches!(item, Item::Comp(_) | Item::BadCommand(_));
     let commands = block.items.iter().filter(is_comp).count();
-    let names = |wanted: &str| {
-        let is_named = |item: &Item| matches!(item, Item::Hash(it) if it.name.starts_with(wanted));
-        block.items.iter().any(is_named)
+    let rests = |question: Question| {
+        let is_basis = |item: &Item| matches!(item, Item::Hash(it) if it.basis() == Some(question));
+        block.items.iter().any(is_basis)
     };
     let asked = [
         (Question::WithMotion, commands > 0 && moves(&block)),
@@ -246,11 +246,8 @@ fn rests_on(row: &Row<'_>, loaded: &LoadedMachine) -> Vec<&'static str> {
             block.faults.iter().any(|it| it.code == Code::Fc404),
         ),
         (Question::SkipLevel, block.skip.is_some()),
-        (Question::MachineData, names("#MACHINE DATA")),
-        (
-            Question::AxisExchange,
-            ["#PUT AX", "#CALL AX", "#SET AX"].into_iter().any(names),
-        ),
+        (Question::MachineData, rests(Question::MachineData)),
+        (Question::AxisExchange, rests(Question::AxisExchange)),
     ];
     let open = asked
         .into_iter()

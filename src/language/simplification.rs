@@ -5,8 +5,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::moving;
-
 /// Something that a control does and a commanded trace does not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -192,77 +190,14 @@ impl From<Simplifications> for Vec<Simplification> {
 }
 
 /// Duration of a simplification.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Holds {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Holds {
     /// In its block.
     Once,
     /// Until it is taken back.
     On,
     /// It takes back what held.
     Off,
-}
-
-/// Returns the simplification of a G function.
-pub(in crate::interpreter) fn of_g(number: u32) -> Option<(Simplification, Holds)> {
-    use Simplification as It;
-    Some(match number {
-        61 => (It::Contouring, Holds::Once),
-        261 => (It::Contouring, Holds::On),
-        260 => (It::Contouring, Holds::Off),
-        127 | 128 => (It::VelocityWeight, Holds::On),
-        130 | 131 | 230 | 231 => (It::AccelerationWeight, Holds::On),
-        132..=134 | 233 => (It::RampWeight, Holds::On),
-        901 => (It::LateDeceleration, Holds::On),
-        900 => (It::LateDeceleration, Holds::Off),
-        193 | 293 => (It::FeedRamp, Holds::Once),
-        13 => (It::CornerDeceleration, Holds::On),
-        12 => (It::CornerDeceleration, Holds::Off),
-        11 => (It::ToolFeed, Holds::On),
-        10 => (It::ToolFeed, Holds::Off),
-        _ => return None,
-    })
-}
-
-/// `#` commands that simplify, by their first words.
-const COMMANDS: [(&str, Simplification); 13] = [
-    ("#FF", Simplification::ForeignFeed),
-    ("#CONTOUR MODE", Simplification::Contouring),
-    ("#HSC", Simplification::HighSpeed),
-    ("#SLOPE", Simplification::Slope),
-    ("#SET SLOPE", Simplification::Slope),
-    ("#DYN WEIGHT", Simplification::DynamicWeight),
-    ("#DYN_WEIGHT", Simplification::DynamicWeight),
-    ("#DYNAMIC WEIGHT", Simplification::DynamicWeight),
-    ("#FGROUP", Simplification::FeedGroup),
-    ("#VECTOR LIMIT", Simplification::PathLimits),
-    ("#VECTORACC", Simplification::PathLimits),
-    ("#VECTORVEL", Simplification::PathLimits),
-    ("#GEO", Simplification::ForeignFeed),
-];
-
-/// Returns the simplification of a `#` command. `#CONTOUR MODE` without ON or OFF only sets parameters
-/// (PM/475156491).
-pub(in crate::interpreter) fn of_command(name: &str) -> Option<(Simplification, Holds)> {
-    let begins = |words: &str| {
-        name.strip_prefix(words)
-            .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
-    };
-    let &(_, what) = COMMANDS.iter().find(|(words, _)| begins(words))?;
-    let has = |word: &str| name.split(' ').any(|it| it == word);
-    if has("OFF") {
-        return Some((what, Holds::Off));
-    }
-    let only_parameters = what == Simplification::Contouring && !has("ON");
-    (!only_parameters).then_some((what, Holds::On))
-}
-
-/// Returns the simplification of a command in an axis bracket, from its keyword and its whole text in upper
-/// case.
-pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<Simplification> {
-    if keyword.starts_with("DYNAMIC") {
-        return Some(Simplification::AxisDynamics);
-    }
-    moving::of_bracket(keyword, body).map(|_| Simplification::IndependentAxis)
 }
 
 #[cfg(test)]
@@ -278,17 +213,5 @@ mod tests {
         assert!(less.iter().all(|it| it != Simplification::Slope));
         assert_eq!(less.union(Simplification::Slope.into()), all);
         assert!(all.without(all).is_empty());
-    }
-
-    #[test]
-    fn commands_are_told_apart() {
-        // R5.1
-        let of = |name| of_command(name).map(|(what, holds)| (what.name(), holds));
-        assert_eq!(of("#CONTOUR MODE"), None);
-        assert_eq!(of("#CONTOUR MODE ON"), Some(("G261", Holds::On)));
-        assert_eq!(of("#CONTOUR MODE OFF"), Some(("G261", Holds::Off)));
-        assert_eq!(of("#HSC"), Some(("#HSC", Holds::On)));
-        assert_eq!(of("#HSC OFF"), Some(("#HSC", Holds::Off)));
-        assert_eq!(of("#HSCX"), None);
     }
 }

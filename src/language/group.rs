@@ -27,7 +27,7 @@ pub enum Group {
 }
 
 impl Group {
-    pub(in crate::interpreter) const ALL: [Self; Self::COUNT] = [
+    pub(crate) const ALL: [Self; Self::COUNT] = [
         Self::Motion,
         Self::Plane,
         Self::Unit,
@@ -40,23 +40,7 @@ impl Group {
     ];
 
     /// Number of groups.
-    pub(in crate::interpreter) const COUNT: usize = Self::ExactStop as usize + 1;
-
-    /// The group of a G number; `None` for one that is not modal or not modelled.
-    pub fn of(number: u32) -> Option<Self> {
-        Some(match number {
-            0..=3 => Self::Motion,
-            17..=19 => Self::Plane,
-            70 | 71 => Self::Unit,
-            90 | 91 => Self::Distance,
-            93..=95 | 194 => Self::Feed,
-            53..=59 | 159 => Self::Offset,
-            40..=42 => Self::CutterRadius,
-            161 | 162 => Self::CircleCentre,
-            359 | 360 => Self::ExactStop,
-            _ => return None,
-        })
-    }
+    pub(crate) const COUNT: usize = Self::ExactStop as usize + 1;
 }
 
 impl From<Vec<Group>> for GroupSet {
@@ -75,18 +59,18 @@ impl From<GroupSet> for Vec<Group> {
 /// A set of groups, a bit each; serialised as the list of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<Group>", from = "Vec<Group>")]
-pub(in crate::interpreter) struct GroupSet(u16);
+pub(crate) struct GroupSet(u16);
 
 impl GroupSet {
-    pub(in crate::interpreter) fn contains(self, group: Group) -> bool {
+    pub(crate) fn contains(self, group: Group) -> bool {
         self.0 & 1 << group as u8 != 0
     }
 
-    pub(in crate::interpreter) fn insert(&mut self, group: Group) {
+    pub(crate) fn insert(&mut self, group: Group) {
         self.0 |= 1 << group as u8;
     }
 
-    pub(in crate::interpreter) fn remove(&mut self, group: Group) {
+    pub(crate) fn remove(&mut self, group: Group) {
         self.0 &= !(1 << group as u8);
     }
 }

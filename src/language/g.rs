@@ -1,0 +1,394 @@
+//! The G functions, one row each (R2.45, R2.94).
+//!
+//! A function without a row is FC210. Columns that a row leaves out have the values of [`GFunction::new`]: the function
+//! leaves coordinates alone and is passed over.
+//!
+//! PM/n is page n of the TF5200 programming manual.
+
+use super::chain::{ChainStep, OnOff};
+use super::group::Group;
+use super::motion::{AxisWords, Certainty, MotionEffect, MotionKind, Moves};
+use super::simplification::{Holds, Simplification};
+
+/// A G function of the language, or neighbours that have everything in common.
+#[derive(Debug)]
+pub(crate) struct GFunction {
+    first: u32,
+    last: u32,
+    /// Document or rule that describes it.
+    #[allow(dead_code, reason = "it is there to be read")]
+    source: &'static str,
+    /// Execution in a dry run.
+    pub(crate) action: GAction,
+    /// Group of which one function is in force.
+    pub(crate) group: Option<Group>,
+    /// Further group of which a block takes one function.
+    pub(crate) one_of: Option<BlockGroup>,
+    /// Effect on positions, with the name in the state.
+    pub(crate) chain: Option<(ChainStep, &'static str, OnOff)>,
+    /// Motion of the axes, where it is another one than that of the group.
+    pub(crate) motion: Option<MotionEffect>,
+    /// Meaning of the axis words of its block.
+    pub(crate) axis_words: AxisWords,
+    /// Reason why the motion of its block is not modelled.
+    pub(crate) unmodelled: Option<&'static str>,
+    /// Simplification of the commanded trace.
+    pub(crate) simplifies: Option<(Simplification, Holds)>,
+    /// Effect on coordinates that is not in the other columns.
+    pub(crate) coordinates: CoordinateEffect,
+}
+
+/// Execution of a G function in a dry run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum GAction {
+    /// Nothing but the effects in the other columns.
+    PassOver,
+    /// It calls a program (P-CHAN-00187).
+    Call,
+    /// G04: the axes rest.
+    Dwell,
+    /// G20 to G23: coordinates are mirrored.
+    Mirror,
+    /// G150, G151: the path between the points is a spline.
+    SwitchSpline,
+    /// G68, G69: coordinates are rotated; the axis words of G68 are the centre.
+    Rotate,
+    /// G60: the axes come to rest at the end of the block.
+    RestAtEnd,
+    /// G92: axis words are offsets.
+    SetReference,
+    /// G96: S is a cutting speed.
+    SetCuttingSpeed,
+    /// G97: S is a speed of the spindle.
+    SetSpindleSpeed,
+    /// G129: rapid motions are weighted.
+    WeighRapid,
+    /// G163: the radius of circles.
+    SetRadius,
+    /// G166: overrides do not count.
+    RunAtFullSpeed,
+}
+
+/// A group of G functions of which a block takes one, and of which more than one may be in force (TF5200 Diagnosis).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum BlockGroup {
+    /// The end of the block, together with G359 and G360 (error 20117).
+    ExactStop,
+    /// The transition between contours (error 20113).
+    Transition,
+    /// The programming of diameters (error 20115).
+    Diameter,
+    /// Deceleration (error 20977).
+    Deceleration,
+    /// Measuring (error 20123).
+    Measuring,
+    /// The selection of the cutter radius compensation (error 20126).
+    RadiusSelection,
+    /// The correction of the centre (error 20128).
+    CentreCorrection,
+    /// Look-ahead, with which N is a number of blocks, `G115 N5` (error 20124).
+    LookAhead,
+}
+
+/// Effect of a G function on coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CoordinateEffect {
+    /// None, or that of the other columns.
+    None,
+    /// Positions are those of the program from here on: weights of axes, diameters, the operator's hand wheel.
+    Unfollowed,
+    /// Only its group is known.
+    NotKnown,
+}
+
+impl BlockGroup {
+    /// Its place after the groups of which one is in force.
+    pub(crate) const fn place(self) -> usize {
+        match self {
+            Self::ExactStop => Group::ExactStop as usize,
+            _ => Group::COUNT + self as usize - 1,
+        }
+    }
+}
+
+impl GFunction {
+    const fn new((first, last): (u32, u32), source: &'static str) -> Self {
+        Self {
+            first,
+            last,
+            source,
+            action: GAction::PassOver,
+            group: None,
+            one_of: None,
+            chain: None,
+            motion: None,
+            axis_words: AxisWords::Motion,
+            unmodelled: None,
+            simplifies: None,
+            coordinates: CoordinateEffect::None,
+        }
+    }
+
+    super::columns! {
+        action(action: GAction) = action;
+        group(group: Group) = Some(group);
+        one_of(group: BlockGroup) = Some(group);
+        chain(step: ChainStep, name: &'static str, switch: OnOff) = Some((step, name, switch));
+        motion(kind: MotionKind, moves: Moves, certainty: Certainty) = Some(MotionEffect { kind, moves, certainty });
+        axis_words(axis_words: AxisWords) = axis_words;
+        unmodelled(reason: &'static str) = Some(reason);
+        simplifies(what: Simplification, holds: Holds) = Some((what, holds));
+        coordinates(coordinates: CoordinateEffect) = coordinates;
+    }
+}
+
+macro_rules! functions {
+    ($($first:literal $(..=$last:literal)? ($source:expr) $($column:ident($($value:expr),+))*;)+) => {
+        &[$(GFunction::new(functions!(@range $first $(, $last)?), $source)$(.$column($($value),+))*),+]
+    };
+    (@range $one:literal) => { ($one, $one) };
+    (@range $first:literal, $last:literal) => { ($first, $last) };
+}
+
+/// PM/206089483 and its neighbours: block ends, feedforward, gain, weights of dynamics, insertion of chamfers and
+/// roundings, override, contouring modes, threads, measuring, software limits.
+const MANUAL: &str = "PM/206089483";
+
+/// Descriptions of commands in the vendor's editor for NC programs (vscode-isg-cnc), and examples of the manual.
+const EDITOR: &str = "vscode-isg-cnc";
+
+const PROBED: &str = "a measuring motion ends where the probe triggers";
+
+/// The functions, in the order of their numbers.
+static FUNCTIONS: &[GFunction] = {
+    use AxisWords::{Measuring, Other, Reference};
+    use BlockGroup as One;
+    use Certainty::{Certain, Possible};
+    use ChainStep::{Coordinates, Path};
+    use CoordinateEffect::{NotKnown, Unfollowed};
+    use GAction::{
+        Call, Dwell, Mirror, RestAtEnd, Rotate, RunAtFullSpeed, SetCuttingSpeed, SetRadius,
+        SetReference, SetSpindleSpeed, SwitchSpline, WeighRapid,
+    };
+    use MotionKind::{Feed, Homing, Unknown};
+    use Moves::{Words, WordsOrAll};
+    use OnOff::{Off, On};
+    use Simplification::{
+        AccelerationWeight, Contouring, CornerDeceleration, FeedRamp, LateDeceleration, RampWeight,
+        ToolFeed, VelocityWeight,
+    };
+    functions! {
+        0..=3 ("R2.45") group(Group::Motion);
+        4 (MANUAL) action(Dwell) axis_words(Other);
+        5 (MANUAL);
+        8 (MANUAL);
+        9 (MANUAL) one_of(One::Deceleration);
+        10 ("PM/206473227") simplifies(ToolFeed, Holds::Off);
+        11 ("PM/206473227") simplifies(ToolFeed, Holds::On);
+        12 (MANUAL) simplifies(CornerDeceleration, Holds::Off);
+        13 (MANUAL) simplifies(CornerDeceleration, Holds::On);
+        17..=19 ("R2.45") group(Group::Plane);
+        20 ("PM/206266379") action(Mirror) chain(Coordinates, "G21", Off);
+        21..=23 ("PM/206266379") action(Mirror) chain(Coordinates, "G21", On);
+        25..=26 (MANUAL) one_of(One::Transition);
+        28 (MANUAL);
+        33 (MANUAL) motion(Feed, Words, Certain) unmodelled("G33 follows a spindle");
+        40..=42 ("R2.45") group(Group::CutterRadius);
+        43..=44 (EDITOR) coordinates(Unfollowed);
+        51..=52 (EDITOR) one_of(One::Diameter) coordinates(Unfollowed);
+        53..=59 ("R2.45") group(Group::Offset);
+        60 (MANUAL) action(RestAtEnd) one_of(One::ExactStop);
+        61 ("PM/206307595") simplifies(Contouring, Holds::Once) one_of(One::ExactStop);
+        63 (MANUAL) motion(Feed, Words, Certain) unmodelled("G63 follows a spindle");
+        66 (EDITOR) coordinates(Unfollowed);
+        68 ("PM/969743115") action(Rotate) chain(Coordinates, "#ROTATION", On) axis_words(Other);
+        69 ("PM/969743115") action(Rotate) chain(Coordinates, "#ROTATION", Off);
+        70..=71 ("R2.45") group(Group::Unit);
+        74 ("PM/206138635") motion(Homing, Words, Certain) axis_words(AxisWords::Homing);
+        80..=89 ("PM/206278923") action(Call);
+        90..=91 ("R2.45") group(Group::Distance);
+        92 ("PM/206145291") action(SetReference) axis_words(Reference);
+        93..=95 ("R2.45") group(Group::Feed);
+        96 (MANUAL) action(SetCuttingSpeed);
+        97 (MANUAL) action(SetSpindleSpeed);
+        98..=99 (MANUAL) axis_words(Other);
+        100..=102 ("PM/206177803") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring);
+        103..=105 (EDITOR) one_of(One::Measuring) coordinates(NotKnown);
+        106 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring);
+        107 (MANUAL) one_of(One::Measuring);
+        108 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring);
+        109 (MANUAL);
+        112 (MANUAL) axis_words(Other);
+        115..=117 (MANUAL) one_of(One::LookAhead);
+        120..=122 (MANUAL);
+        127 ("PM/206573067") axis_words(Other) simplifies(VelocityWeight, Holds::On);
+        128 ("PM/206573067") simplifies(VelocityWeight, Holds::On);
+        129 ("PM/206578955") action(WeighRapid);
+        130..=131 ("PM/206590731") axis_words(Other) simplifies(AccelerationWeight, Holds::On);
+        132..=134 ("PM/206596619") axis_words(Other) simplifies(RampWeight, Holds::On);
+        135..=137 (MANUAL) axis_words(Other);
+        138..=139 (MANUAL) one_of(One::RadiusSelection);
+        140..=141 (MANUAL);
+        150 ("PM/207263627") action(SwitchSpline) chain(Path, "#SPLINE", Off);
+        151 ("PM/207256971") action(SwitchSpline) chain(Path, "#SPLINE", On);
+        159 ("R2.45") group(Group::Offset);
+        160 (MANUAL);
+        161..=162 ("R2.45") group(Group::CircleCentre);
+        163 (MANUAL) action(SetRadius);
+        164..=165 (MANUAL) one_of(One::CentreCorrection);
+        166 ("PM/206744331") action(RunAtFullSpeed);
+        167 (MANUAL);
+        180 (MANUAL);
+        193 ("PM/206245643") simplifies(FeedRamp, Holds::Once);
+        194 ("R2.45") group(Group::Feed);
+        196..=197 (MANUAL);
+        200 ("PM/206639371") motion(Unknown, WordsOrAll, Possible) axis_words(Other) coordinates(Unfollowed);
+        201 ("PM/206633483") motion(Unknown, Words, Possible) axis_words(Other) coordinates(Unfollowed);
+        202 (EDITOR) axis_words(Other) coordinates(Unfollowed);
+        230..=231 ("PM/206590731") axis_words(Other) simplifies(AccelerationWeight, Holds::On);
+        233 ("PM/206596619") axis_words(Other) simplifies(RampWeight, Holds::On);
+        234 (EDITOR) coordinates(Unfollowed);
+        236..=239 (MANUAL);
+        260 ("PM/206307595") simplifies(Contouring, Holds::Off) one_of(One::ExactStop);
+        261 ("PM/206307595") simplifies(Contouring, Holds::On) one_of(One::ExactStop);
+        270..=271 (EDITOR) coordinates(Unfollowed);
+        280 (EDITOR) coordinates(Unfollowed);
+        293 ("PM/206245643") simplifies(FeedRamp, Holds::Once);
+        294 (EDITOR) coordinates(Unfollowed);
+        296 (MANUAL);
+        301..=302 (MANUAL) motion(Feed, Words, Certain) unmodelled("G301 and G302 insert a contour");
+        303 (MANUAL) motion(Feed, Words, Certain) unmodelled("G303 is an arc in space");
+        310 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED);
+        331..=332 (MANUAL) motion(Feed, Words, Certain);
+        333..=334 (MANUAL) axis_words(Other);
+        338..=339 (MANUAL) axis_words(Other);
+        350 (EDITOR) coordinates(Unfollowed);
+        351 (EDITOR) axis_words(Other) coordinates(Unfollowed);
+        359..=360 ("R2.45") group(Group::ExactStop);
+        393 (EDITOR) coordinates(Unfollowed);
+        800..=899 ("PM/206278923") action(Call);
+        900 ("PM/206238219") simplifies(LateDeceleration, Holds::Off) one_of(One::Deceleration);
+        901 ("PM/206238219") simplifies(LateDeceleration, Holds::On) one_of(One::Deceleration);
+        905 (EDITOR) coordinates(Unfollowed);
+    }
+};
+
+/// One past the highest number.
+const NUMBERS: usize = 906;
+
+/// The place of the row of each number, from one on; zero where it has none.
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "there are fewer than 255 rows"
+)]
+static PLACES: [u8; NUMBERS] = {
+    let mut places = [0; NUMBERS];
+    let mut at = 0;
+    while at < FUNCTIONS.len() {
+        let mut number = FUNCTIONS[at].first as usize;
+        while number <= FUNCTIONS[at].last as usize {
+            places[number] = at as u8 + 1;
+            number += 1;
+        }
+        at += 1;
+    }
+    places
+};
+
+/// The group of each number.
+static GROUPS: [Option<Group>; NUMBERS] = {
+    let mut groups = [None; NUMBERS];
+    let mut number = 0;
+    while number < NUMBERS {
+        if PLACES[number] > 0 {
+            groups[number] = FUNCTIONS[PLACES[number] as usize - 1].group;
+        }
+        number += 1;
+    }
+    groups
+};
+
+impl Group {
+    /// The group of a G number; `None` for one that is not modal or not modelled.
+    #[inline]
+    pub fn of(number: u32) -> Option<Self> {
+        GROUPS.get(number as usize).copied().flatten()
+    }
+}
+
+impl GFunction {
+    /// The row of a number; `None` where none names it.
+    pub(crate) fn of(number: u32) -> Option<&'static Self> {
+        let place = usize::from(*PLACES.get(number as usize)?);
+        FUNCTIONS.get(place.checked_sub(1)?)
+    }
+
+    /// The row of a number after G, which may be a fraction.
+    pub(crate) fn of_value(number: f64) -> Option<&'static Self> {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
+        let whole = number as u32;
+        let is_whole = f64::from(whole).total_cmp(&number).is_eq();
+        Self::of(whole).filter(|_| is_whole)
+    }
+
+    /// The row of a number whose function is known, and not only its group.
+    pub(crate) fn known(number: u32) -> Option<&'static Self> {
+        Self::of(number).filter(|row| row.coordinates != CoordinateEffect::NotKnown)
+    }
+
+    /// Whether an axis word in its block is a number, so that an axis cannot only be named: the groups, block ends,
+    /// G04 and G92.
+    pub(crate) fn takes_numbers(&self) -> bool {
+        self.group.is_some()
+            || matches!(self.action, GAction::Dwell | GAction::SetReference)
+            || matches!(
+                self.one_of,
+                Some(BlockGroup::ExactStop | BlockGroup::Deceleration)
+            )
+    }
+
+    /// Whether it takes effect in a dry run, so that it cannot be declared harmless: those of the groups, mirroring and
+    /// G92 (R2.45).
+    pub(crate) fn is_followed(&self) -> bool {
+        self.group.is_some() || matches!(self.action, GAction::Mirror | GAction::SetReference)
+    }
+
+    /// Whether its motion ends where a probe triggers.
+    pub(crate) fn is_measuring(&self) -> bool {
+        self.axis_words == AxisWords::Measuring
+    }
+
+    /// Whether it is an implicit call.
+    pub(crate) fn is_call(&self) -> bool {
+        self.action == GAction::Call
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rows_are_in_order() {
+        // R2.94
+        for pair in FUNCTIONS.windows(2) {
+            assert!(pair[0].last < pair[1].first, "G{}", pair[1].first);
+        }
+        let last = FUNCTIONS.last().expect("a row");
+        assert_eq!(last.last as usize + 1, NUMBERS);
+        assert!(FUNCTIONS.iter().all(|row| !row.source.is_empty()));
+    }
+
+    #[test]
+    fn each_number_has_its_row() {
+        // R2.45 R2.94
+        assert_eq!(Group::of(194), Some(Group::Feed));
+        assert_eq!(Group::of(4), None);
+        assert!(GFunction::known(85).is_some_and(GFunction::is_call));
+        assert!(GFunction::of(105).is_some() && GFunction::known(105).is_none());
+        assert!(GFunction::of(7).is_none() && GFunction::of(100_000).is_none());
+        let reference = GFunction::of_value(92.0).expect("G92");
+        assert!(reference.is_followed() && reference.takes_numbers());
+        assert!(GFunction::of_value(54.1).is_none() && GFunction::of_value(-1.0).is_none());
+    }
+}

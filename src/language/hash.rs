@@ -1,0 +1,819 @@
+//! The `#` commands, one row each (R2.70).
+//!
+//! A dry run passes over a command without a message where a row names it; any other one is FC210. A row applies to its
+//! continuations, `#CS` to `#CS ON`, unless another row names more of the words. Columns that a row leaves out have the
+//! values of [`HashCommand::new`]: the command touches nothing that is followed, and is alone in its block.
+//!
+//! PM/n is page n of the TF5200 programming manual, HSC/n one of the HSC package.
+
+use std::ops::Deref;
+
+use serde::{Deserialize, Deserializer, Serializer};
+
+use super::chain::ChainStep;
+use super::motion::{Certainty, MotionEffect, MotionKind, Moves};
+use super::simplification::{Holds, Simplification};
+use crate::readings::Question;
+
+/// A `#` command of the language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct HashCommand {
+    /// The words by which it is known, in upper case with one blank between them.
+    pub(crate) words: &'static str,
+    /// Document that describes it.
+    #[allow(dead_code, reason = "it is there to be read")]
+    source: &'static str,
+    /// Effect on the followed state, apart from the other columns.
+    pub(crate) touches: Touches,
+    /// Execution in a dry run.
+    pub(crate) action: HashAction,
+    /// Effect on positions.
+    pub(crate) chain: Option<ChainStep>,
+    /// Axes that it moves from here on without words of their own.
+    pub(crate) motion: Option<MotionEffect>,
+    /// Simplification of the commanded trace.
+    pub(crate) simplifies: Option<Simplification>,
+    /// Reason why the motion of its block is not modelled.
+    pub(crate) unmodelled: Option<&'static str>,
+    /// Parts that may be in its block.
+    pub(crate) sharing: BlockSharing,
+    /// Form of the text after its words.
+    pub(crate) arguments: HashArguments,
+    /// Command that ends what it begins.
+    pub(crate) until: Option<&'static str>,
+    /// Part of the PLC in it.
+    pub(crate) plc: Plc,
+    /// Effect on a motion in progress.
+    pub(crate) path: PathFlow,
+    /// Open question on which its effect rests.
+    pub(crate) basis: Option<Question>,
+    /// Name in the state and in messages, where that is another command's.
+    known_as: Option<&'static str>,
+}
+
+/// Effect of a `#` command on the followed state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Touches {
+    /// Neither flow nor values; its effect on coordinates is that of its chain.
+    Nothing,
+    /// It writes the parameters and variables that its brackets name.
+    Values,
+    /// It says which axes the channel has, and under which names.
+    Axes,
+    /// It moves axes to places that are not followed.
+    Motion,
+    /// It moves the axes of the plane to places that are not followed.
+    Plane,
+    /// Friction compensation of the axes that it names, of all where it names none, in a way that no
+    /// public page describes (R2.93).
+    Friction,
+}
+
+/// Execution of a `#` command in a dry run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum HashAction {
+    /// Nothing but the effects in the other columns.
+    PassOver,
+    /// The blocks up to its end are a comment (PM/205979659).
+    Comment,
+    /// A comment ends.
+    EndComment,
+    /// Variables are declared (PM/207960587).
+    Declare,
+    /// Declarations end.
+    EndDeclarations,
+    /// Variables are deleted (PM/207960587).
+    Delete,
+    /// Variables are initialised (PM/207988747).
+    Initialise,
+    /// The axes rest (PM/206602507).
+    Dwell,
+    /// The program waits for a condition (R2.99; PM/207058059).
+    Wait,
+    /// The program may end (R2.100; PM/207457163).
+    ReportError,
+    /// The blocks up to its end run in real time (tf5261, 783727499).
+    RealTimeLoop,
+    /// A real-time loop ends.
+    EndRealTimeLoop,
+    /// Words get programs (PM/207504523).
+    NamePrograms,
+    /// Modal cycles end (PM/206859019).
+    EndModalCycles,
+    /// The running cycle keeps its changes to G functions and feed (PM/206859019).
+    RetainCycleChanges,
+    /// Macros of the program are forgotten.
+    ForgetMacros,
+    /// The blocks up to its end describe geometry and do not move (R2.81): the contour for a cycle (tf5293,
+    /// 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
+    Describe,
+    /// A description ends.
+    EndDescription,
+    /// A coupling group is defined (PM/207120267).
+    DefineCoupling(MembersBy),
+    /// A coupling group comes into force (PM/207133579).
+    EnableCoupling,
+    /// A coupling group is released (PM/207133579).
+    ReleaseCoupling,
+    /// All coupling groups are released (PM/207133579).
+    ReleaseCouplings,
+    /// Axes come to the channel or leave it (PM/206977419 and its neighbours).
+    ExchangeAxes(Exchange),
+    /// Coordinates are rotated in the plane (PM/207442315).
+    Rotate,
+    /// Overrides are programmed (PM/207625099).
+    Override,
+    /// Another spindle becomes the main one.
+    SelectSpindle,
+    /// Transitions between blocks are rounded, or their parameters are set (R11.21).
+    Round(ContouringCommand),
+    /// The profile of the acceleration is selected (R11.20).
+    SelectSlope(SlopeForm),
+    /// A parameter of an axis is written while the program runs (R2.92; PM/207492747).
+    WriteMachineData,
+}
+
+/// Kind of an axis exchange.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Exchange {
+    /// The named axes come.
+    Request,
+    /// The named axes go.
+    Release,
+    /// The named axes come; all others go.
+    Define,
+    /// The axes are again those of an earlier moment.
+    Restore,
+    /// Axes come or go in a way that no public page describes.
+    Undescribed,
+}
+
+/// Form in which the definition of a coupling group names axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum MembersBy {
+    Name,
+    /// By their logical numbers.
+    Number,
+}
+
+/// A command that sets the parameters of rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum ContouringCommand {
+    /// `#CONTOUR MODE` (PM/475147915).
+    Contour,
+    /// `#HSC` (PM/207278475).
+    HighSpeed,
+}
+
+/// Form in which a profile of the acceleration is selected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum SlopeForm {
+    /// That of the channel list (PM/207190411).
+    Channel,
+    /// By its name (PM/207190411).
+    Named,
+    /// By its number, in the older command (HSC/15427921547).
+    Numbered,
+}
+
+/// What may share the block with a `#` command (R2.47).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum BlockSharing {
+    /// Nothing.
+    None,
+    /// Words before it (TF5200 Diagnosis, errors 20207, 20450).
+    WordsBefore,
+    /// Words before and after it.
+    Words,
+}
+
+/// Form of the text after the words of a `#` command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum HashArguments {
+    /// Brackets and values.
+    Brackets,
+    /// Expressions.
+    Expressions,
+    /// Coordinates without a bracket, `#PSET X10 Y20`.
+    Coordinates,
+    /// The words of `#ERROR`, of which one is the remedy class.
+    RemedyClass,
+    /// Declarations, up to the end.
+    Declarations,
+    /// Lines that are not looked at, up to the end.
+    Lines,
+}
+
+/// Part of the PLC in a `#` command (R2.99).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Plc {
+    /// None.
+    Absent,
+    /// It acts by design: a dwell, a wait. Late M functions are acknowledged at `#EXPL` (tf5200_m_and_h_func/286004619).
+    Acts,
+    /// It acts where the command has the word `WAIT`.
+    ActsAfterWait,
+    /// It acts where the command has the word `ACK` or `SYN_ACK`.
+    ActsAfterAcknowledgement,
+}
+
+/// Effect of a `#` command on a motion in progress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum PathFlow {
+    /// The axes may come to rest.
+    MayRest,
+    /// The axes certainly keep moving.
+    GoesOn,
+}
+
+impl HashCommand {
+    const fn new(words: &'static str, source: &'static str) -> Self {
+        Self {
+            words,
+            source,
+            touches: Touches::Nothing,
+            action: HashAction::PassOver,
+            chain: None,
+            motion: None,
+            simplifies: None,
+            unmodelled: None,
+            sharing: BlockSharing::None,
+            arguments: HashArguments::Brackets,
+            until: None,
+            plc: Plc::Absent,
+            path: PathFlow::MayRest,
+            basis: None,
+            known_as: None,
+        }
+    }
+
+    super::columns! {
+        touches(touches: Touches) = touches;
+        action(action: HashAction) = action;
+        chain(step: ChainStep) = Some(step);
+        motion(kind: MotionKind, moves: Moves, certainty: Certainty) = Some(MotionEffect { kind, moves, certainty });
+        simplifies(what: Simplification) = Some(what);
+        unmodelled(reason: &'static str) = Some(reason);
+        sharing(sharing: BlockSharing) = sharing;
+        arguments(arguments: HashArguments) = arguments;
+        until(end: &'static str) = Some(end);
+        plc(plc: Plc) = plc;
+        path(path: PathFlow) = path;
+        basis(question: Question) = Some(question);
+        known_as(name: &'static str) = Some(name);
+    }
+}
+
+macro_rules! commands {
+    ($($words:literal ($source:expr) $($column:ident($($value:expr),+))*;)+) => {
+        &[$(HashCommand::new($words, $source)$(.$column($($value),+))*),+]
+    };
+}
+
+/// PM, appendix, overview of additional functions.
+const APPENDIX: &str = "PM/5252011631026770315";
+
+/// The commands that the vendor's editor for NC programs supports (isg-stuttgart/vscode-isg-cnc,
+/// syntaxes and snippets).
+const EDITOR: &str = "vscode-isg-cnc";
+
+/// The texts of the kernel's messages.
+const KERNEL: &str = "kernel messages";
+
+/// The commands, in the order of their words.
+static COMMANDS: &[HashCommand] = {
+    use BlockSharing::WordsBefore;
+    use Certainty::{Certain, Possible};
+    use ChainStep::{Coordinates, Kinematics, Machine, Origin, Path};
+    use HashAction::{
+        Comment, Declare, DefineCoupling, Delete, Describe, Dwell, EnableCoupling, EndComment,
+        EndDeclarations, EndDescription, EndModalCycles, EndRealTimeLoop, ExchangeAxes,
+        ForgetMacros, Initialise, NamePrograms, Override, RealTimeLoop, ReleaseCoupling,
+        ReleaseCouplings, ReportError, RetainCycleChanges, Rotate, Round, SelectSlope,
+        SelectSpindle, Wait, WriteMachineData,
+    };
+    use HashArguments::{Declarations, Expressions, Lines, RemedyClass};
+    use MotionKind::{Coupled, Frame, Independent};
+    use Moves::{Channel, Follower, Main, NamedOrAll};
+    use PathFlow::GoesOn;
+    use Question::{AxisExchange, MachineData};
+    use Simplification::{
+        Contouring, DynamicWeight, FeedGroup, ForeignFeed, HighSpeed, PathLimits, Slope,
+    };
+    use Touches::{Axes, Friction, Motion, Plane, Values};
+    commands! {
+        "#ACHSE" ("tccncprogramming/15557317259") sharing(WordsBefore);
+        "#ACHSTAUSCH" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Undescribed));
+        "#ACS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible);
+        "#ADD" (APPENDIX) sharing(WordsBefore);
+        "#AKIMA ENDVECTOR" (APPENDIX);
+        "#AKIMA STARTVECTOR" (APPENDIX);
+        "#AKIMA TRANS" (APPENDIX);
+        "#ANG" ("PM/206123787") touches(Plane) unmodelled("`#ANG` computes a coordinate from an angle");
+        "#ASPLINE" (EDITOR);
+        "#AX DEF" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange);
+        "#AX LINK" (APPENDIX) action(DefineCoupling(MembersBy::Name));
+        "#AX LINK NBR" (APPENDIX) action(DefineCoupling(MembersBy::Number));
+        "#AX LINK OFF" (APPENDIX) action(ReleaseCoupling);
+        "#AX LINK OFF ALL" (APPENDIX) action(ReleaseCouplings);
+        "#AX LINK ON" (APPENDIX) action(EnableCoupling);
+        "#AX LOCK" (APPENDIX);
+        "#AX RELEASE" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange);
+        "#AX REQUEST" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange);
+        "#AX UNLOCK" (APPENDIX);
+        "#BACKWARD STORAGE CLEAR" (APPENDIX);
+        "#BCS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible);
+        "#BLOCKSEARCH LOCKED" (APPENDIX);
+        "#BLOCKSEARCH RELEASED" (APPENDIX);
+        "#BSPLINE" (EDITOR);
+        "#CACHE" (APPENDIX);
+        "#CALL AX" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange);
+        "#CAX" (APPENDIX);
+        "#CAXTRACK" (APPENDIX) motion(Coupled, Follower, Possible);
+        "#CHANNEL INIT" (APPENDIX);
+        "#CHANNEL INTERFACE" (APPENDIX);
+        "#CHANNEL SET" (APPENDIX);
+        "#CHF" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
+        "#CHR" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
+        "#CLAMP" (EDITOR);
+        "#CLEAR CONFIG" (EDITOR);
+        "#COMMAND WAIT" (EDITOR);
+        "#COMMAND WR" (EDITOR);
+        "#COMMENT" ("PM/205979659") path(GoesOn);
+        "#COMMENT BEGIN" ("PM/205979659") action(Comment) until("#COMMENT END") path(GoesOn);
+        "#COMMENT END" ("PM/205979659") action(EndComment) path(GoesOn);
+        "#CONTOUR BEGIN" (EDITOR) action(Describe) until("#CONTOUR END");
+        "#CONTOUR END" (EDITOR) action(EndDescription);
+        "#CONTOUR MODE" ("tccncprogramming/15557317259") action(Round(ContouringCommand::Contour)) simplifies(Contouring);
+        "#CONTROL AREA" ("tccncprogramming/15557317259");
+        "#CONTROL AREA BEGIN" ("tccncprogramming/15557317259") action(Describe) until("#CONTROL AREA END");
+        "#CONTROL AREA END" ("tccncprogramming/15557317259") action(EndDescription);
+        "#CORNER PARAM" (EDITOR);
+        "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible);
+        "#CYL" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#DB INFO" (EDITOR);
+        "#DCC" (EDITOR);
+        "#DEL DIST2GO" (EDITOR);
+        "#DELETE" ("PM/207960587") action(Delete) arguments(Expressions);
+        "#DISABLE AX LINK" ("PM/207133579") action(ReleaseCoupling);
+        "#DISABLE AX LINK ALL" ("PM/207133579") action(ReleaseCouplings);
+        "#DISABLE MODAL CYCLE" ("PM/206859019") action(EndModalCycles);
+        "#DIST CTRL" (EDITOR);
+        "#DIST CTRL ON" (EDITOR) motion(Independent, NamedOrAll, Possible);
+        "#DIST TO GO" (EDITOR);
+        "#DISTANCE PROG START" (EDITOR);
+        "#DRIVE RD" (EDITOR) touches(Values);
+        "#DRIVE WAIT" (EDITOR);
+        "#DRIVE WR" (EDITOR);
+        "#DYN WEIGHT" (EDITOR) simplifies(DynamicWeight);
+        "#DYNAMIC WEIGHT" (EDITOR) simplifies(DynamicWeight);
+        "#DYN_WEIGHT" (EDITOR) simplifies(DynamicWeight);
+        "#ECS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible);
+        "#EDGE MACHINING" (EDITOR);
+        "#EDM" (EDITOR);
+        "#ENABLE AX LINK" ("PM/207133579") action(EnableCoupling);
+        "#ENDVAR" ("PM/207960587") action(EndDeclarations) path(GoesOn);
+        "#ERROR" (EDITOR) action(ReportError) arguments(RemedyClass);
+        "#EXPL SYN" (EDITOR) plc(Plc::Acts);
+        "#EXPORT VE" (EDITOR);
+        "#EXTCOMP" (EDITOR);
+        "#FACE" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#FF" (EDITOR) simplifies(ForeignFeed);
+        "#FGROUP" (EDITOR) simplifies(FeedGroup);
+        "#FILE DELETE" ("FCT-C18");
+        "#FILE EXIST" ("FCT-C18");
+        "#FILE NAME" ("FCT-C18") action(NamePrograms);
+        "#FILE RENAME" ("FCT-C18");
+        "#FILENAME" ("FCT-C18") action(NamePrograms);
+        "#FILTER" (EDITOR);
+        "#FLUSH" (EDITOR) plc(Plc::ActsAfterWait);
+        "#FRC" (EDITOR);
+        "#FREE TOOL CHANGE" (EDITOR);
+        // Named only by the kernel's messages 21721, 50758, 70496 and 70497.
+        "#FRICTION" (KERNEL) touches(Friction);
+        "#GANTRY" (EDITOR) motion(Coupled, Moves::Gantry, Certain);
+        "#GEAR LINK" ("PM/546229387") motion(Coupled, Follower, Certain);
+        "#GEO" (EDITOR) simplifies(ForeignFeed);
+        "#GET ACTPOS" (EDITOR) touches(Values);
+        "#GET CMDPOS" (EDITOR) touches(Values);
+        "#GET IPO OFFSET" (EDITOR) touches(Values);
+        "#GET MANUAL OFFSETS" (EDITOR) touches(Values);
+        "#GET WCS POSLIMIT" (EDITOR) touches(Values);
+        "#HANDWHEEL" (EDITOR);
+        "#HSC" (EDITOR) action(Round(ContouringCommand::HighSpeed)) simplifies(HighSpeed);
+        "#IDENT RD" (EDITOR) touches(Values);
+        "#IDENT WR" (EDITOR);
+        "#INFO" (EDITOR);
+        "#INIT" (EDITOR) touches(Values) action(Initialise);
+        "#INIT MACRO TAB" (EDITOR) action(ForgetMacros);
+        "#INIT V" (EDITOR) touches(Values);
+        "#JOG CONT" (EDITOR);
+        "#JOG INCR" (EDITOR);
+        "#KIN DATA" (EDITOR) chain(Kinematics) known_as("#KIN") motion(Frame, Channel, Possible);
+        "#KIN ID" (EDITOR) chain(Kinematics) known_as("#KIN") motion(Frame, Channel, Possible);
+        "#KIN TCP" (EDITOR);
+        "#LAH" (EDITOR);
+        "#LASER" (EDITOR);
+        "#LIMIT LOAD" (EDITOR);
+        "#LIMIT REFRESH" (EDITOR);
+        "#LOAD CONFIG" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Restore));
+        "#LOCK" (EDITOR);
+        "#MACHINE DATA" (EDITOR) action(WriteMachineData) basis(MachineData);
+        "#MAIN SPINDLE" (EDITOR) action(SelectSpindle);
+        "#MANUAL LIMITS" (EDITOR);
+        "#MARK" (EDITOR);
+        "#MCS" (EDITOR) chain(Machine);
+        "#MCS TO WCS" ("PM/208525707") touches(Values);
+        "#MC_MOVEPATH" (EDITOR) touches(Motion);
+        "#MEAS" (EDITOR);
+        "#MICROJOINT" (EDITOR);
+        "#MSG" (EDITOR) plc(Plc::ActsAfterAcknowledgement) path(GoesOn);
+        "#NIBBLE" (EDITOR);
+        "#OPTIONAL EXECUTION" (EDITOR);
+        "#ORI MODE" (EDITOR);
+        "#ORIMODE" (EDITOR);
+        "#OTC" (EDITOR);
+        "#OVERRIDE" (EDITOR) action(Override);
+        "#PRESET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates);
+        "#PSET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates);
+        "#PTP" (EDITOR);
+        "#PUNCH" (EDITOR);
+        "#PUT AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange);
+        "#RETAIN CYCLE CHANGES" ("PM/206859019") action(RetainCycleChanges);
+        "#RND" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
+        "#ROTATION" (EDITOR) action(Rotate) chain(Coordinates) motion(Frame, Moves::Plane, Certain);
+        "#RT CYCLE" (EDITOR) arguments(Lines) until("#RT CYCLE END");
+        "#RT CYCLE DEF" (EDITOR) arguments(Lines) until("#RT CYCLE END");
+        "#RT CYCLE END" (EDITOR);
+        "#RT ENDWHILE" (EDITOR) action(EndRealTimeLoop);
+        "#RT WHILE" (EDITOR) action(RealTimeLoop);
+        "#RTCP" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#SAVE CONFIG" (EDITOR);
+        "#SCALE" (EDITOR) chain(Coordinates);
+        "#SCENE" (EDITOR);
+        "#SEGMENTATION" (EDITOR);
+        "#SET ASPLINE" (EDITOR);
+        "#SET AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange);
+        "#SET AX LINK" (EDITOR) action(DefineCoupling(MembersBy::Name));
+        "#SET AX LINK NBR" (EDITOR) action(DefineCoupling(MembersBy::Number));
+        "#SET CORNER PARAM" (EDITOR);
+        "#SET DEC LR SOLL" (EDITOR);
+        "#SET HR" (EDITOR);
+        "#SET IPO SOLLPOS" (EDITOR) chain(Origin);
+        "#SET JOG" (EDITOR);
+        "#SET OFFSET" (EDITOR) chain(Origin);
+        "#SET PATH SMOOTH" (EDITOR);
+        "#SET SLOPE" (EDITOR) simplifies(Slope);
+        "#SET SLOPE PROFIL" (EDITOR) action(SelectSlope(SlopeForm::Numbered)) simplifies(Slope);
+        "#SET SPLINE" (EDITOR) chain(Path) known_as("#SPLINE");
+        "#SET SPLINETYPE" (EDITOR);
+        "#SET TANGFEED RMIN" (EDITOR);
+        "#SET TIP" (EDITOR);
+        "#SET UEBERSCH_PARAM" (EDITOR);
+        "#SHIFT" (EDITOR) chain(Origin) arguments(HashArguments::Coordinates);
+        "#SIGNAL" (EDITOR);
+        "#SIGNAL READ" ("PM/913718283") touches(Values);
+        "#SINGLE STEP" (EDITOR);
+        "#SLOPE" (EDITOR) action(SelectSlope(SlopeForm::Named)) simplifies(Slope);
+        "#SLOPE DEFAULT" ("PM/207190411") action(SelectSlope(SlopeForm::Channel)) simplifies(Slope);
+        "#SPLINE" (EDITOR) chain(Path);
+        "#START" (EDITOR);
+        "#STOP REVERSIBLE" (EDITOR);
+        "#STROKE DEF" (EDITOR);
+        "#STROKE DEF BEGIN" (EDITOR) action(Describe) until("#STROKE DEF END");
+        "#STROKE DEF END" (EDITOR) action(EndDescription);
+        "#SUPPRESS OFFSETS" (EDITOR) chain(Origin) sharing(WordsBefore);
+        "#SURFACE" (EDITOR);
+        // With the conveyor all axes follow it (965255691).
+        "#SYNC" (EDITOR) touches(Motion) chain(Coordinates);
+        "#SYNC IN" ("965255691") touches(Motion) chain(Coordinates) known_as("#SYNC") motion(Coupled, NamedOrAll, Possible);
+        "#TANGFEED" (EDITOR);
+        "#TGC" (EDITOR);
+        "#TIME" ("PM/206602507") action(Dwell) plc(Plc::Acts) arguments(Expressions);
+        "#TIMER" (EDITOR) touches(Values);
+        "#TLAX" (EDITOR);
+        "#TLC" (EDITOR) chain(Coordinates);
+        "#TOOL AX" (EDITOR);
+        "#TOOL DATA" (EDITOR);
+        "#TOOL DEF" (EDITOR);
+        "#TOOL LIFE DEF" (EDITOR);
+        "#TOOL LIFE READ" (EDITOR) touches(Values);
+        "#TOOL LIFE REMOVE" (EDITOR);
+        "#TOOL ORI CS" (EDITOR);
+        "#TOOL PREP" (EDITOR);
+        "#TOOL REFRESH" (EDITOR);
+        "#TRACK CHAN" (EDITOR);
+        "#TRACK CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible);
+        "#TRAFO" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#TRANSFORM" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#TRANSVELMIN" (EDITOR);
+        "#TRC" (EDITOR);
+        "#TURN" (EDITOR);
+        "#UNLOCK" (EDITOR);
+        "#VAR" ("PM/207960587") action(Declare) arguments(Declarations) until("#ENDVAR") path(GoesOn);
+        "#VECTOR LIMIT" (EDITOR) simplifies(PathLimits);
+        "#VECTOR OFFSET" (EDITOR);
+        "#VECTORACC" (EDITOR) simplifies(PathLimits);
+        "#VECTORVEL" (EDITOR) simplifies(PathLimits);
+        "#VIB GUARD" (EDITOR);
+        "#VIRTUAL AX" (EDITOR);
+        "#VOLCOMP" (EDITOR);
+        "#VOLKOMP" (EDITOR);
+        "#WAIT" ("PM/207421579") touches(Values) plc(Plc::Acts);
+        "#WAIT FOR" (EDITOR) action(Wait) plc(Plc::Acts) arguments(Expressions);
+        "#WAIT INDP" (EDITOR) plc(Plc::Acts);
+        "#WAIT MC_STATUS" ("ISG/1139940235") plc(Plc::Acts);
+        "#WCS TO MCS" ("PM/208525707") touches(Values);
+    }
+};
+
+crate::words! {
+    /// A word that follows the name of a `#` command or its bracket, `#MSG SAVE EXCLUSIVE […]`, `#SET AX […] FAST`
+    /// (vscode-isg-cnc; PM, chapters of the commands).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[allow(missing_docs, reason = "each is its own word")]
+    pub(crate) enum FurtherWord {
+        Abs = "ABS",
+        Ack = "ACK",
+        Act = "ACT",
+        Adapt = "ADAPT",
+        Add = "ADD",
+        Akima = "AKIMA",
+        All = "ALL",
+        Begin = "BEGIN",
+        Bspline = "BSPLINE",
+        Clear = "CLEAR",
+        Continue = "CONTINUE",
+        Def = "DEF",
+        Default = "DEFAULT",
+        Del = "DEL",
+        Delay = "DELAY",
+        Delete = "DELETE",
+        Disable = "DISABLE",
+        Enable = "ENABLE",
+        End = "END",
+        Ex = "EX",
+        Exclusive = "EXCLUSIVE",
+        Fast = "FAST",
+        Feed = "FEED",
+        Get = "GET",
+        Hmi = "HMI",
+        Idx = "IDX",
+        In = "IN",
+        Info = "INFO",
+        Init = "INIT",
+        Lateral = "LATERAL",
+        Load = "LOAD",
+        Mode = "MODE",
+        Nam = "NAM",
+        Nbr = "NBR",
+        Off = "OFF",
+        Offsets = "OFFSETS",
+        On = "ON",
+        Ori = "ORI",
+        Out = "OUT",
+        Pcs = "PCS",
+        Profile = "PROFILE",
+        Read = "READ",
+        Remove = "REMOVE",
+        Rot = "ROT",
+        Save = "SAVE",
+        Select = "SELECT",
+        Set = "SET",
+        Start = "START",
+        Stop = "STOP",
+        Syn = "SYN",
+        SynAck = "SYN_ACK",
+        Tool = "TOOL",
+        Type = "TYPE",
+        Wait = "WAIT",
+        Waxis = "WAXIS",
+    }
+}
+
+/// The further words of a command, a bit each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub(crate) struct FurtherWords(u64);
+
+/// A `#` command in a program: its row, and the further words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct HashWords {
+    command: &'static HashCommand,
+    further: FurtherWords,
+}
+
+impl FurtherWord {
+    /// The word, in either case.
+    pub(crate) fn of(word: &str) -> Option<Self> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|known| known.as_str().eq_ignore_ascii_case(word))
+    }
+}
+
+impl HashWords {
+    /// The command of a name, in upper case with one blank between its words; `None` where no row names it.
+    pub(crate) fn of(name: &str) -> Option<Self> {
+        let command = HashCommand::of(name)?;
+        let further = name[command.words.len()..].split_ascii_whitespace();
+        let further = further
+            .filter_map(FurtherWord::of)
+            .fold(0, |set, word| set | 1 << word as u64);
+        Some(Self {
+            command,
+            further: FurtherWords(further),
+        })
+    }
+
+    /// Whether it has a further word.
+    pub(crate) fn has(self, word: FurtherWord) -> bool {
+        self.further.0 & 1 << word as u64 != 0
+    }
+
+    /// Whether its words are only those of its row.
+    pub(crate) fn is_plain(self) -> bool {
+        self.further == FurtherWords::default()
+    }
+
+    /// Command up to which the lines after it are its text; none with a further word, `#RT CYCLE END`.
+    pub(crate) fn region_end(self) -> Option<&'static str> {
+        let has_region = matches!(
+            self.arguments,
+            HashArguments::Declarations | HashArguments::Lines
+        );
+        self.until.filter(|_| has_region && self.is_plain())
+    }
+
+    /// Its row.
+    pub(crate) fn row(self) -> &'static HashCommand {
+        self.command
+    }
+
+    /// Whether it switches off.
+    pub(crate) fn is_off(self) -> bool {
+        let words = [FurtherWord::Off, FurtherWord::Del, FurtherWord::Out];
+        words.into_iter().any(|word| self.has(word))
+    }
+
+    /// The simplification that it brings, and how long. `#CONTOUR MODE` without ON or OFF only sets parameters
+    /// (PM/475156491).
+    pub(crate) fn simplification(self) -> Option<(Simplification, Holds)> {
+        let what = self.simplifies?;
+        if self.has(FurtherWord::Off) {
+            return Some((what, Holds::Off));
+        }
+        let only_parameters = what == Simplification::Contouring && !self.has(FurtherWord::On);
+        (!only_parameters).then_some((what, Holds::On))
+    }
+
+    /// Whether the PLC acts by design in it.
+    pub(crate) fn lets_plc_act(self) -> bool {
+        match self.plc {
+            Plc::Absent => false,
+            Plc::Acts => true,
+            Plc::ActsAfterWait => self.has(FurtherWord::Wait),
+            Plc::ActsAfterAcknowledgement => {
+                self.has(FurtherWord::Ack) || self.has(FurtherWord::SynAck)
+            }
+        }
+    }
+}
+
+impl Deref for HashWords {
+    type Target = HashCommand;
+
+    fn deref(&self) -> &HashCommand {
+        self.command
+    }
+}
+
+impl HashCommand {
+    /// The row that names the most words of a name.
+    pub(crate) fn of(name: &str) -> Option<&'static Self> {
+        let mut words = name;
+        loop {
+            if let Some(row) = Self::with(words) {
+                return Some(row);
+            }
+            (words, _) = words.rsplit_once(' ')?;
+        }
+    }
+
+    /// The row with these words.
+    fn with(words: &str) -> Option<&'static Self> {
+        let place = COMMANDS.binary_search_by(|row| row.words.cmp(words)).ok()?;
+        COMMANDS.get(place)
+    }
+
+    /// The row of a name in the state.
+    pub(crate) fn named(name: &str) -> Option<&'static Self> {
+        let by_alias = || COMMANDS.iter().find(|row| row.known_as == Some(name));
+        let is_command = name.starts_with('#');
+        is_command.then(|| Self::with(name).or_else(by_alias))?
+    }
+
+    /// The words of every row.
+    pub(crate) fn all_words() -> impl Iterator<Item = &'static str> {
+        COMMANDS.iter().map(|row| row.words)
+    }
+
+    /// Its name in the state and in messages.
+    pub(crate) fn name(&self) -> &'static str {
+        self.known_as.unwrap_or(self.words)
+    }
+
+    /// Whether a dry run follows what is in its brackets.
+    pub(crate) fn reads_brackets(&self) -> bool {
+        self.arguments == HashArguments::Brackets
+            && (self.action != HashAction::PassOver
+                || self.motion.is_some()
+                || self.touches == Touches::Friction)
+    }
+
+    /// Whether it determines which axes follow others, apart from coupling groups.
+    pub(crate) fn links_axes(&self) -> bool {
+        let moves = self.motion.map(|motion| motion.moves);
+        matches!(moves, Some(Moves::Gantry | Moves::Follower))
+    }
+}
+
+impl serde::Serialize for HashCommand {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.words)
+    }
+}
+
+impl<'de> Deserialize<'de> for &'static HashCommand {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let words = String::deserialize(deserializer)?;
+        let row = HashCommand::with(&words);
+        row.ok_or_else(|| serde::de::Error::custom("not a command of the language"))
+    }
+}
+
+/// Whether a name is that of a known command.
+pub(crate) fn is_command(name: &str) -> bool {
+    HashCommand::of(name).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rows_are_in_order_and_whole() {
+        // R2.70
+        for pair in COMMANDS.windows(2) {
+            assert!(pair[0].words < pair[1].words, "{}", pair[1].words);
+        }
+        for row in COMMANDS {
+            let ends = row.until.is_none_or(|end| HashCommand::with(end).is_some());
+            let is_named = HashCommand::named(row.name()).is_some();
+            assert!(ends && is_named && !row.source.is_empty(), "{}", row.words);
+        }
+    }
+
+    #[test]
+    fn commands_are_told_apart_by_their_words() {
+        // R2.47 R2.82
+        let of = |name| {
+            let command = HashWords::of(name)?;
+            command.chain.map(|_| (command.name(), command.is_off()))
+        };
+        assert_eq!(of("#MCS ON"), Some(("#MCS", false)));
+        assert_eq!(of("#MCS ON EX TOOL"), Some(("#MCS", false)));
+        assert_eq!(of("#MCS OFF"), Some(("#MCS", true)));
+        assert_eq!(of("#MCS TO WCS"), None);
+        assert_eq!(of("#CS DEL ALL"), Some(("#CS", true)));
+        assert_eq!(of("#CSX ON"), None);
+        assert_eq!(of("#SPLINE OFF X10"), Some(("#SPLINE", true)));
+        assert_eq!(of("#SET SPLINE ON"), Some(("#SPLINE", false)));
+        assert_eq!(of("#SET SPLINETYPE AKIMA"), None);
+        assert_eq!(of("#SET AX LINK"), None);
+        assert_eq!(of("#SYNC IN"), Some(("#SYNC", false)));
+        assert_eq!(of("#SYNC OUT"), Some(("#SYNC", true)));
+        assert_eq!(of("#KIN ID"), Some(("#KIN", false)));
+        assert_eq!(of("#KIN TCP DEF"), None);
+    }
+
+    #[test]
+    fn what_a_command_brings_depends_on_its_further_words() {
+        // R5.1 R10.7
+        let brings = |name| HashWords::of(name).and_then(HashWords::simplification);
+        assert_eq!(brings("#CONTOUR MODE"), None);
+        let contouring = Simplification::Contouring;
+        assert_eq!(brings("#CONTOUR MODE ON"), Some((contouring, Holds::On)));
+        assert_eq!(brings("#CONTOUR MODE OFF"), Some((contouring, Holds::Off)));
+        assert_eq!(brings("#HSCX"), None);
+        let moves = |name| {
+            HashWords::of(name)?
+                .motion
+                .map(|it| (it.kind, it.certainty))
+        };
+        let rotated = (MotionKind::Frame, Certainty::Certain);
+        assert_eq!(moves("#ROTATION ON"), Some(rotated));
+        assert_eq!(moves("#SYNC OUT"), None);
+        let regions = |name| HashWords::of(name).and_then(HashWords::region_end);
+        assert_eq!(regions("#RT CYCLE DEF"), Some("#RT CYCLE END"));
+        assert_eq!(regions("#RT CYCLE DELETE"), None);
+    }
+}

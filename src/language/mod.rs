@@ -1,0 +1,38 @@
+//! The words of the language as tables: what each command and function is, and what it does (R2.45, R2.70).
+//!
+//! `hash` has a row for each `#` command, `g` for each G function. Everything else asks the columns of a row: a
+//! command or function is described in one place.
+
+/// Columns of a table: each sets the value of a row, with the arguments that a row gives it.
+macro_rules! columns {
+    ($($column:ident($($argument:ident: $type:ty),+) = $value:expr;)+) => {
+        $(const fn $column(self, $($argument: $type),+) -> Self {
+            Self { $column: $value, ..self }
+        })+
+    };
+}
+use columns;
+
+mod bracket;
+mod chain;
+mod g;
+mod group;
+mod hash;
+mod motion;
+mod simplification;
+
+pub(crate) use bracket::AxisAction;
+pub use bracket::AxisCommand;
+pub(crate) use chain::{ChainStep, OnOff};
+pub(crate) use g::{BlockGroup, CoordinateEffect, GAction, GFunction};
+pub use group::Group;
+pub(crate) use group::GroupSet;
+pub use hash::BlockSharing;
+pub(crate) use hash::{
+    ContouringCommand, Exchange, FurtherWord, HashAction, HashArguments, HashCommand, HashWords,
+    MembersBy, PathFlow, Plc, SlopeForm, Touches, is_command,
+};
+pub(crate) use motion::{AxisWords, MotionEffect, Moves};
+pub use motion::{Certainty, MotionKind};
+pub(crate) use simplification::Holds;
+pub use simplification::{Simplification, Simplifications};

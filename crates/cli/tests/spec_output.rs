@@ -392,7 +392,7 @@ fn a_state_file_carries_a_session_on() {
     apart.extend(bench.blocks(&["--state", "s.json", "b.nc"]));
     assert_eq!(column(&together, "friction"), column(&apart, "friction"));
     assert_eq!(bench.blocks(&["b.nc"])[0]["friction"]["X"], "active");
-    assert_eq!(json(&bench.read("s.json"))["schema"], 3);
+    assert_eq!(json(&bench.read("s.json"))["schema"], 4);
 }
 
 #[test]

@@ -5,7 +5,8 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::state::State;
-use crate::interpreter::values::target::AssignedPlace;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Declaration, Hash, Operand};
@@ -20,19 +21,19 @@ impl Interpreter {
             let Operand::Expression(place) = *argument else {
                 continue;
             };
-            match self.target_place(place, at)? {
-                AssignedPlace::Parameter(_, index) => {
+            let Some(place) = self.target_place(place, at)? else {
+                continue;
+            };
+            match place.assigned(Value::Number(0.0)) {
+                (Location::Parameter(_, index), _) => {
                     self.state.write_anything();
                     self.state.control.memory.delete_parameter(index);
                 }
-                AssignedPlace::Variable(name) => {
+                (Location::Variable(name), _) => {
                     self.state.write_anything();
                     self.state.control.memory.delete(&name);
                 }
-                unknown @ (AssignedPlace::Elements(_, _) | AssignedPlace::Parameters(_)) => {
-                    self.write(unknown, Value::Number(0.0));
-                }
-                AssignedPlace::Nowhere => {}
+                (several, unknown) => self.write(&several, unknown),
             }
         }
         Ok(())
@@ -98,7 +99,7 @@ impl Interpreter {
     /// Notes the start value of a variable, or an array, that may be there before.
     fn note_declaration(&self, name: &str, start: Option<&Value>) {
         let is_unwritten = self.state.control.memory.is_unwritten(name);
-        let array = Value::Unknown(name.into());
+        let array = Value::Unknown(Unknown::text(name));
         self.note_use(|used| {
             if is_unwritten {
                 used.want(name);

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::condition::{Clash, Condition, ConditionKind, MAX_ANSWERS};
 use super::way_set::{Way, WayAnswer};
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{Asking, Writer};
-use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 
 /// Number of remembered conditions on values of the machine; older ones contradict nothing.
@@ -24,21 +24,21 @@ const MAX_COMPARED: usize = 8;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ImpliedValues {
     /// The values that follow from it.
-    pub(in crate::interpreter) is: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) is: Vec<(Location, Value)>,
     /// The values that it rules out.
-    pub(in crate::interpreter) is_not: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) is_not: Vec<(Location, Value)>,
 }
 
 impl ImpliedValues {
     /// A variable for which no value gives both answers.
-    fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a RegionTarget> {
-        let differs = |(target, value): &&(RegionTarget, Value)| {
+    fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a Location> {
+        let differs = |(target, value): &&(Location, Value)| {
             let mut known = other.is.iter();
             let mut ruled_out = other.is_not.iter();
             known.any(|(of, other)| of == target && other != value)
                 || ruled_out.any(|(of, other)| of == target && other == value)
         };
-        let is_ruled_out = |pair: &&(RegionTarget, Value)| other.is.contains(pair);
+        let is_ruled_out = |pair: &&(Location, Value)| other.is.contains(pair);
         let found = self.is.iter().find(differs);
         let found = found.or_else(|| self.is_not.iter().find(is_ruled_out));
         found.map(|(target, _)| target)
@@ -53,7 +53,7 @@ pub(in crate::interpreter) struct RememberedCondition {
     time: u32,
     meaning: Arc<str>,
     writer: Writer,
-    reads: Vec<RegionTarget>,
+    reads: Vec<Location>,
     answers: Vec<ImpliedValues>,
 }
 
@@ -113,10 +113,10 @@ impl RememberedCondition {
     }
 }
 
-fn name_of(target: &RegionTarget) -> Option<String> {
+fn name_of(target: &Location) -> Option<String> {
     match target {
-        RegionTarget::Variable(name) => Some(name.clone()),
-        RegionTarget::Parameter(..) | RegionTarget::Elements(_) | RegionTarget::Parameters => None,
+        Location::Variable(name) => Some(name.clone()),
+        Location::Parameter(..) | Location::Elements(_) | Location::Parameters => None,
     }
 }
 
@@ -156,16 +156,11 @@ impl RememberedConditions {
     }
 
     /// The program writes a value.
-    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace) {
-        let is_it = |target: &RegionTarget| match (target, place) {
-            (RegionTarget::Parameter(of, one), AssignedPlace::Parameter(owner, other)) => {
-                (of, one) == (owner, other)
-            }
-            (RegionTarget::Variable(one), AssignedPlace::Variable(other)) => one == other,
-            (_, AssignedPlace::Elements(..) | AssignedPlace::Parameters(_)) => true,
-            _ => false,
-        };
-        self.0.retain(|it| !it.reads.iter().any(is_it));
+    pub(in crate::interpreter) fn write(&mut self, location: &Location) {
+        match location {
+            Location::Elements(_) | Location::Parameters => self.0.retain(|it| it.reads.is_empty()),
+            one => self.0.retain(|it| !it.reads.contains(one)),
+        }
     }
 
     /// The control does something: moves, changes tools.
@@ -174,7 +169,7 @@ impl RememberedConditions {
     }
 
     /// Some values differ from here on.
-    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&RegionTarget) -> bool) {
+    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&Location) -> bool) {
         self.0.retain(|it| !it.reads.iter().any(&is_other));
     }
 

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::comp::Kind;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::SetAt;
 use crate::text::Place;
 
@@ -50,12 +51,26 @@ pub(in crate::interpreter) struct Clash {
 /// The answers that hold while a variable of the machine keeps the value that the program set (R2.99).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct KeptAnswer {
-    /// The variable, or several.
-    pub(in crate::interpreter) name: Arc<str>,
+    /// The variables; states before schema 4 have them in words.
+    #[serde(alias = "name", deserialize_with = "one_or_more")]
+    pub(in crate::interpreter) names: Arc<[String]>,
     /// The block that set it.
     pub(in crate::interpreter) set: SetAt,
     /// The answers, a bit each.
     pub(in crate::interpreter) sides: u64,
+}
+
+fn one_or_more<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<[String]>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Names {
+        One(String),
+        More(Arc<[String]>),
+    }
+    Ok(match Names::deserialize(deserializer)? {
+        Names::One(name) => [name].into(),
+        Names::More(names) => names,
+    })
 }
 
 /// A condition that only the machine knows.
@@ -66,7 +81,7 @@ pub(in crate::interpreter) struct Condition {
     /// Text of the condition for each answer but the last, which is that none of them holds.
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
     /// The value that decides.
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// Number of the question at its place: a place that is reached again asks again.
     pub(in crate::interpreter) round: u8,
     /// Number of times that its number was given to a question.

@@ -16,9 +16,10 @@ use super::way_set::WaySet;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::HeldVariable;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::memory::Memory;
-use crate::interpreter::values::target::{AssignedPlace as Written, RegionTarget};
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::Owner;
 use crate::text::{Place, Span};
@@ -56,7 +57,7 @@ pub(in crate::interpreter) struct RunTrack {
 pub(in crate::interpreter) struct AskedCondition {
     pub(in crate::interpreter) condition: u32,
     pub(in crate::interpreter) key: Arc<str>,
-    pub(in crate::interpreter) reads: Vec<RegionTarget>,
+    pub(in crate::interpreter) reads: Vec<Location>,
 }
 
 /// Adjacent blocks of one skip level.
@@ -71,9 +72,9 @@ pub(in crate::interpreter) struct Marked {
 /// Values that follow from conditions, with what was known before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<AssumedRow>", from = "Vec<AssumedRow>")]
-pub(in crate::interpreter) struct AssumedValues(BTreeMap<RegionTarget, ValueBefore>);
+pub(in crate::interpreter) struct AssumedValues(BTreeMap<Location, ValueBefore>);
 
-type AssumedRow = (RegionTarget, ValueBefore);
+type AssumedRow = (Location, ValueBefore);
 
 /// What was known of a value before a condition.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -86,8 +87,8 @@ pub(in crate::interpreter) struct ValueBefore {
 impl ValueBefore {
     /// Whether as much was known of a value, whatever the cause of an unknown one. A variable of the machine that was
     /// never written is as unknown as one that the PLC may have changed.
-    fn is_like(&self, other: &Self, target: &RegionTarget, memory: &Memory) -> bool {
-        let is_external = matches!(target, RegionTarget::Variable(name) if memory.may_change(name));
+    fn is_like(&self, other: &Self, target: &Location, memory: &Memory) -> bool {
+        let is_external = matches!(target, Location::Variable(name) if memory.may_change(name));
         let is_open = |it: &Self| match &it.value {
             Some(Value::Unknown(_)) => true,
             Some(_) => false,
@@ -114,11 +115,11 @@ impl AssumedValues {
     pub(in crate::interpreter) fn assume(
         &mut self,
         memory: &mut Memory,
-        target: &RegionTarget,
+        target: &Location,
         value: Value,
     ) {
         let before = match target {
-            RegionTarget::Parameter(Owner::Program, index) => {
+            Location::Parameter(Owner::Program, index) => {
                 let before = memory.parameter(*index);
                 memory.set_parameter(*index, value);
                 ValueBefore {
@@ -126,7 +127,7 @@ impl AssumedValues {
                     set: None,
                 }
             }
-            RegionTarget::Variable(name) => {
+            Location::Variable(name) => {
                 let before = ValueBefore {
                     value: memory.variable(name),
                     set: memory.release(name),
@@ -136,9 +137,9 @@ impl AssumedValues {
                 memory.hold_again(name, told);
                 before
             }
-            RegionTarget::Parameter(Owner::Call, _)
-            | RegionTarget::Elements(_)
-            | RegionTarget::Parameters => return,
+            Location::Parameter(Owner::Call, _) | Location::Elements(_) | Location::Parameters => {
+                return;
+            }
         };
         self.0.entry(target.clone()).or_insert(before);
     }
@@ -154,29 +155,29 @@ impl AssumedValues {
         is_it: impl Fn(&str) -> bool,
         memory: &mut Memory,
     ) {
-        let stays = |target: &&RegionTarget| !matches!(target, RegionTarget::Variable(name) if is_it(name) && memory.may_change(name));
+        let stays = |target: &&Location| !matches!(target, Location::Variable(name) if is_it(name) && memory.may_change(name));
         let kept = self.0.keys().filter(stays).cloned().collect();
         self.undo_but(&kept, memory);
     }
 
-    fn undo_but(&mut self, kept: &BTreeSet<RegionTarget>, memory: &mut Memory) {
+    fn undo_but(&mut self, kept: &BTreeSet<Location>, memory: &mut Memory) {
         let (stay, go) = std::mem::take(&mut self.0)
             .into_iter()
             .partition(|(target, _)| kept.contains(target));
         self.0 = stay;
-        let go: BTreeMap<RegionTarget, ValueBefore> = go;
+        let go: BTreeMap<Location, ValueBefore> = go;
         for (target, before) in go {
             match (target, before.value) {
-                (RegionTarget::Parameter(_, index), Some(value)) => {
+                (Location::Parameter(_, index), Some(value)) => {
                     memory.set_parameter(index, value);
                 }
-                (RegionTarget::Parameter(_, index), None) => memory.delete_parameter(index),
-                (RegionTarget::Variable(name), Some(value)) => {
+                (Location::Parameter(_, index), None) => memory.delete_parameter(index),
+                (Location::Variable(name), Some(value)) => {
                     memory.set_variable(&name, value);
                     memory.hold_again(&name, before.set);
                 }
-                (RegionTarget::Variable(name), None) => memory.delete(&name),
-                (RegionTarget::Elements(_) | RegionTarget::Parameters, _) => {}
+                (Location::Variable(name), None) => memory.delete(&name),
+                (Location::Elements(_) | Location::Parameters, _) => {}
             }
         }
     }
@@ -186,36 +187,33 @@ impl AssumedValues {
     }
 }
 
-fn value_of(memory: &Memory, target: &RegionTarget) -> Option<Value> {
+fn value_of(memory: &Memory, target: &Location) -> Option<Value> {
     match target {
-        RegionTarget::Parameter(_, index) => memory.parameter(*index),
-        RegionTarget::Variable(name) => memory.variable(name),
-        RegionTarget::Elements(_) | RegionTarget::Parameters => None,
+        Location::Parameter(_, index) => memory.parameter(*index),
+        Location::Variable(name) => memory.variable(name),
+        Location::Elements(_) | Location::Parameters => None,
     }
 }
 
 impl RunTrack {
     /// A value is written: conclusions about it from conditions no longer apply.
     #[inline]
-    pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, memory: &mut Memory) {
         if !self.readings.is_empty() {
-            self.readings.write(place);
+            self.readings.write(location);
         }
         if !self.asked.is_empty() || !self.assumed.is_empty() {
-            self.havoc_written(place, memory);
+            self.havoc_written(location, memory);
         }
     }
 
     #[cold]
-    fn havoc_written(&mut self, place: &Written, memory: &mut Memory) {
-        let target = match place {
-            Written::Parameter(owner, index) => RegionTarget::Parameter(*owner, *index),
-            Written::Variable(name) => RegionTarget::Variable(name.clone()),
-            Written::Elements(..) | Written::Parameters(_) => return self.write_anything(memory),
-            Written::Nowhere => return,
-        };
-        self.assumed.0.remove(&target);
-        self.asked.retain(|asked| !asked.reads.contains(&target));
+    fn havoc_written(&mut self, location: &Location, memory: &mut Memory) {
+        if let Location::Elements(_) | Location::Parameters = location {
+            return self.write_anything(memory);
+        }
+        self.assumed.0.remove(location);
+        self.asked.retain(|asked| !asked.reads.contains(location));
     }
 
     /// Anything may be written.
@@ -227,10 +225,10 @@ impl RunTrack {
 
     /// Another program runs, with its own parameters and variables.
     pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
-        let is_own = |target: &RegionTarget| match target {
-            RegionTarget::Parameter(owner, _) => *owner == Owner::Call,
-            RegionTarget::Variable(name) => name.starts_with("V.L."),
-            RegionTarget::Elements(_) | RegionTarget::Parameters => true,
+        let is_own = |target: &Location| match target {
+            Location::Parameter(owner, _) => *owner == Owner::Call,
+            Location::Variable(name) => name.starts_with("V.L."),
+            Location::Elements(_) | Location::Parameters => true,
         };
         self.asked.retain(|asked| !asked.reads.iter().any(is_own));
         self.readings.havoc(is_own);
@@ -296,7 +294,7 @@ pub(in crate::interpreter) struct Path {
 impl Path {
     /// Another way reaches the same block: what differs becomes unknown. Returns how many values do. Beside a way
     /// that the control may take, one that an error has ended does not count.
-    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
+    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Unknown) -> usize {
         if self.track.failed.is_some() != other.track.failed.is_some() {
             if self.track.failed.is_some() {
                 *self = other;
@@ -337,21 +335,21 @@ impl Path {
     pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
         if !(mine.is_empty() && theirs.is_empty()) {
-            let common = |(target, before): (&RegionTarget, &ValueBefore)| {
+            let common = |(target, before): (&Location, &ValueBefore)| {
                 let memories = [&self.control.memory, &other.control.memory];
                 let now = memories.map(|memory| value_of(memory, target));
                 let theirs = theirs.0.get(target).filter(|_| now[0] == now[1])?;
                 let is_like = before.is_like(theirs, target, memories[0]);
                 is_like.then(|| target.clone())
             };
-            let common: BTreeSet<RegionTarget> = mine.0.iter().filter_map(common).collect();
+            let common: BTreeSet<Location> = mine.0.iter().filter_map(common).collect();
             mine.undo_but(&common, &mut self.control.memory);
             theirs.undo_but(&common, &mut other.control.memory);
         }
     }
 
     /// Whether everything that another way may do from the same block is done on this one, too.
-    pub(in crate::interpreter) fn covers(&self, other: &Self, cause: &Arc<str>) -> bool {
+    pub(in crate::interpreter) fn covers(&self, other: &Self, cause: &Unknown) -> bool {
         let mut both = self.clone();
         both.join(other.clone(), cause);
         both.control == self.control && both.track.reach == self.track.reach
@@ -385,7 +383,7 @@ pub(in crate::interpreter) struct BranchSide {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
     /// Values that follow from it.
-    pub(in crate::interpreter) values: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) values: Vec<(Location, Value)>,
     /// The state of a kind that follows from it.
     pub(in crate::interpreter) state: Option<(AxisIndex, Kind, Membership)>,
     pub(in crate::interpreter) marked: Option<Marked>,
@@ -460,7 +458,7 @@ pub(in crate::interpreter) struct Loop {
     /// The state at the start of an earlier pass.
     pub(in crate::interpreter) mark: Option<Box<Mark>>,
     /// Counters, once it is known that nothing else changes any more.
-    pub(in crate::interpreter) endless: Option<Vec<RegionTarget>>,
+    pub(in crate::interpreter) endless: Option<Vec<Location>>,
     /// Join of the states at the beginnings of all passes, where the loop is left on some ways
     /// (R14.3).
     pub(in crate::interpreter) covered: Option<Box<Path>>,
@@ -506,7 +504,7 @@ pub(in crate::interpreter) struct LeftLoop {
     pub(in crate::interpreter) unit: usize,
     pub(in crate::interpreter) head: EntryIndex,
     pub(in crate::interpreter) times: u32,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
 }
 
 impl LeftLoop {

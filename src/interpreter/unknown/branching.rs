@@ -16,8 +16,9 @@ use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_condition::WayCondition;
 use crate::interpreter::run::way_set::{WayAnswer, WaySet};
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{Asking, Writer};
-use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 use crate::text::Span;
 
@@ -39,7 +40,7 @@ pub(in crate::interpreter) struct MachineQuestion {
     pub(in crate::interpreter) span: Span,
     /// Text of the condition for each answer but the last.
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// Values that it reads, where that is plain.
     pub(in crate::interpreter) reads: Option<Asking>,
     /// The answer that what the program set gives.
@@ -60,9 +61,9 @@ pub(in crate::interpreter) struct Goal {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
     /// Values that follow from the answer.
-    pub(in crate::interpreter) values: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) values: Vec<(Location, Value)>,
     /// Values that the answer rules out.
-    pub(in crate::interpreter) ruled_out: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) ruled_out: Vec<(Location, Value)>,
 }
 
 impl Goal {
@@ -305,7 +306,8 @@ impl Interpreter {
     /// Finds the answers that contradict earlier ones, unless the machine changes a value in between.
     fn compare(&mut self, condition: u32, question: &MachineQuestion, answers: Vec<ImpliedValues>) {
         let place = condition as usize;
-        let is_own = |target: &RegionTarget| matches!(target, RegionTarget::Variable(name) if self.is_own(name));
+        let is_own =
+            |target: &Location| matches!(target, Location::Variable(name) if self.is_own(name));
         let asking = question.reads.as_ref();
         let asking = asking.filter(|asking| !asking.reads.iter().any(is_own));
         let is_again = self.state.is_asked_again(place);

@@ -11,7 +11,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::possible::Split;
 use crate::interpreter::run::way_set::WaySet;
-use crate::interpreter::values::cause::program;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 
 impl Interpreter {
@@ -39,8 +39,8 @@ impl Interpreter {
         let condition = self.state.ask_anew(Condition {
             kind: ConditionKind::Call(kind),
             place: left.place.clone(),
-            texts: vec![left.program.clone(), name],
-            cause: program(&left.program),
+            texts: vec![left.program.to_string().into(), name],
+            cause: Unknown::Program(left.program.clone()),
             round: 0,
             time: 0,
             clashes: Vec::new(),

@@ -12,6 +12,7 @@ use crate::interpreter::run::path::Last;
 use crate::interpreter::run::possible::{PossibleSide, join};
 use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::values::cause::Unknown;
 use crate::readings::{Alternative, Question};
 use crate::text::Span;
 
@@ -99,7 +100,7 @@ impl Interpreter {
             kind: ConditionKind::Search,
             place: at.place(Span::new(0, at.text.trim_end().len())),
             texts: vec![Arc::from("executed")],
-            cause: Arc::from("the block search"),
+            cause: Unknown::Search,
             round: 0,
             time: 0,
             clashes: Vec::new(),

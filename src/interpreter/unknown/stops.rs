@@ -14,7 +14,7 @@ use crate::interpreter::run::path::{EndedPath, Passed};
 use crate::interpreter::run::stopping::{FailedAt, stops};
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::Ways;
-use crate::interpreter::values::cause::ERROR_COMMAND;
+use crate::interpreter::values::cause::Unknown;
 use crate::readings::Question;
 use crate::text::Span;
 
@@ -142,7 +142,7 @@ impl Interpreter {
             kind: ConditionKind::Restart,
             place: at.place(Span::new(0, at.text.trim_end().len())),
             texts: vec![Arc::from("restarted")],
-            cause: Arc::from(ERROR_COMMAND),
+            cause: Unknown::RemedyClass,
             round: 0,
             time: 0,
             clashes: Vec::new(),

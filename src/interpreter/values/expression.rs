@@ -5,16 +5,15 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use super::externals::{HeldValues, SetVariable};
+use super::cause::Unknown;
+use super::externals::HeldValues;
 use super::found::VariableUse;
 use super::functions::{binary, call, fault, numeric, wrong_type};
+use super::location::{Denoted, Location};
 use super::memory::Memory;
 use super::names::parts;
-use super::parameter_key::ParameterKey;
 use super::reads::Reads;
-use super::target::{AssignedPlace, RegionTarget};
 use super::value::{Slot, Value, rounded};
 use super::variable::{as_written, canonical, set_name, with_subscripts};
 use super::work_budget::{ITEM, WorkBudget};
@@ -151,21 +150,21 @@ impl Evaluator<'_> {
                 Node::Text => self.text(span),
                 Node::Parameter { owner, index } => self.parameter(owner, index, span),
                 Node::IndexedParameter { owner, subscripts } => {
-                    ParameterKey::pop(owner, usize::from(subscripts), span, stack)
-                        .and_then(|key| self.keyed_parameter(&key, span))
+                    Denoted::pop_parameter(owner, usize::from(subscripts), span, stack)
+                        .and_then(|place| self.denoted(place, span))
                 }
                 Node::Variable { subscripts: 0 } => {
                     self.variable(&canonical(span.of(self.text)), span)
                 }
                 Node::Variable { subscripts } => self
-                    .variable_key(at, usize::from(subscripts), stack)
-                    .and_then(|key| self.keyed_variable(key, span)),
+                    .computed_variable(at, usize::from(subscripts), stack)
+                    .and_then(|place| self.denoted(place, span)),
                 Node::Unread => {
                     self.scope.unread.set(true);
                     let text = span.of(self.text).trim();
-                    Ok(Value::Unknown(
-                        text.chars().take(40).collect::<String>().into(),
-                    ))
+                    Ok(Value::Unknown(Unknown::text(
+                        text.chars().take(40).collect::<String>(),
+                    )))
                 }
                 Node::Negate => pop(stack).and_then(|value| match value {
                     Value::Number(number) => Ok(Value::Number(-number)),
@@ -219,7 +218,7 @@ impl Evaluator<'_> {
             _ => return None,
         };
         let is_found = self.scope.memory.is_found(&name);
-        is_found.then(|| Value::Unknown(name.as_ref().into()))
+        is_found.then(|| Value::Unknown(Unknown::text(name.as_ref())))
     }
 
     /// Notes a value that the program may have found.
@@ -248,9 +247,7 @@ impl Evaluator<'_> {
 
     fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
         if let Some(reads) = self.scope.reads {
-            reads
-                .borrow_mut()
-                .note(RegionTarget::Parameter(owner, index));
+            reads.borrow_mut().note(Location::Parameter(owner, index));
         }
         if self.scope.used.is_some() && owner == Owner::Program {
             self.note_found(&format!("P{index}"));
@@ -274,21 +271,16 @@ impl Evaluator<'_> {
     fn outside(&self, name: &str, span: Span) -> Value {
         self.scope.memory.variable(name).unwrap_or_else(|| {
             (self.scope.unknown)(name, self.shown.unwrap_or(span));
-            Value::Unknown(name.into())
+            Value::Unknown(Unknown::text(name))
         })
     }
 
-    fn keyed_parameter(&self, key: &ParameterKey, span: Span) -> Slot {
-        match key {
-            ParameterKey::Plain(owner, index) => self.parameter(*owner, *index, span),
-            ParameterKey::Element(name) => {
-                self.note_read(name);
-                let known = self.scope.memory.variable(name);
-                let given = || self.scope.memory.given(name).cloned();
-                let known = known.or_else(given).or_else(|| self.as_set(span));
-                known.ok_or_else(|| never_written(span, self.text))
-            }
-            ParameterKey::Unknown(_, cause) => Ok(cause.clone()),
+    /// The value of a parameter or variable that is computed.
+    fn denoted(&self, place: Denoted, span: Span) -> Slot {
+        match (place.location, place.decided_by) {
+            (_, Some(cause)) => Ok(self.as_set(span).unwrap_or(Value::Unknown(cause))),
+            (Location::Parameter(owner, index), None) => self.parameter(owner, index, span),
+            (several, None) => self.variable(&several.to_string(), span),
         }
     }
 
@@ -322,13 +314,13 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The full name of a variable whose subscripts are on the stack.
-    fn variable_key(
+    /// The variable whose subscripts are on the stack.
+    fn computed_variable(
         &self,
         at: usize,
         subscripts: usize,
         stack: &mut Vec<Slot>,
-    ) -> Result<VariableKey, Box<Fault>> {
+    ) -> Result<Denoted, Box<Fault>> {
         let from = stack.len().saturating_sub(subscripts);
         let mut values = Vec::with_capacity(subscripts);
         let mut unknown = None;
@@ -344,18 +336,10 @@ impl Evaluator<'_> {
         let text = self.block.spans[at].of(self.text);
         if let Some(cause) = unknown {
             let array = text.split('[').next().unwrap_or_default();
-            return Ok(VariableKey::Unknown(canonical(array).into_owned(), cause));
+            let elements = Location::Elements(canonical(array).into_owned());
+            return Ok(Denoted::any_of(elements, cause));
         }
-        Ok(VariableKey::Name(with_subscripts(text, &values)))
-    }
-
-    fn keyed_variable(&self, key: VariableKey, span: Span) -> Slot {
-        match key {
-            VariableKey::Name(name) => self.variable(&name, span),
-            VariableKey::Unknown(_, cause) => {
-                Ok(self.as_set(span).unwrap_or(Value::Unknown(cause)))
-            }
-        }
+        Ok(Location::Variable(with_subscripts(text, &values)).into())
     }
 
     /// The value that the user gave an element as the program writes it.
@@ -369,9 +353,7 @@ impl Evaluator<'_> {
     fn note_read(&self, name: &str) {
         self.note_found(name);
         if let Some(reads) = self.scope.reads {
-            reads
-                .borrow_mut()
-                .note(RegionTarget::Variable(name.to_owned()));
+            reads.borrow_mut().note(Location::Variable(name.to_owned()));
         }
     }
 
@@ -395,7 +377,7 @@ impl Evaluator<'_> {
         Ok((self.scope.system)(name).unwrap_or_else(|| {
             let written = as_written(span.of(self.text));
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
-            Value::Unknown(written.into())
+            Value::Unknown(Unknown::text(written))
         }))
     }
 
@@ -403,9 +385,7 @@ impl Evaluator<'_> {
     fn relied_on(&self, name: &str, value: Value, span: Span) -> Value {
         let memory = self.scope.memory;
         let is_known = !matches!(value, Value::Unknown(_));
-        if let Value::Unknown(cause) = &value
-            && SetVariable::of(cause).is_some()
-        {
+        if let Value::Unknown(Unknown::Changed(_)) = &value {
             let written = as_written(span.of(self.text));
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
         }
@@ -417,7 +397,7 @@ impl Evaluator<'_> {
             self.scope.relied.borrow_mut().push(name.to_owned());
         }
         match self.scope.held {
-            HeldValues::Doubted if is_known && is_held => Value::Unknown(name.into()),
+            HeldValues::Doubted if is_known && is_held => Value::Unknown(Unknown::text(name)),
             HeldValues::Taken | HeldValues::Doubted => value,
         }
     }
@@ -444,11 +424,11 @@ impl Evaluator<'_> {
                     "the array does not have that many dimensions",
                 )),
             },
-            None if self.scope.memory.is_found(name) => Ok(Value::Unknown(name.into())),
+            None if self.scope.memory.is_found(name) => Ok(Value::Unknown(Unknown::text(name))),
             None if is_program_variable(name) => Err(never_written(span, self.text)),
             None => {
                 (self.scope.unknown)(name, self.shown.unwrap_or(span));
-                Ok(Value::Unknown(name.into()))
+                Ok(Value::Unknown(Unknown::text(name)))
             }
         }
     }
@@ -458,10 +438,10 @@ impl Evaluator<'_> {
         &self,
         place: Expression,
         stack: &mut Vec<Slot>,
-    ) -> Result<AssignedPlace, Box<Fault>> {
+    ) -> Result<Option<Denoted>, Box<Fault>> {
         let bottom = stack.len();
         let Some(root) = place.end.checked_sub(1) else {
-            return Ok(AssignedPlace::Nowhere);
+            return Ok(None);
         };
         self.run(
             Expression {
@@ -473,38 +453,28 @@ impl Evaluator<'_> {
         let root = root as usize;
         let span = self.block.spans[root];
         let found = match self.block.nodes[root] {
-            Node::Parameter { owner, index } => Ok(AssignedPlace::Parameter(owner, index)),
+            Node::Parameter { owner, index } => Ok(Location::Parameter(owner, index).into()),
             Node::Unread => {
                 self.scope.unread.set(true);
-                let text: Arc<str> = span.of(self.text).trim().into();
-                Ok(AssignedPlace::Parameters(text))
+                let text = Unknown::text(span.of(self.text).trim());
+                Ok(Denoted::any_of(Location::Parameters, text))
             }
             Node::IndexedParameter { owner, subscripts } => {
-                ParameterKey::pop(owner, usize::from(subscripts), span, stack).map(
-                    |key| match key {
-                        ParameterKey::Plain(owner, index) => AssignedPlace::Parameter(owner, index),
-                        ParameterKey::Element(name) => AssignedPlace::Variable(name),
-                        ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
-                            Some(array) => AssignedPlace::Elements(array, cause),
-                            None => AssignedPlace::Parameters(cause),
-                        },
-                        ParameterKey::Unknown(..) => AssignedPlace::Nowhere,
-                    },
-                )
+                Denoted::pop_parameter(owner, usize::from(subscripts), span, stack)
             }
-            Node::Variable { subscripts: 0 } => Ok(AssignedPlace::Variable(
-                canonical(span.of(self.text)).into_owned(),
-            )),
-            Node::Variable { subscripts } => self
-                .variable_key(root, usize::from(subscripts), stack)
-                .map(|key| match key {
-                    VariableKey::Name(name) => AssignedPlace::Variable(name),
-                    VariableKey::Unknown(array, cause) => AssignedPlace::Elements(array, cause),
-                }),
-            _ => Ok(AssignedPlace::Nowhere),
+            Node::Variable { subscripts: 0 } => {
+                Ok(Location::Variable(canonical(span.of(self.text)).into_owned()).into())
+            }
+            Node::Variable { subscripts } => {
+                self.computed_variable(root, usize::from(subscripts), stack)
+            }
+            _ => {
+                stack.truncate(bottom);
+                return Ok(None);
+            }
         };
         stack.truncate(bottom);
-        found
+        found.map(Some)
     }
 
     /// The dimensions in a declaration's subscripts; for an unknown one, the cause.
@@ -540,17 +510,11 @@ impl Evaluator<'_> {
     }
 }
 
-enum VariableKey {
-    Name(String),
-    /// A subscript is not known.
-    Unknown(String, Arc<str>),
-}
-
 fn pop(stack: &mut Vec<Slot>) -> Slot {
     // An operand is missing: that is not a zero (R2.50).
     stack
         .pop()
-        .unwrap_or_else(|| Ok(Value::Unknown("an expression".into())))
+        .unwrap_or_else(|| Ok(Value::Unknown(Unknown::text("an expression"))))
 }
 
 fn never_written(span: Span, text: &str) -> Box<Fault> {

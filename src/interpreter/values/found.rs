@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use super::cause::Unknown;
 use super::externals::ExternalNames;
+use super::location::Location;
 use super::names::parts;
-use super::target::AssignedPlace;
 use super::value::Value;
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
@@ -46,7 +47,7 @@ impl FoundVariables {
             let known = (!self.anything).then(|| value.clone());
             (
                 name,
-                known.unwrap_or_else(|| Value::Unknown(name.as_str().into())),
+                known.unwrap_or_else(|| Value::Unknown(Unknown::text(name.as_str()))),
             )
         })
     }
@@ -58,7 +59,7 @@ impl FoundVariables {
     fn write(&mut self, name: &str, value: Value) {
         match self.names.get_mut(name) {
             Some(known) if *known == value => {}
-            Some(known) => *known = Value::Unknown(name.into()),
+            Some(known) => *known = Value::Unknown(Unknown::text(name)),
             None => {
                 self.names.insert(name.to_owned(), named(name, value));
             }
@@ -69,7 +70,7 @@ impl FoundVariables {
 /// The value as found by the next program: one that is not known is named as the variable.
 fn named(name: &str, value: Value) -> Value {
     match value {
-        Value::Unknown(_) => Value::Unknown(name.into()),
+        Value::Unknown(_) => Value::Unknown(Unknown::text(name)),
         known => known,
     }
 }
@@ -116,21 +117,18 @@ impl VariableUse {
     }
 
     /// A value is written, or may be.
-    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, value: &Value) {
-        match place {
-            AssignedPlace::Parameter(Owner::Program, index) => {
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: &Value) {
+        match location {
+            Location::Parameter(Owner::Program, index) => {
                 if self.parameters == Parameters::Kept {
                     self.written.write(&format!("P{index}"), value.clone());
                 }
             }
-            AssignedPlace::Variable(name) => self.write_name(name, value),
-            AssignedPlace::Elements(name, cause) => {
-                self.write_name(name, &Value::Unknown(cause.clone()));
-            }
-            AssignedPlace::Parameters(_) => {
+            Location::Variable(name) | Location::Elements(name) => self.write_name(name, value),
+            Location::Parameters => {
                 self.written.anything |= self.parameters == Parameters::Kept;
             }
-            AssignedPlace::Parameter(Owner::Call, _) | AssignedPlace::Nowhere => {}
+            Location::Parameter(Owner::Call, _) => {}
         }
     }
 
@@ -140,7 +138,6 @@ impl VariableUse {
         if !self.outlives(base) {
             return;
         }
-        let element: Arc<str> = base.into();
         let is_whole = subscripts.is_empty();
         let value = is_whole.then(|| value.clone());
         if self.externals.is_own(base) {
@@ -148,7 +145,7 @@ impl VariableUse {
             self.written.write(base, Value::Number(0.0));
         }
         self.written
-            .write(base, value.unwrap_or(Value::Unknown(element)));
+            .write(base, value.unwrap_or(Value::Unknown(Unknown::text(base))));
     }
 
     fn outlives(&self, base: &str) -> bool {

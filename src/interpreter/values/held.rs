@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::externals::{ExternalNames, HeldVariable, SetAt, SetVariable};
+use super::cause::Unknown;
+use super::externals::{ExternalNames, HeldVariable, SetAt};
 use super::memory::Memory;
 use super::value::Value;
 
@@ -50,7 +51,8 @@ impl Memory {
             self.externals.held.remove(name);
             if let Some(known) = self.known(name) {
                 let given = self.given.get(name).cloned();
-                let unknown = || Value::Unknown(SetVariable::cause(name, &known, held.first()));
+                let unknown =
+                    || Value::Unknown(Unknown::changed(name, known.as_written(), held.first()));
                 self.variables.set(name, given.unwrap_or_else(unknown));
             }
         }

@@ -1,18 +1,18 @@
 //! Parameters, variables and macros of a run.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::cause::Unknown;
 use super::externals::{ExternalVariables, HeldVariable};
 use super::found::FoundVariables;
+use super::location::Location;
 use super::names::{
     Array, NamedVariable, VariableNames, Weight, compare, join_value, parts, weight,
 };
 use super::parameter_values::ParameterValues;
 use super::persistent::PersistentMap;
-use super::target::RegionTarget;
 use super::value::Value;
 use super::variable::set_name;
 use crate::machine::Parameters;
@@ -23,13 +23,13 @@ use crate::syntax::ast::Owner;
 pub(in crate::interpreter) struct Memory {
     pub(super) parameters: ParameterValues,
     /// Set when an unknown parameter was written: the value that decides which.
-    pub(super) lost: Option<Arc<str>>,
+    pub(super) lost: Option<Unknown>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     pub(super) variables: VariableNames,
     /// Values given by the user for parameters and variables that no program wrote.
     pub(super) given: PersistentMap<String, Value>,
     /// Set when any of those that programs write may have been written: the text that caused it.
-    unknown_names: Option<Arc<str>>,
+    unknown_names: Option<Unknown>,
     /// The names that outlive programs, may exist, and were not certainly written since.
     pub(super) found: BTreeSet<String>,
     /// Whether a `V.S.` variable that no known program writes may still exist.
@@ -99,7 +99,7 @@ impl Memory {
         let written = self.variables.value(name);
         written.or_else(|| match unknown {
             Some(cause) => Some(Value::Unknown(cause.clone())),
-            None if self.may_find(name) => Some(Value::Unknown(parts(name).0.into())),
+            None if self.may_find(name) => Some(Value::Unknown(Unknown::text(parts(name).0))),
             None => {
                 let is_zero = self.externals.is_zero(name) && self.given.get(name).is_none();
                 is_zero.then_some(Value::Number(0.0))
@@ -213,10 +213,10 @@ impl Memory {
         let name = format!("P{index}");
         let mut start = Some(value);
         if self.found.contains(&name) {
-            let cause: Arc<str> = name.as_str().into();
+            let cause = Unknown::text(name.as_str());
             join_value(&mut start, self.parameter(index).as_ref(), &cause);
         }
-        self.set_parameter(index, start.unwrap_or(Value::Unknown(name.into())));
+        self.set_parameter(index, start.unwrap_or(Value::Unknown(Unknown::text(name))));
     }
 
     /// Declares a scalar on the current level.
@@ -230,7 +230,7 @@ impl Memory {
         let held = self.variables.names.get(name);
         let held = held.filter(|_| name.starts_with("V.S."));
         held.cloned().or_else(|| {
-            let cause: Arc<str> = name.into();
+            let cause = Unknown::text(name);
             self.may_find(name).then(|| NamedVariable {
                 scalar: Some(Value::Unknown(cause.clone())),
                 lost: Some(cause),
@@ -242,7 +242,7 @@ impl Memory {
     /// A variable was declared that existed before. Whether the start value replaces its present value is not
     /// documented, so it is unknown where the two differ (R2.34); the user's value decides.
     pub(in crate::interpreter) fn declare_anew(&mut self, name: &str, before: &NamedVariable) {
-        self.variables.join_name(name, before, &name.into());
+        self.variables.join_name(name, before, &Unknown::text(name));
         if let Some(given) = self.given.get(name)
             && let Some(Value::Unknown(_)) = self.variables.value(name)
         {
@@ -292,7 +292,7 @@ impl Memory {
     }
 
     /// Some element of an array was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Unknown) {
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         let holding = levels.filter(|names| names.names.get(name).is_some());
         let known = holding.map(|names| names.havoc_elements(name, cause));
@@ -302,14 +302,14 @@ impl Memory {
     }
 
     /// Some P parameter was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn havoc_parameters(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_parameters(&mut self, cause: &Unknown) {
         self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
     }
 
     /// Everything that a program can write may have been written: nothing is known any more.
     /// Values that only the machine holds are kept.
-    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Unknown) {
         self.havoc_parameters(cause);
         self.unknown_names = Some(cause.clone());
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
@@ -325,7 +325,7 @@ impl Memory {
     }
 
     /// A missing program may have written what the run never wrote.
-    pub(in crate::interpreter) fn miss(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn miss(&mut self, cause: &Unknown) {
         self.lost.get_or_insert_with(|| cause.clone());
         self.unknown_names.get_or_insert_with(|| cause.clone());
     }
@@ -342,10 +342,7 @@ impl Memory {
 
     /// The names whose numbers differ in another memory; `None` where anything else does, or more
     /// than a few.
-    pub(in crate::interpreter) fn differing_numbers(
-        &self,
-        other: &Self,
-    ) -> Option<Vec<RegionTarget>> {
+    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let same = self.lost == other.lost
             && self.externals == other.externals
             && self.unknown_names == other.unknown_names
@@ -355,7 +352,7 @@ impl Memory {
             return None;
         }
         let mut differing = Vec::new();
-        let parameter = |index| RegionTarget::Parameter(Owner::Program, index);
+        let parameter = |index| Location::Parameter(Owner::Program, index);
         for index in self.parameters.differing(&other.parameters) {
             let mine = self.parameters.get(index)?;
             compare(
@@ -374,7 +371,7 @@ impl Memory {
 
     /// Makes unknown what differs in another memory where two ways join (R14.1). Returns the number
     /// of differences.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Unknown) -> usize {
         let Self {
             parameters,
             lost,
@@ -443,16 +440,14 @@ impl Memory {
             .collect()
     }
 
-    /// Values of the program that are not known any more.
-    pub(in crate::interpreter) fn lose(&mut self, targets: &[RegionTarget], cause: &Arc<str>) {
-        let unknown = || Value::Unknown(cause.clone());
-        for target in targets {
-            match target {
-                RegionTarget::Parameter(_, index) => self.set_parameter(*index, unknown()),
-                RegionTarget::Variable(name) => self.set_variable(name, unknown()),
-                RegionTarget::Elements(name) => self.havoc_elements(name, cause),
-                RegionTarget::Parameters => self.havoc_parameters(cause),
-            }
+    /// Writes a value; one that may be in several locations is not known.
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: Value) {
+        match (location, value) {
+            (Location::Parameter(_, index), value) => self.set_parameter(*index, value),
+            (Location::Variable(name), value) => self.set_variable(name, value),
+            (Location::Elements(name), Value::Unknown(cause)) => self.havoc_elements(name, &cause),
+            (Location::Parameters, Value::Unknown(cause)) => self.havoc_parameters(&cause),
+            (Location::Elements(_) | Location::Parameters, _) => {}
         }
     }
 
@@ -485,7 +480,7 @@ impl Memory {
     }
 
     /// A macro may have been defined, or redefined (R2.51).
-    pub(in crate::interpreter) fn havoc_macro(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_macro(&mut self, name: &str, cause: &Unknown) {
         if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
@@ -495,7 +490,7 @@ impl Memory {
     /// names with their code.
     pub(in crate::interpreter) fn havoc_macros(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         stays: impl Fn(&str, &str) -> bool,
     ) {
         let goes = |(name, code): &(&String, &Value)| match code {

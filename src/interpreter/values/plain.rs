@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::externals::ExternalNames;
-use super::target::RegionTarget;
+use super::location::Location;
 use super::value::{Value, rounded};
 use super::variable::canonical;
 use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owner};
@@ -41,7 +41,7 @@ pub(in crate::interpreter) fn conclusions(
     text: &str,
     condition: Expression,
     truth: Truth,
-) -> Vec<(RegionTarget, Value)> {
+) -> Vec<(Location, Value)> {
     let mut found = Vec::new();
     let mut left = vec![(condition, truth)];
     while let Some((part, truth)) = left.pop() {
@@ -108,12 +108,12 @@ pub(in crate::interpreter) fn is_one_comparison(
 }
 
 /// Whether a variable can only be 0 or 1.
-fn is_switch(target: &RegionTarget) -> bool {
-    matches!(target, RegionTarget::Variable(name) if name.starts_with("V.A.") && name.contains("_COMP_ACTIVE"))
+fn is_switch(target: &Location) -> bool {
+    matches!(target, Location::Variable(name) if name.starts_with("V.A.") && name.contains("_COMP_ACTIVE"))
 }
 
 /// A variable and the number that it equals.
-fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(RegionTarget, Value)> {
+fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Location, Value)> {
     let [one, other] = pair;
     let known = |part| {
         let (node, _) = root(block, part)?;
@@ -135,7 +135,7 @@ pub(in crate::interpreter) fn variable(
     block: &Block,
     text: &str,
     part: Expression,
-) -> Option<RegionTarget> {
+) -> Option<Location> {
     let (start, end) = (part.start as usize, part.end as usize);
     let [node] = block.nodes.get(start..end)? else {
         return None;
@@ -143,13 +143,12 @@ pub(in crate::interpreter) fn variable(
     target(*node, block.spans.get(start)?.of(text))
 }
 
-fn target(node: Node, written: &str) -> Option<RegionTarget> {
+fn target(node: Node, written: &str) -> Option<Location> {
     match node {
-        Node::Parameter { owner, index } => Some(RegionTarget::Parameter(owner, index)),
+        Node::Parameter { owner, index } => Some(Location::Parameter(owner, index)),
         Node::Variable { subscripts: 0 } => {
             let name = canonical(written).into_owned();
-            name.starts_with("V.")
-                .then_some(RegionTarget::Variable(name))
+            name.starts_with("V.").then_some(Location::Variable(name))
         }
         _ => None,
     }
@@ -226,7 +225,7 @@ impl Writer {
 /// Values that an expression reads and its operations on them, in a form independent of its text.
 pub(in crate::interpreter) struct Asking {
     pub(in crate::interpreter) writer: Writer,
-    pub(in crate::interpreter) reads: Vec<RegionTarget>,
+    pub(in crate::interpreter) reads: Vec<Location>,
     pub(in crate::interpreter) meaning: String,
 }
 
@@ -254,9 +253,9 @@ pub(in crate::interpreter) fn reads(
         };
         meaning = format!("{meaning} {read:?}");
         writer = writer.max(match &read {
-            RegionTarget::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
-            RegionTarget::Variable(name) => Writer::of(name, externals),
-            RegionTarget::Elements(_) | RegionTarget::Parameters => return None,
+            Location::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
+            Location::Variable(name) => Writer::of(name, externals),
+            Location::Elements(_) | Location::Parameters => return None,
         });
         found.push(read);
     }

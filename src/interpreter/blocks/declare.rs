@@ -8,6 +8,7 @@ use crate::interpreter::run::state::State;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Declaration, Hash, Operand};
 
@@ -71,8 +72,8 @@ impl Interpreter {
             let before = memory.before_declaration(&name);
             if is_scalar {
                 let value = values.into_iter().next().unwrap_or(default);
-                match name.strip_prefix('P').map(str::parse) {
-                    Some(Ok(index)) => memory.declare_parameter(index, value),
+                match Location::named(&name) {
+                    Location::Parameter(_, index) => memory.declare_parameter(index, value),
                     _ => memory.declare(&name, value),
                 }
             } else {
@@ -98,11 +99,12 @@ impl Interpreter {
 
     /// Notes the start value of a variable, or an array, that may be there before.
     fn note_declaration(&self, name: &str, start: Option<&Value>) {
-        let is_unwritten = self.state.control.memory.is_unwritten(name);
+        let location = Location::named(name);
+        let is_unwritten = self.state.control.memory.is_unwritten(&location);
         let array = Value::Unknown(Unknown::text(name));
         self.note_use(|used| {
             if is_unwritten {
-                used.want(name);
+                used.want(location);
             }
             used.write_name(name, start.unwrap_or(&array));
         });
@@ -145,10 +147,8 @@ fn element(name: &str, dimensions: &[Result<u32, Value>], place: usize) -> Optio
 /// Only the program's own variables can be declared (TF5200 Diagnosis, error 20908).
 fn refuse_declaration(declaration: &Declaration, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
     let name = declared_name(declaration, at);
-    let family = name
-        .strip_prefix("V.")
-        .and_then(|rest| rest.split('.').next());
-    if family.is_none_or(|family| matches!(family, "L" | "S" | "P" | "CYC")) {
+    let family = VariableFamily::of(&name);
+    if family.is_written() || family == VariableFamily::Other {
         return Ok(());
     }
     let span = declaration.target.span;

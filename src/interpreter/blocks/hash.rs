@@ -17,6 +17,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::readings::{Alternative, Question};
 use crate::syntax::ast::Hash;
 use crate::syntax::{Fault, Touches, hash_command};
@@ -105,7 +106,10 @@ impl Interpreter {
                         continue;
                     };
                     match place.variable() {
-                        Some(whole) if name == "#INIT" && whole.starts_with("V.E.") => {
+                        Some(whole)
+                            if name == "#INIT"
+                                && VariableFamily::of(whole) == VariableFamily::External =>
+                        {
                             self.write(&place.location, 0.0.into());
                             self.state.control.memory.zero(whole, &at.as_setter());
                         }

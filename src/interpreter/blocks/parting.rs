@@ -19,9 +19,11 @@ use crate::interpreter::unknown::branching::{Goal, MachineQuestion};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{
-    Asking, Truth, Writer, conclusions, is_one_comparison, reads, text_of, variable,
+    Asking, ConditionSubject, Truth, Writer, conclusions, is_one_comparison, reads, text_of,
+    variable,
 };
 use crate::interpreter::values::value::{Value, same_case};
+use crate::interpreter::values::variable::VariableFamily;
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
@@ -114,7 +116,9 @@ impl Interpreter {
     /// that does not follow from something else.
     fn may_conclude(&self, target: &Location) -> bool {
         match target {
-            Location::Variable(name) => !name.starts_with("V.L.") && !self.is_own(name),
+            Location::Variable(name) => {
+                VariableFamily::of(name) != VariableFamily::Local && !self.is_own(name)
+            }
             Location::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
             Location::Elements(_) | Location::Parameters => false,
         }
@@ -220,7 +224,7 @@ impl Interpreter {
         let (subject, place) = text_of(at.block, at.text, expression);
         let mut goals = Vec::with_capacity(cases.len() + 1);
         let mut texts: Vec<Arc<str>> = Vec::with_capacity(cases.len());
-        let mut asking = reads(at.block, at.text, expression, &self.externals);
+        let asking = reads(at.block, at.text, expression, &self.externals);
         let subject_of = variable(at.block, at.text, expression);
         let subject_of = subject_of.filter(|target| self.may_conclude(target));
         let kept = doubt.kept_answer(|value| {
@@ -238,16 +242,13 @@ impl Interpreter {
             });
         }
         goals.push(other);
-        if let Some(asking) = &mut asking {
-            // Cases with the same values are the same question.
-            asking.meaning = format!("{} {}", asking.meaning, texts.join("|"));
-        }
         let question = MachineQuestion {
             kind: ConditionKind::Case,
             span: if place.end > place.start { place } else { span },
-            texts,
             cause: doubt.cause(),
-            reads: asking,
+            // Cases with the same values are the same question.
+            reads: asking.map(|asking| asking.about(ConditionSubject::Cases(texts.clone()))),
+            texts,
             kept,
         };
         self.part(question, goals, at)
@@ -336,22 +337,19 @@ impl Interpreter {
         if !is_bare && self.is_level_read_again(level, &at.place(span)) {
             self.state.rests_on.insert(Open::SkipLevel);
         }
+        // The switch of blocks without a number is read when the main program begins, and the others
+        // where the machine is read so (R2.90).
+        let writer = if is_bare || at_start {
+            Writer::Nothing
+        } else {
+            Writer::Machine
+        };
         let question = MachineQuestion {
             kind: ConditionKind::Skip(level),
             span,
             texts: vec!["executed".into()],
             cause: cause.clone(),
-            // The switch of blocks without a number is read when the main program begins, and the others
-            // where the machine is read so (R2.90).
-            reads: Some(Asking {
-                writer: if is_bare || at_start {
-                    Writer::Nothing
-                } else {
-                    Writer::Machine
-                },
-                reads: Vec::new(),
-                meaning: cause.to_string(),
-            }),
+            reads: Some(Asking::of_unknown(writer, cause)),
             kept: None,
         };
         let goals = [after, entry].map(Goal::block);

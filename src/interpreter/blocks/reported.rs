@@ -17,7 +17,7 @@ use crate::interpreter::run::ways::{Branch, JumpTarget};
 use crate::interpreter::unknown::branching::MachineQuestion;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::functions::numeric;
-use crate::interpreter::values::plain::{Asking, Writer, reads, text_of};
+use crate::interpreter::values::plain::{Asking, ConditionSubject, Writer, reads, text_of};
 use crate::readings::{Alternative, Question};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Expression, Hash, Operand};
@@ -84,11 +84,7 @@ impl Interpreter {
                     texts: vec!["`#ERROR`".into()],
                     cause: Unknown::RemedyClass,
                     // The control has one answer for all of them.
-                    reads: Some(Asking {
-                        writer: Writer::Nothing,
-                        reads: Vec::new(),
-                        meaning: "#ERROR".to_owned(),
-                    }),
+                    reads: Some(Asking::of_unknown(Writer::Nothing, Unknown::RemedyClass)),
                     kept: None,
                 };
                 let ways = self.part_at_error(question, at);
@@ -104,10 +100,7 @@ impl Interpreter {
                     span,
                     texts: vec![format!("{text} != 0").into()],
                     cause: doubt.cause(),
-                    reads: reads.map(|asking| Asking {
-                        meaning: format!("#ERROR{}", asking.meaning),
-                        ..asking
-                    }),
+                    reads: reads.map(|asking| asking.about(ConditionSubject::RemedyClass)),
                     kept: doubt.kept_answer(|value| usize::from(value.number() == Some(0.0))),
                 };
                 let ways = self.part_at_error(question, at);
@@ -163,17 +156,13 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let asking = Asking {
-            writer: Writer::Nothing,
-            reads: Vec::new(),
-            meaning: error.to_string(),
-        };
+        let asking = || Asking::of_unknown(Writer::Nothing, error.clone());
         let question = MachineQuestion {
             kind: ConditionKind::Stop,
             span,
             texts: vec![error.to_string().into()],
+            reads: (scope == StopScope::Rest).then(asking),
             cause: error,
-            reads: (scope == StopScope::Rest).then_some(asking),
             kept: None,
         };
         let ways = self.part_at_error(question, at);

@@ -14,7 +14,7 @@ use crate::interpreter::values::expression::{Evaluator, ExpressionScope, Macros,
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::canonical;
+use crate::interpreter::values::variable::{VariableFamily, canonical};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Assignment, BinaryOperator, Block, Expression, Node, Operand, Owner};
 use crate::text::Span;
@@ -347,7 +347,7 @@ impl Interpreter {
         };
         self.write(&location, value);
         if let Location::Variable(name) = &location
-            && name.starts_with("V.E.")
+            && VariableFamily::of(name) == VariableFamily::External
         {
             self.state.control.memory.hold(name, at.as_setter());
         }
@@ -362,7 +362,8 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) -> Option<String> {
         let name = place?.variable()?;
-        let is_given = name.starts_with("V.E.") && self.state.control.memory.given(name).is_some();
+        let is_given = VariableFamily::of(name) == VariableFamily::External
+            && self.state.control.memory.given(name).is_some();
         (is_given && reads_itself(assignment, name, at)).then(|| name.to_owned())
     }
 

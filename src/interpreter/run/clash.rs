@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::condition::{Clash, Condition, ConditionKind, MAX_ANSWERS};
 use super::way_set::{Way, WayAnswer};
 use crate::interpreter::values::location::Location;
-use crate::interpreter::values::plain::{Asking, Writer};
+use crate::interpreter::values::plain::{Asking, ConditionMeaning, ConditionSubject, Writer};
 use crate::interpreter::values::value::Value;
 
 /// Number of remembered conditions on values of the machine; older ones contradict nothing.
@@ -51,9 +51,8 @@ pub(in crate::interpreter) struct RememberedCondition {
     pub(in crate::interpreter) condition: u32,
     /// Number of the time that the condition is asked.
     time: u32,
-    meaning: Arc<str>,
+    meaning: Arc<ConditionMeaning>,
     writer: Writer,
-    reads: Vec<Location>,
     answers: Vec<ImpliedValues>,
 }
 
@@ -66,9 +65,8 @@ impl RememberedCondition {
         Self {
             condition,
             time,
-            meaning: Arc::from(&*asking.meaning),
+            meaning: Arc::clone(&asking.meaning),
             writer: asking.writer,
-            reads: asking.reads.clone(),
             answers,
         }
     }
@@ -104,11 +102,12 @@ impl RememberedCondition {
 
     /// The variables that it reads, or what it asks for.
     fn names(&self) -> String {
-        let mut names: Vec<String> = self.reads.iter().filter_map(name_of).collect();
-        names.dedup();
-        if names.is_empty() {
-            return self.meaning.to_string();
+        if let ConditionSubject::Unknown(unknown) = &self.meaning.subject {
+            return unknown.to_string();
         }
+        let reads = self.meaning.reads.iter();
+        let mut names: Vec<String> = reads.filter_map(name_of).collect();
+        names.dedup();
         names.join(" or ")
     }
 }
@@ -147,10 +146,13 @@ impl RememberedConditions {
             None => self.0.clear(),
             Some(asking) => {
                 let is_read = |it: &Arc<RememberedCondition>| {
-                    it.reads.iter().any(|of| asking.reads.contains(of))
+                    it.meaning
+                        .reads
+                        .iter()
+                        .any(|of| asking.meaning.reads.contains(of))
                 };
                 self.0
-                    .retain(|it| !is_read(it) && *it.meaning != *asking.meaning);
+                    .retain(|it| !is_read(it) && it.meaning != asking.meaning);
             }
         }
     }
@@ -158,8 +160,10 @@ impl RememberedConditions {
     /// The program writes a value.
     pub(in crate::interpreter) fn write(&mut self, location: &Location) {
         match location {
-            Location::Elements(_) | Location::Parameters => self.0.retain(|it| it.reads.is_empty()),
-            one => self.0.retain(|it| !it.reads.contains(one)),
+            Location::Elements(_) | Location::Parameters => {
+                self.0.retain(|it| it.meaning.reads.is_empty());
+            }
+            one => self.0.retain(|it| !it.meaning.reads.contains(one)),
         }
     }
 
@@ -170,7 +174,7 @@ impl RememberedConditions {
 
     /// Some values differ from here on.
     pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&Location) -> bool) {
-        self.0.retain(|it| !it.reads.iter().any(&is_other));
+        self.0.retain(|it| !it.meaning.reads.iter().any(&is_other));
     }
 
     /// Whether each answer of each has a bit.

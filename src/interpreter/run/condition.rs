@@ -96,6 +96,25 @@ pub(in crate::interpreter) struct Condition {
 }
 
 impl Condition {
+    /// A condition that is asked for the first time.
+    pub(in crate::interpreter) fn new(
+        kind: ConditionKind,
+        place: Place,
+        texts: Vec<Arc<str>>,
+        cause: Unknown,
+    ) -> Self {
+        Self {
+            kind,
+            place,
+            texts,
+            cause,
+            round: 0,
+            time: 0,
+            clashes: Vec::new(),
+            kept: None,
+        }
+    }
+
     /// Renumbers the conditions; those without a number are left out.
     pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> Option<u32>) -> Self {
         let mut copy = self.clone();

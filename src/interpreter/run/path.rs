@@ -20,7 +20,10 @@ use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::HeldVariable;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::memory::Memory;
+use crate::interpreter::values::plain::ConditionMeaning;
+use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::syntax::ast::Owner;
 use crate::text::{Place, Span};
 
@@ -56,8 +59,14 @@ pub(in crate::interpreter) struct RunTrack {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct AskedCondition {
     pub(in crate::interpreter) condition: u32,
-    pub(in crate::interpreter) key: Arc<str>,
-    pub(in crate::interpreter) reads: Vec<Location>,
+    pub(in crate::interpreter) meaning: Arc<ConditionMeaning>,
+}
+
+impl AskedCondition {
+    /// Whether no value decides, so that it has one answer on all ways.
+    pub(in crate::interpreter) fn reads_nothing(&self) -> bool {
+        self.meaning.reads.is_empty()
+    }
 }
 
 /// Adjacent blocks of one skip level.
@@ -71,10 +80,9 @@ pub(in crate::interpreter) struct Marked {
 
 /// Values that follow from conditions, with what was known before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<AssumedRow>", from = "Vec<AssumedRow>")]
-pub(in crate::interpreter) struct AssumedValues(BTreeMap<Location, ValueBefore>);
-
-type AssumedRow = (Location, ValueBefore);
+pub(in crate::interpreter) struct AssumedValues(
+    #[serde(with = "rows")] BTreeMap<Location, ValueBefore>,
+);
 
 /// What was known of a value before a condition.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -95,18 +103,6 @@ impl ValueBefore {
             None => is_external,
         };
         self.set == other.set && (self.value == other.value || (is_open(self) && is_open(other)))
-    }
-}
-
-impl From<Vec<AssumedRow>> for AssumedValues {
-    fn from(rows: Vec<AssumedRow>) -> Self {
-        Self(rows.into_iter().collect())
-    }
-}
-
-impl From<AssumedValues> for Vec<AssumedRow> {
-    fn from(assumed: AssumedValues) -> Self {
-        assumed.0.into_iter().collect()
     }
 }
 
@@ -213,7 +209,8 @@ impl RunTrack {
             return self.write_anything(memory);
         }
         self.assumed.0.remove(location);
-        self.asked.retain(|asked| !asked.reads.contains(location));
+        self.asked
+            .retain(|asked| !asked.meaning.reads.contains(location));
     }
 
     /// Anything may be written.
@@ -227,10 +224,11 @@ impl RunTrack {
     pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
         let is_own = |target: &Location| match target {
             Location::Parameter(owner, _) => *owner == Owner::Call,
-            Location::Variable(name) => name.starts_with("V.L."),
+            Location::Variable(name) => VariableFamily::of(name) == VariableFamily::Local,
             Location::Elements(_) | Location::Parameters => true,
         };
-        self.asked.retain(|asked| !asked.reads.iter().any(is_own));
+        self.asked
+            .retain(|asked| !asked.meaning.reads.iter().any(is_own));
         self.readings.havoc(is_own);
         self.open_loops.retain(|(of, ..)| *of <= depth);
     }
@@ -264,10 +262,9 @@ impl RunTrack {
         self.ways.join(ways);
         self.reach.or(reach);
         // A condition that reads nothing is not written on any way.
-        let is_kept = |asked: &AskedCondition| asked.reads.is_empty();
         self.asked
-            .retain(|mine| asked.contains(mine) || is_kept(mine));
-        for theirs in asked.iter().filter(|asked| is_kept(asked)) {
+            .retain(|mine| asked.contains(mine) || mine.reads_nothing());
+        for theirs in asked.iter().filter(|asked| asked.reads_nothing()) {
             if !self.asked.contains(theirs) {
                 self.asked.push(theirs.clone());
             }

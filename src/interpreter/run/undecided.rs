@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::rows;
 use crate::text::Place;
 
 /// Unknown values that are remembered; beyond them a message may be said again.
@@ -44,8 +45,8 @@ impl Differing {
 
 /// The unknown values that messages of the program were about, by what makes them unknown.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<(Unknown, Root)>", from = "Vec<(Unknown, Root)>")]
 pub(in crate::interpreter) struct MentionedUnknowns {
+    #[serde(with = "rows")]
     roots: BTreeMap<Unknown, Root>,
 }
 
@@ -55,20 +56,6 @@ struct Root {
     place: Place,
     /// Names that messages called unknown because of it, with the line of the first.
     named: BTreeMap<String, (Arc<str>, u32)>,
-}
-
-impl From<Vec<(Unknown, Root)>> for MentionedUnknowns {
-    fn from(roots: Vec<(Unknown, Root)>) -> Self {
-        Self {
-            roots: roots.into_iter().collect(),
-        }
-    }
-}
-
-impl From<MentionedUnknowns> for Vec<(Unknown, Root)> {
-    fn from(mentioned: MentionedUnknowns) -> Self {
-        mentioned.roots.into_iter().collect()
-    }
 }
 
 impl MentionedUnknowns {

@@ -17,6 +17,7 @@ use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
+use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
 use crate::text::Span;
 
@@ -62,22 +63,9 @@ pub(in crate::interpreter) struct WayEnd {
 
 /// Targets with the executed block that wrote them last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<(Location, u64)>", from = "Vec<(Location, u64)>")]
 pub(in crate::interpreter) struct WrittenTargets(
-    pub(in crate::interpreter) BTreeMap<Location, u64>,
+    #[serde(with = "rows")] pub(in crate::interpreter) BTreeMap<Location, u64>,
 );
-
-impl From<Vec<(Location, u64)>> for WrittenTargets {
-    fn from(written: Vec<(Location, u64)>) -> Self {
-        Self(written.into_iter().collect())
-    }
-}
-
-impl From<WrittenTargets> for Vec<(Location, u64)> {
-    fn from(written: WrittenTargets) -> Self {
-        written.0.into_iter().collect()
-    }
-}
 
 /// A way that left the one of the dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -36,16 +36,12 @@ impl Interpreter {
         }
         self.state.effort.charge(ITEM * 8);
         let name: Arc<str> = self.machine.axis(axis).name.as_str().into();
-        let condition = self.state.ask_anew(Condition {
-            kind: ConditionKind::Call(kind),
-            place: left.place.clone(),
-            texts: vec![left.program.to_string().into(), name],
-            cause: Unknown::Program(left.program.clone()),
-            round: 0,
-            time: 0,
-            clashes: Vec::new(),
-            kept: None,
-        });
+        let condition = self.state.ask_anew(Condition::new(
+            ConditionKind::Call(kind),
+            left.place.clone(),
+            vec![left.program.to_string().into(), name],
+            Unknown::Program(left.program.clone()),
+        ));
         let reach = &self.state.track.reach;
         let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
         if let (Some(on), Some(off)) = (sides.next(), sides.next()) {

@@ -18,6 +18,7 @@ use crate::interpreter::run::undecided::{Differing, Undecided};
 use crate::interpreter::run::ways::JumpTarget;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::machine::Parameters;
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -302,6 +303,5 @@ fn is_coupling(name: &str) -> bool {
 
 /// Whether a variable is read by others than the program that writes it (R2.34, R2.36).
 fn outlives(name: &str) -> bool {
-    let own = ["V.P.", "V.L.", "V.CYC."];
-    name.starts_with("V.") && !own.iter().any(|prefix| name.starts_with(prefix))
+    VariableFamily::of(name).is_read_by_others()
 }

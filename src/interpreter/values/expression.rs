@@ -15,7 +15,7 @@ use super::memory::Memory;
 use super::names::parts;
 use super::reads::Reads;
 use super::value::{Slot, Value, rounded};
-use super::variable::{as_written, canonical, set_name, with_subscripts};
+use super::variable::{VariableFamily, as_written, canonical, set_name, with_subscripts};
 use super::work_budget::{ITEM, WorkBudget};
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
@@ -209,27 +209,28 @@ impl Evaluator<'_> {
     fn perhaps_there(&self, function: Function, at: usize) -> Option<Value> {
         self.scope.used.filter(|_| function == Function::Exist)?;
         let argument = at.checked_sub(1)?;
-        let name = match self.block.nodes[argument] {
-            Node::Variable { subscripts: 0 } => canonical(self.block.spans[argument].of(self.text)),
+        let location = match self.block.nodes[argument] {
+            Node::Variable { subscripts: 0 } => {
+                let text = self.block.spans[argument].of(self.text);
+                Location::Variable(canonical(text).into_owned())
+            }
             Node::Parameter {
                 owner: Owner::Program,
                 index,
-            } => format!("P{index}").into(),
+            } => Location::Parameter(Owner::Program, index),
             _ => return None,
         };
-        let is_found = self.scope.memory.is_found(&name);
-        is_found.then(|| Value::Unknown(Unknown::text(name.as_ref())))
+        let is_found = self.scope.memory.is_found(&location);
+        is_found.then(|| Value::Unknown(Unknown::text(location.to_string())))
     }
 
     /// Notes a value that the program may have found.
-    fn note_found(&self, name: &str) {
-        let base = parts(name).0;
-        if let Some(used) = self
-            .scope
-            .used
-            .filter(|_| self.scope.memory.is_unwritten(base))
-        {
-            used.borrow_mut().want(base);
+    fn note_found(&self, location: impl FnOnce() -> Location) {
+        if let Some(used) = self.scope.used {
+            let location = location();
+            if self.scope.memory.is_unwritten(&location) {
+                used.borrow_mut().want(location);
+            }
         }
     }
 
@@ -249,8 +250,8 @@ impl Evaluator<'_> {
         if let Some(reads) = self.scope.reads {
             reads.borrow_mut().note(Location::Parameter(owner, index));
         }
-        if self.scope.used.is_some() && owner == Owner::Program {
-            self.note_found(&format!("P{index}"));
+        if owner == Owner::Program {
+            self.note_found(|| Location::Parameter(owner, index));
         }
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
@@ -280,7 +281,10 @@ impl Evaluator<'_> {
         match (place.location, place.decided_by) {
             (_, Some(cause)) => Ok(self.as_set(span).unwrap_or(Value::Unknown(cause))),
             (Location::Parameter(owner, index), None) => self.parameter(owner, index, span),
-            (several, None) => self.variable(&several.to_string(), span),
+            (Location::Variable(name) | Location::Elements(name), None) => {
+                self.variable(&name, span)
+            }
+            (Location::Parameters, None) => Ok(Value::Unknown(Unknown::text("P"))),
         }
     }
 
@@ -351,14 +355,15 @@ impl Evaluator<'_> {
     }
 
     fn note_read(&self, name: &str) {
-        self.note_found(name);
+        self.note_found(|| Location::named(parts(name).0));
         if let Some(reads) = self.scope.reads {
             reads.borrow_mut().note(Location::Variable(name.to_owned()));
         }
     }
 
     fn variable(&self, name: &str, span: Span) -> Slot {
-        if name.starts_with("V.A.") || name.starts_with("V.E.") {
+        let family = VariableFamily::of(name);
+        if matches!(family, VariableFamily::Axis | VariableFamily::External) {
             self.scope.waits.set(true);
         }
         self.note_read(name);
@@ -371,7 +376,7 @@ impl Evaluator<'_> {
         if let Some(value) = self.as_set(span) {
             return Ok(value);
         }
-        if is_program_variable(name) {
+        if is_program_variable(family) {
             return Err(never_written(span, self.text));
         }
         Ok((self.scope.system)(name).unwrap_or_else(|| {
@@ -408,7 +413,7 @@ impl Evaluator<'_> {
         let argument = text.split_once('[').map_or("", |(_, argument)| argument);
         let name = argument.split(['[', ']', ',']).next().unwrap_or_default();
         let name = name.trim();
-        self.note_found(name);
+        self.note_found(|| Location::named(name));
         let place = match dimension.transpose()? {
             Some(Value::Unknown(cause)) => return Ok(Value::Unknown(cause)),
             Some(value) => numeric(&value, span)?.and_then(rounded).unwrap_or(1),
@@ -424,8 +429,12 @@ impl Evaluator<'_> {
                     "the array does not have that many dimensions",
                 )),
             },
-            None if self.scope.memory.is_found(name) => Ok(Value::Unknown(Unknown::text(name))),
-            None if is_program_variable(name) => Err(never_written(span, self.text)),
+            None if self.scope.memory.is_found(&Location::named(name)) => {
+                Ok(Value::Unknown(Unknown::text(name)))
+            }
+            None if is_program_variable(VariableFamily::of(name)) => {
+                Err(never_written(span, self.text))
+            }
             None => {
                 (self.scope.unknown)(name, self.shown.unwrap_or(span));
                 Ok(Value::Unknown(Unknown::text(name)))
@@ -536,9 +545,6 @@ pub(in crate::interpreter) fn unquoted(text: &str) -> &str {
 }
 
 /// Whether only programs write a variable: `V.P.`, `V.L.`, `V.S.`.
-fn is_program_variable(name: &str) -> bool {
-    ["V.P.", "V.L.", "V.S."]
-        .iter()
-        .any(|prefix| name.starts_with(prefix))
-        || name.starts_with('P')
+fn is_program_variable(family: VariableFamily) -> bool {
+    family.is_written() && family != VariableFamily::Cycle
 }

@@ -10,10 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::persistent::PersistentMap;
 use super::value::Value;
-use super::variable::set_name;
-
-/// The family of the variables that programs share with the PLC.
-const FAMILY: &str = "V.E.";
+use super::variable::{VariableFamily, set_name};
 
 /// The variables of the machine of which the configuration says who writes them, with all elements and fields.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -45,7 +42,7 @@ impl ExternalNames {
 
     /// Whether the PLC may write a variable while a program runs.
     pub(in crate::interpreter) fn may_change(&self, name: &str) -> bool {
-        name.starts_with(FAMILY) && !self.is_stable(name)
+        VariableFamily::of(name) == VariableFamily::External && !self.is_stable(name)
     }
 
     /// The variables that only programs write.

@@ -6,6 +6,7 @@ use super::cause::Unknown;
 use super::externals::{ExternalNames, HeldVariable, SetAt};
 use super::memory::Memory;
 use super::value::Value;
+use super::variable::VariableFamily;
 
 impl Memory {
     /// Takes over what the configuration says of the writers of `V.E.` variables.
@@ -106,7 +107,8 @@ impl Memory {
     /// Sets every `V.E.` variable to 0 (PM/207988747).
     pub(in crate::interpreter) fn initialise(&mut self, at: SetAt) {
         let names = self.variables.names.keys();
-        let names: Vec<String> = names.filter(|it| it.starts_with("V.E.")).cloned().collect();
+        let names = names.filter(|it| VariableFamily::of(it) == VariableFamily::External);
+        let names: Vec<String> = names.cloned().collect();
         for name in names {
             self.delete(&name);
         }

@@ -23,6 +23,17 @@ pub(in crate::interpreter) enum Location {
     Parameters,
 }
 
+impl Location {
+    /// The parameter or variable of a name.
+    pub(in crate::interpreter) fn named(name: &str) -> Self {
+        let number = name.strip_prefix('P').and_then(|index| index.parse().ok());
+        number.map_or_else(
+            || Self::Variable(name.to_owned()),
+            |index| Self::Parameter(Owner::Program, index),
+        )
+    }
+}
+
 impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

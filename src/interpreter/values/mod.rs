@@ -15,6 +15,7 @@ pub(super) mod parameter_values;
 pub(super) mod persistent;
 pub(super) mod plain;
 pub(super) mod reads;
+pub(super) mod rows;
 pub(super) mod shared;
 pub(super) mod value;
 pub(super) mod variable;

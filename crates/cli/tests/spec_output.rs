@@ -402,7 +402,7 @@ fn a_state_that_does_not_fit_is_left_alone() {
     let run = ["run", "--state", "s.json", "a.nc"];
     assert_eq!(bench.status(&run), Some(0));
     let good = bench.read("s.json");
-    let other_schema = good.replacen("\"schema\": 3", "\"schema\": 4", 1);
+    let other_schema = good.replacen("\"schema\": 4", "\"schema\": 5", 1);
     for wrong in ["", "{\"schema\":", other_schema.as_str()] {
         bench.write("s.json", wrong);
         assert_eq!(bench.status(&run), Some(2), "{wrong}");

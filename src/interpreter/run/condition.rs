@@ -147,3 +147,18 @@ impl Condition {
             && self.texts == other.texts
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variables_in_words_are_read() {
+        // R9.32
+        for names in ["\"name\":\"V.E.A\"", "\"names\":[\"V.E.A\"]"] {
+            let saved = format!("{{{names},\"set\":{{\"file\":\"a.nc\",\"line\":3}},\"sides\":1}}");
+            let kept: KeptAnswer = serde_json::from_str(&saved).expect("an answer");
+            assert_eq!(*kept.names, ["V.E.A".to_owned()]);
+        }
+    }
+}

@@ -98,12 +98,13 @@ enum TextMeaning {
 impl From<Arc<str>> for UnknownText {
     fn from(text: Arc<str>) -> Self {
         let meaning = match text.as_bytes() {
+            [b'#', ..] if is_command(&text) => TextMeaning::Command,
+            text if text.contains(&b' ') => TextMeaning::NotUnderstood,
             [b'V', b'.', b'S', b'.', ..] => TextMeaning::Inherited,
             [b'V' | b'v', b'.', ..]
             | [b'A'..=b'Z']
             | [b'P' | b'p', b'0'..=b'9', ..]
             | [b'@', b'P' | b'p', b'0'..=b'9', ..] => TextMeaning::Value,
-            [b'#', ..] if is_command(&text) => TextMeaning::Command,
             _ => TextMeaning::NotUnderstood,
         };
         Self { text, meaning }
@@ -118,7 +119,7 @@ impl From<UnknownText> for Arc<str> {
 
 impl Unknown {
     /// Text of a program: a parameter, a variable, an address, a command, or what is not understood.
-    pub(crate) fn text(text: impl Into<Arc<str>>) -> Self {
+    pub fn text(text: impl Into<Arc<str>>) -> Self {
         Self::Text(text.into().into())
     }
 
@@ -279,6 +280,18 @@ mod tests {
             "`V.E.N[2]`, which a (1).nc:3 set to \"A, which b.nc:2 set to B\" and the PLC may have changed"
         );
         assert!(changed.seen_from("a (1).nc").contains("which line 3 set"));
+    }
+
+    #[test]
+    fn only_a_name_can_be_given_a_value() {
+        // R2.50
+        let advice = |text: &str| Unknown::text(text).advice();
+        for name in ["P5", "@P1", "V.E.A[P1,2]", "V.S.A", "M"] {
+            assert_eq!(advice(name), Advice::SetVariable(name.to_owned()));
+        }
+        for other in ["P5 / 0", "V.E.A, which a.nc:3 set to 1", "#BLA"] {
+            assert!(matches!(advice(other), Advice::Words(_)), "{other}");
+        }
     }
 
     #[test]

@@ -209,7 +209,8 @@ pub(crate) enum HashArguments {
 pub(crate) enum Plc {
     /// None.
     Absent,
-    /// It acts by design: a dwell, a wait. Late M functions are acknowledged at `#EXPL` (tf5200_m_and_h_func/286004619).
+    /// It acts by design: a dwell, a wait. Late M functions are acknowledged at `#EXPL`
+    /// (`tf5200_m_and_h_func/286004619`).
     Acts,
     /// It acts where the command has the word `WAIT`.
     ActsAfterWait,

@@ -1,7 +1,7 @@
 //! The words of the language as tables: what each command and function is, and what it does (R2.45, R2.70).
 //!
-//! `hash` has a row for each `#` command, `g` for each G function. Everything else asks the columns of a row: a
-//! command or function is described in one place.
+//! `hash` has a row for each `#` command, `g` for each G function, `bracket` for each command in the bracket of an axis.
+//! Everything else asks the columns of a row: a command or function is described in one place.
 
 /// Columns of a table: each sets the value of a row, with the arguments that a row gives it.
 macro_rules! columns {

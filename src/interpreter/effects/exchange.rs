@@ -33,11 +33,11 @@ impl Interpreter {
         if command.has(FurtherWord::Default) {
             self.state.control.channel_axes = ChannelAxes::default();
         }
-        let named = NamedInExchange {
+        let exchanged = NamedInExchange {
             arguments: &hash.brackets,
             text: at.text,
         };
-        let names = named.names(exchange);
+        let names = exchanged.names(exchange);
         if let Some(name) = names.iter().find(|name| !name.bytes().all(is_name_byte)) {
             self.state.control.havoc_exchange();
             let message = format!(
@@ -65,20 +65,20 @@ impl Interpreter {
                 );
                 self.scratch.diagnostics.push(at.diagnostic(fault));
             }
-            Exchange::Request => self.request_axes(named, at),
+            Exchange::Request => self.request_axes(exchanged, at),
             Exchange::Release if command.has(FurtherWord::All) => self.release_others(&[]),
             Exchange::Release => names.into_iter().for_each(|name| self.release_axis(name)),
             Exchange::Define => {
                 if !command.has(FurtherWord::Default) {
                     self.release_others(&names);
                 }
-                self.request_axes(named, at);
+                self.request_axes(exchanged, at);
             }
         }
     }
 
-    fn request_axes(&mut self, named: NamedInExchange<'_>, at: &BlockContext<'_>) {
-        for (name, number) in named.axes() {
+    fn request_axes(&mut self, exchanged: NamedInExchange<'_>, at: &BlockContext<'_>) {
+        for (name, number) in exchanged.axes() {
             let number = number.and_then(|number| self.argument_number(number, at));
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);

@@ -102,8 +102,8 @@ fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
 /// The axis of a name, in either case. A command that names none writes to any axis, unless it is about the channel.
 fn named(machine: &Machine, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
     match arguments.after("AX", text) {
-        Some(axis) => {
-            let name = axis.quoted(text).unwrap_or(axis.span.of(text));
+        Some(argument) => {
+            let name = argument.quoted(text).unwrap_or(argument.span.of(text));
             let mut axes = machine.axes.iter();
             let mut in_capitals = || axes.position(|axis| axis.name.eq_ignore_ascii_case(name));
             let found = machine

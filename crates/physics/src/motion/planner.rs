@@ -10,7 +10,7 @@ use super::remarks::{MotionRemark, MotionRemarks, RemarkPlace};
 use super::rounding::{Rounding, Transitions};
 use super::sampler::Sampler;
 use super::segment::{Ends, PathSegment};
-use super::tool_path::{Beside, ToolPath};
+use super::tool_path::{ToolOffset, ToolPath};
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Advice, Budget, Code, Diagnostic};
@@ -317,9 +317,9 @@ impl TrajectoryPlanner {
     }
 
     /// Where the tool follows the contour, if its radius and the plane are known.
-    fn beside(&self, row: &Row<'_>, travel: &Travel) -> Option<Beside> {
+    fn beside(&self, row: &Row<'_>, travel: &Travel) -> Option<ToolOffset> {
         let radius = self.tool_radii.of(row.modal.functions.tool_data);
-        Some(Beside::of(travel.tool?, self.plane(row)?, radius?))
+        Some(ToolOffset::of(travel.tool?, self.plane(row)?, radius?))
     }
 
     /// What separates the path that is followed from that of the machine.

@@ -26,15 +26,15 @@ pub(super) struct ToolPath {
 
 /// Where the tool follows a contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Beside {
+pub(super) struct ToolOffset {
     /// The axes of the plane.
     axes: [usize; 2],
     /// The distance to the left of the contour, in mm.
     left: f64,
 }
 
-impl Beside {
-    /// Beside a contour in the plane of these axes, with the radius of a tool in mm.
+impl ToolOffset {
+    /// The offset in the plane of these axes, with the radius of a tool in mm.
     pub(super) fn of(side: ToolSide, axes: [usize; 2], radius_mm: f64) -> Self {
         let left = match side {
             ToolSide::Left => radius_mm,
@@ -59,7 +59,7 @@ enum Held {
 struct HeldBlock {
     segment: PathSegment,
     contouring: Option<Contouring>,
-    beside: Beside,
+    beside: ToolOffset,
 }
 
 /// How the path beside a corner goes on.
@@ -95,7 +95,7 @@ impl ToolPath {
     pub(super) fn add(
         &mut self,
         (segment, contouring): (PathSegment, Option<Contouring>),
-        beside: Option<Beside>,
+        beside: Option<ToolOffset>,
         sink: &mut dyn TraceSink,
     ) -> Result<ControlFlow<()>, &'static str> {
         let Some(beside) = beside else {
@@ -183,7 +183,7 @@ impl ToolPath {
         let next = HeldBlock {
             segment,
             contouring,
-            beside: Beside { axes, left: 0.0 },
+            beside: ToolOffset { axes, left: 0.0 },
         };
         if next.stays() {
             return Ok(self.pass_beside(next, sink));
@@ -318,7 +318,7 @@ impl CornerBeside {
     fn between(
         last: &PathSegment,
         next: &PathSegment,
-        Beside { axes, left }: Beside,
+        ToolOffset { axes, left }: ToolOffset,
     ) -> Result<Self, &'static str> {
         let end = axes.map(|axis| last.ends()[axis]);
         let start = axes.map(|axis| next.starts()[axis]);

@@ -114,7 +114,7 @@ impl Round {
     pub(crate) fn limit(&self) -> &'static str {
         match self.shows {
             Shows::FollowingError => ", and no contour",
-            _ => "",
+            Shows::Contour => "",
         }
     }
 
@@ -122,7 +122,7 @@ impl Round {
     pub(crate) fn figure(&self) -> &'static str {
         match self.shows {
             Shows::FollowingError => "following error after reversals; motor side, not contour",
-            _ => "glitch, a mean over 8 ms without noise, the largest of all turns",
+            Shows::Contour => "glitch, a mean over 8 ms without noise, the largest of all turns",
         }
     }
 }

@@ -126,8 +126,7 @@ impl Archive {
     pub fn unsettled(&self) -> Vec<usize> {
         let found = self.found();
         let is_unsettled = |(_, program): &(usize, &ProgramAudit)| {
-            let wanted = &program.used.wanted;
-            program.found.of(wanted) != found.of(wanted)
+            program.found.wanted_by(&program.used) != found.wanted_by(&program.used)
         };
         let programs = self.programs.iter().enumerate();
         let unsettled = programs.filter(is_unsettled);

@@ -2,19 +2,19 @@
 //! lists (R9.30, R9.32).
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::comp::{Kind, KindSet};
+use crate::interpreter::Unknown;
 use crate::interpreter::{ArrayShape, Carried, CarriedWays, Value};
 use crate::lint::Maker;
 use crate::lists::FrictionList;
 use crate::machine::{Axis, AxisSet, Machine, Origin};
 
 /// The number of the format that is written.
-pub const STATE_SCHEMA: u32 = 3;
+pub const STATE_SCHEMA: u32 = 4;
 
 /// Why a saved state cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -45,7 +45,7 @@ pub enum StateError {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SavedState {
-    /// 3, whose files have a checksum; a state of schema 1 has neither what made a state nor
+    /// 4; the files of schema 3 have a checksum, too; a state of schema 1 has neither what made a state nor
     /// anything below `variables`.
     pub schema: u32,
     /// The axes with what the start of the control read: another text is another machine.
@@ -65,7 +65,7 @@ pub struct SavedState {
     pub macros: BTreeMap<String, String>,
     /// Macros that may have been redefined in an unknown way.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub lost_macros: BTreeMap<String, Arc<str>>,
+    pub lost_macros: BTreeMap<String, Unknown>,
     /// Coupling groups with the names of their axes.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub couplings: BTreeMap<String, Vec<String>>,
@@ -77,10 +77,10 @@ pub struct SavedState {
     pub ways: CarriedWays,
     /// Arrays in which some element was written, though it is not known which.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub lost: BTreeMap<String, Arc<str>>,
+    pub lost: BTreeMap<String, Unknown>,
     /// Set when some kept P parameter was written, though it is not known which.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lost_parameters: Option<Arc<str>>,
+    pub lost_parameters: Option<Unknown>,
 }
 
 /// State of one axis that outlives the programs of a session.
@@ -195,7 +195,7 @@ impl SavedState {
 pub(super) fn storable((name, value): (String, Value)) -> (String, Value) {
     match value {
         Value::Number(number) if !number.is_finite() => {
-            let cause = name.as_str().into();
+            let cause = Unknown::text(name.as_str());
             (name, Value::Unknown(cause))
         }
         value => (name, value),

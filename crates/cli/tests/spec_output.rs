@@ -392,7 +392,7 @@ fn a_state_file_carries_a_session_on() {
     apart.extend(bench.blocks(&["--state", "s.json", "b.nc"]));
     assert_eq!(column(&together, "friction"), column(&apart, "friction"));
     assert_eq!(bench.blocks(&["b.nc"])[0]["friction"]["X"], "active");
-    assert_eq!(json(&bench.read("s.json"))["schema"], 3);
+    assert_eq!(json(&bench.read("s.json"))["schema"], 4);
 }
 
 #[test]
@@ -402,7 +402,7 @@ fn a_state_that_does_not_fit_is_left_alone() {
     let run = ["run", "--state", "s.json", "a.nc"];
     assert_eq!(bench.status(&run), Some(0));
     let good = bench.read("s.json");
-    let other_schema = good.replacen("\"schema\": 3", "\"schema\": 4", 1);
+    let other_schema = good.replacen("\"schema\": 4", "\"schema\": 5", 1);
     for wrong in ["", "{\"schema\":", other_schema.as_str()] {
         bench.write("s.json", wrong);
         assert_eq!(bench.status(&run), Some(2), "{wrong}");

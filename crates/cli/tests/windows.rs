@@ -151,7 +151,7 @@ fn long_paths_are_read_and_written() {
         assert_eq!(output.status.code(), Some(0), "{said}");
     }
     let state = fs::read_to_string(folder.join("s.json")).expect("text");
-    assert_eq!(json(&state)["schema"], 3);
+    assert_eq!(json(&state)["schema"], 4);
     assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 4);
 }
 

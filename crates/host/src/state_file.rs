@@ -262,7 +262,7 @@ mod tests {
         let hidden = "a\u{0}\t\n\u{1b}[31m\u{7f}\u{85}\u{9b}\u{202e}\u{2028}\u{feff}\"\\z";
         let mut saved = state();
         saved.macros.insert(hidden.to_owned(), hidden.to_owned());
-        saved.lost_parameters = Some(hidden.into());
+        saved.lost_parameters = Some(frictcomp::interpreter::Unknown::text(hidden));
         let file = StateFile::lock(&path).unwrap();
         let mut outputs = OutputFiles::new(&FileRegistry::default());
         file.save(&saved, &mut outputs).unwrap();

@@ -7,7 +7,7 @@ use thiserror::Error;
 use frictcomp::text::shown_path;
 use frictcomp_physics::circle::RecordedError;
 use frictcomp_physics::current::CyclesError;
-use frictcomp_recordings::trace::{NotAligned, SelectError, TraceProblem};
+use frictcomp_recordings::trace::{NotAligned, TraceProblem};
 
 /// Why a trace cannot be read.
 #[derive(Debug, Error)]
@@ -93,14 +93,7 @@ impl TraceError {
 fn said(path: &Path, problem: &TraceProblem) -> String {
     let path = shown_path(path);
     match (problem, problem.line()) {
-        (TraceProblem::Select(SelectError::Lacks { lacks, .. }), _) => {
-            let text = problem.to_string();
-            let found = text
-                .split_once(lacks.as_str())
-                .map_or("", |(_, found)| found);
-            format!("the trace `{path}` has {lacks}{found}")
-        }
-        (TraceProblem::Select(_), _) => format!("the trace `{path}`: {problem}"),
+        (TraceProblem::Select(error), _) => error.of_trace(&path),
         (_, Some(line)) => format!("{path}:{line}: {problem}"),
         _ => format!("the trace `{path}` cannot be read: {problem}"),
     }

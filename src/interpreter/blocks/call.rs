@@ -38,7 +38,7 @@ impl Interpreter {
                 form: call.form,
                 repeat: after_motion_only(call),
                 part: None,
-                lacks_program: false,
+                word: None,
             })),
             Value::Unknown(cause) => {
                 self.havoc_call(call, at, &cause);

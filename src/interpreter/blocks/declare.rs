@@ -5,8 +5,10 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::state::State;
-use crate::interpreter::values::target::AssignedPlace;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Declaration, Hash, Operand};
 
@@ -20,19 +22,19 @@ impl Interpreter {
             let Operand::Expression(place) = *argument else {
                 continue;
             };
-            match self.target_place(place, at)? {
-                AssignedPlace::Parameter(_, index) => {
+            let Some(place) = self.target_place(place, at)? else {
+                continue;
+            };
+            match place.assigned(Value::Number(0.0)) {
+                (Location::Parameter(_, index), _) => {
                     self.state.write_anything();
                     self.state.control.memory.delete_parameter(index);
                 }
-                AssignedPlace::Variable(name) => {
+                (Location::Variable(name), _) => {
                     self.state.write_anything();
                     self.state.control.memory.delete(&name);
                 }
-                unknown @ (AssignedPlace::Elements(_, _) | AssignedPlace::Parameters(_)) => {
-                    self.write(unknown, Value::Number(0.0));
-                }
-                AssignedPlace::Nowhere => {}
+                (several, unknown) => self.write(&several, unknown),
             }
         }
         Ok(())
@@ -70,8 +72,8 @@ impl Interpreter {
             let before = memory.before_declaration(&name);
             if is_scalar {
                 let value = values.into_iter().next().unwrap_or(default);
-                match name.strip_prefix('P').map(str::parse) {
-                    Some(Ok(index)) => memory.declare_parameter(index, value),
+                match Location::named(&name) {
+                    Location::Parameter(_, index) => memory.declare_parameter(index, value),
                     _ => memory.declare(&name, value),
                 }
             } else {
@@ -97,11 +99,12 @@ impl Interpreter {
 
     /// Notes the start value of a variable, or an array, that may be there before.
     fn note_declaration(&self, name: &str, start: Option<&Value>) {
-        let is_unwritten = self.state.control.memory.is_unwritten(name);
-        let array = Value::Unknown(name.into());
+        let location = Location::named(name);
+        let is_unwritten = self.state.control.memory.is_unwritten(&location);
+        let array = Value::Unknown(Unknown::text(name));
         self.note_use(|used| {
             if is_unwritten {
-                used.want(name);
+                used.want(location);
             }
             used.write_name(name, start.unwrap_or(&array));
         });
@@ -144,10 +147,8 @@ fn element(name: &str, dimensions: &[Result<u32, Value>], place: usize) -> Optio
 /// Only the program's own variables can be declared (TF5200 Diagnosis, error 20908).
 fn refuse_declaration(declaration: &Declaration, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
     let name = declared_name(declaration, at);
-    let family = name
-        .strip_prefix("V.")
-        .and_then(|rest| rest.split('.').next());
-    if family.is_none_or(|family| matches!(family, "L" | "S" | "P" | "CYC")) {
+    let family = VariableFamily::of(&name);
+    if family.is_written() || family == VariableFamily::Other {
         return Ok(());
     }
     let span = declaration.target.span;

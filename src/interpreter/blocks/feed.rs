@@ -8,6 +8,7 @@ use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::rounded;
 use crate::language::AxisWords;
 use crate::syntax::Fault;
@@ -16,9 +17,6 @@ use crate::text::Span;
 
 /// Last sentence on a feed move without a feed (PM/206811147).
 const PLC: &str = "unless the PLC gives the feed";
-
-/// What may end the program, in words.
-const REFUSAL: &str = "error 20008";
 
 impl Interpreter {
     /// Looks for a feed move that has no feed, or the feed 0, and for a negative feed.
@@ -93,7 +91,11 @@ impl Interpreter {
                 self.scratch.diagnostics.push(said);
             } else {
                 self.say_before_parting(said);
-                self.perhaps_stop((REFUSAL, StopScope::Rest), at.in_block(span), at);
+                self.perhaps_stop(
+                    (Unknown::MissingFeed, StopScope::Rest),
+                    at.in_block(span),
+                    at,
+                );
             }
         }
         self.state.control.modal.functions.give_feed();
@@ -105,7 +107,11 @@ impl Interpreter {
             format!("the feed of this move is 0; the control may refuse it (20008) {PLC}");
         let fault = Fault::new(Code::Fc327, at.in_block(span), message);
         self.say_before_parting(at.diagnostic(fault.with_help("write a feed above 0")));
-        self.perhaps_stop((REFUSAL, StopScope::Rest), at.in_block(span), at);
+        self.perhaps_stop(
+            (Unknown::MissingFeed, StopScope::Rest),
+            at.in_block(span),
+            at,
+        );
     }
 
     /// Whether the block moves along its axis words at the feed in force.

@@ -4,7 +4,6 @@
 //! block number; jumps into branches and loops need no special treatment.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use super::reported::StopScope;
 use crate::diagnostic::Code;
@@ -18,7 +17,7 @@ use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::unknown::branching::Goal;
-use crate::interpreter::values::cause::{how_to_set, skip_level, unknown_value};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::functions::finite;
 use crate::interpreter::values::plain::Truth;
 use crate::interpreter::values::value::{Value, same_case};
@@ -92,7 +91,7 @@ impl Interpreter {
         let links = index.links(entry);
         let after = ControlStep::Jump(links.end + 1);
         if let Some(level) = self.split_level() {
-            return Ok(self.skip_unknown(entry..links.end, &skip_level(level), span, at));
+            return Ok(self.skip_unknown(entry..links.end, &Unknown::SkipLevel(level), span, at));
         }
         Ok(match flow {
             Flow::If(condition) => self.branch(*condition, links.next, span, at)?,
@@ -108,7 +107,7 @@ impl Interpreter {
                 let (value, doubt) = self.asked_value(*operand, at)?;
                 if let Some(target) = target {
                     let place = self.target_place(target.place, at)?;
-                    self.warn_own(&place, target.span, at);
+                    self.warn_own(place.as_ref(), target.span, at);
                     self.set_by(place, value.clone(), at);
                 }
                 if let Some(doubt) = &doubt
@@ -146,7 +145,7 @@ impl Interpreter {
             } => {
                 let start = self.value(*start, at)?;
                 let place = self.target_place(counter.place, at)?;
-                self.warn_own(&place, counter.span, at);
+                self.warn_own(place.as_ref(), counter.span, at);
                 self.set_by(place, start.clone(), at);
                 let count = Count {
                     counter: start,
@@ -358,7 +357,7 @@ impl Interpreter {
                 if self.note_jump(&Exit::AnyLabel, cause) {
                     self.doubt_jump("where this jump goes", cause, span, at);
                 }
-                self.perhaps_stop(("a missing jump label", StopScope::Block), span, at);
+                self.perhaps_stop((Unknown::MissingLabel, StopScope::Block), span, at);
                 return Ok(None);
             }
         };
@@ -391,7 +390,7 @@ impl Interpreter {
     /// A jump that may be taken (R2.91): the dry run continues after it.
     pub(in crate::interpreter) fn leave_jump(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) {
@@ -404,7 +403,7 @@ impl Interpreter {
     /// they may be taken. Returns whether anything differs if they are.
     pub(in crate::interpreter) fn pass_jump(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) -> bool {
@@ -430,7 +429,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn undecided(
         &mut self,
         flow: &Flow,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) -> Option<ControlStep> {
@@ -450,15 +449,15 @@ impl Interpreter {
     }
 
     /// FC902: a jump that is not known offline (R2.91).
-    fn doubt_jump(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &BlockContext<'_>) {
+    fn doubt_jump(&mut self, what: &str, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
         if self.scratch.unread.get() {
             return;
         }
-        let value = unknown_value(cause, at.file);
+        let value = cause.seen_from(at.file);
         let message = format!(
             "{what} depends on {value}; the dry run continues after it, and where both ways meet what differs is unknown"
         );
-        let fault = Fault::new(Code::Fc902, span, message).with_help(how_to_set(cause));
+        let fault = Fault::new(Code::Fc902, span, message).with_help(cause.advice());
         self.tell_once(cause, what, fault, at);
     }
 }

@@ -8,8 +8,9 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::values::target::AssignedPlace;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::language::{AxisWords, HashAction, PathFlow, Touches};
 use crate::readings::{Alternative, Question};
 use crate::syntax::Fault;
@@ -99,15 +100,22 @@ impl Interpreter {
         }
         self.pace_command(hash, at);
         for target in &hash.written {
-            let place = self.target_place(target.place, at)?;
-            match place {
-                AssignedPlace::Variable(whole)
-                    if command.action == HashAction::Initialise && whole.starts_with("V.E.") =>
+            let Some(place) = self.target_place(target.place, at)? else {
+                continue;
+            };
+            match place.variable() {
+                Some(whole)
+                    if command.action == HashAction::Initialise
+                        && VariableFamily::of(whole) == VariableFamily::External =>
                 {
-                    self.write(AssignedPlace::Variable(whole.clone()), 0.0.into());
-                    self.state.control.memory.zero(&whole, &at.as_setter());
+                    self.write(&place.location, 0.0.into());
+                    self.state.control.memory.zero(whole, &at.as_setter());
                 }
-                place => self.write(place, Value::Unknown(name.into())),
+                _ => {
+                    let unknown = Value::Unknown(Unknown::text(name));
+                    let (location, value) = place.assigned(unknown);
+                    self.write(&location, value);
+                }
             }
         }
         let word = match command.chain {
@@ -224,7 +232,7 @@ impl Interpreter {
     fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
         let whole = self.current_block();
         if !whole.is_empty() {
-            let cause = "V.RTG.LOOP.ENABLED".into();
+            let cause = Unknown::text("V.RTG.LOOP.ENABLED");
             outcome.step = self.skip_unknown(whole, &cause, span, at);
         }
     }

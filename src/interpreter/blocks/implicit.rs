@@ -11,6 +11,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::language::{CoordinateEffect, GFunction};
 use crate::syntax::Fault;
@@ -187,7 +188,7 @@ impl ControlState {
     fn named_elsewhere(&mut self, name: &str) -> Value {
         match self.memory.variable(name) {
             Some(value @ Value::Text(_)) => value,
-            _ => Value::Unknown(name.into()),
+            _ => Value::Unknown(Unknown::text(name)),
         }
     }
 }

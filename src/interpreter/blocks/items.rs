@@ -11,7 +11,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stopping::{is_harmless, stops};
-use crate::interpreter::values::cause::PROBE;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::language::{AxisWords, Plc};
@@ -223,7 +223,7 @@ impl Interpreter {
                 }
                 if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(outcome, at) {
                     if !self.part_at_probe(at) {
-                        self.leave_jump(&PROBE.into(), *span, at);
+                        self.leave_jump(&Unknown::Probe, *span, at);
                     }
                     return Ok(());
                 }
@@ -242,7 +242,7 @@ impl Interpreter {
                 Ok(())
             }
             Item::Unread(effect, span) => {
-                self.havoc_unread(*effect, &span.of(at.text).into());
+                self.havoc_unread(*effect, &Unknown::text(span.of(at.text)));
                 Ok(())
             }
             Item::Label(_) | Item::BadCommand(_) => Ok(()),
@@ -271,7 +271,7 @@ impl Interpreter {
         let code = match self.state.control.memory.macro_code(name) {
             Some(Value::Text(code)) => Arc::clone(code),
             Some(Value::Unknown(cause)) => {
-                let cause = Arc::clone(cause);
+                let cause = cause.clone();
                 return Err(self.lost_macro(span, name, &cause, at));
             }
             Some(Value::Number(_)) | None => {
@@ -352,6 +352,6 @@ impl BlockScratch {
 }
 
 /// Returns the text that a fault is about.
-fn cause_of(fault: &Fault, at: &BlockContext<'_>) -> Arc<str> {
-    fault.span.of(at.text).trim().into()
+fn cause_of(fault: &Fault, at: &BlockContext<'_>) -> Unknown {
+    Unknown::text(fault.span.of(at.text).trim())
 }

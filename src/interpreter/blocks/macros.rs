@@ -1,12 +1,10 @@
 //! Macros whose code limits what shares the block with them, or is not known (R2.35).
 
-use std::sync::Arc;
-
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::lone_part::LonePart;
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::expression::unquoted;
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -31,7 +29,7 @@ impl Interpreter {
         let name = unquoted(span.of(at.text));
         let shown = conflict.of(at.text).trim();
         let fault = if lone.leaves_rest_open() {
-            self.havoc_by_call(&shown.into());
+            self.havoc_by_call(&Unknown::text(shown));
             let what = lone.as_str();
             let message = format!(
                 "`{shown}` is in the same block as {what} in the code of macro `{name}`; whether the control executes \
@@ -53,15 +51,15 @@ impl Interpreter {
         &mut self,
         span: Span,
         name: &str,
-        cause: &Arc<str>,
+        cause: &Unknown,
         at: &BlockContext<'_>,
     ) -> Box<Fault> {
         self.havoc_by_call(cause);
-        let what = unknown_value(cause, at.file);
+        let what = cause.seen_from(at.file);
         let message = format!(
             "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"
         );
         let fault = Fault::new(Code::Fc901, span, message);
-        Box::new(fault.with_help(how_to_set(cause)))
+        Box::new(fault.with_help(cause.advice()))
     }
 }

@@ -16,12 +16,14 @@ use crate::interpreter::run::path::Marked;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::unknown::branching::{Goal, MachineQuestion};
-use crate::interpreter::values::cause::{PROBE, skip_level};
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{
-    Asking, Truth, Writer, conclusions, is_one_comparison, reads, text_of, variable,
+    Asking, ConditionSubject, Truth, Writer, conclusions, is_one_comparison, reads, text_of,
+    variable,
 };
-use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::{Value, same_case};
+use crate::interpreter::values::variable::VariableFamily;
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
@@ -71,7 +73,7 @@ impl Interpreter {
                 place
             },
             texts: vec![text.into()],
-            cause: doubt.cause().clone(),
+            cause: doubt.cause(),
             reads: reads(at.block, at.text, expression, &self.externals),
             kept: doubt.kept_answer(|value| match value.truth() {
                 Some(true) => 0,
@@ -91,7 +93,7 @@ impl Interpreter {
             return None;
         };
         for truth in [Truth::Holds, Truth::Fails] {
-            if let [(RegionTarget::Variable(name), Value::Number(number))] =
+            if let [(Location::Variable(name), Value::Number(number))] =
                 conclusions(at.block, at.text, expression, truth).as_slice()
                 && let Some(of) = self.active_variable(name)
                 && self.state.control.is_effective(of)
@@ -112,18 +114,20 @@ impl Interpreter {
 
     /// Whether a condition may say what a value is: one that the program and the machine hold, and
     /// that does not follow from something else.
-    fn may_conclude(&self, target: &RegionTarget) -> bool {
+    fn may_conclude(&self, target: &Location) -> bool {
         match target {
-            RegionTarget::Variable(name) => !name.starts_with("V.L.") && !self.is_own(name),
-            RegionTarget::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
-            RegionTarget::Elements(_) | RegionTarget::Parameters => false,
+            Location::Variable(name) => {
+                VariableFamily::of(name) != VariableFamily::Local && !self.is_own(name)
+            }
+            Location::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
+            Location::Elements(_) | Location::Parameters => false,
         }
     }
 
     /// The same where a counter decides.
     pub(in crate::interpreter) fn part_at_count(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         goals: [Goal; 2],
         at: &BlockContext<'_>,
@@ -170,7 +174,7 @@ impl Interpreter {
             kind: ConditionKind::Probe,
             span,
             texts: vec!["the probe answers".into()],
-            cause: PROBE.into(),
+            cause: Unknown::Probe,
             reads: None,
             kept: None,
         };
@@ -220,7 +224,7 @@ impl Interpreter {
         let (subject, place) = text_of(at.block, at.text, expression);
         let mut goals = Vec::with_capacity(cases.len() + 1);
         let mut texts: Vec<Arc<str>> = Vec::with_capacity(cases.len());
-        let mut asking = reads(at.block, at.text, expression, &self.externals);
+        let asking = reads(at.block, at.text, expression, &self.externals);
         let subject_of = variable(at.block, at.text, expression);
         let subject_of = subject_of.filter(|target| self.may_conclude(target));
         let kept = doubt.kept_answer(|value| {
@@ -228,7 +232,7 @@ impl Interpreter {
             case.unwrap_or(cases.len())
         });
         for (entry, value) in cases {
-            texts.push(format!("{subject} == {}", shown(&value)).into());
+            texts.push(format!("{subject} == {}", value.as_written()).into());
             let values: Vec<_> = subject_of.iter().cloned().zip([value.clone()]).collect();
             other.ruled_out.extend(values.iter().cloned());
             goals.push(Goal {
@@ -238,16 +242,13 @@ impl Interpreter {
             });
         }
         goals.push(other);
-        if let Some(asking) = &mut asking {
-            // Cases with the same values are the same question.
-            asking.meaning = format!("{} {}", asking.meaning, texts.join("|"));
-        }
         let question = MachineQuestion {
             kind: ConditionKind::Case,
             span: if place.end > place.start { place } else { span },
+            cause: doubt.cause(),
+            // Cases with the same values are the same question.
+            reads: asking.map(|asking| asking.about(ConditionSubject::Cases(texts.clone()))),
             texts,
-            cause: doubt.cause().clone(),
-            reads: asking,
             kept,
         };
         self.part(question, goals, at)
@@ -330,28 +331,25 @@ impl Interpreter {
                 .starts_with(|it: char| it.is_ascii_digit())
         });
         let at_start = self.machine.readings.takes_second(Open::SkipLevel);
-        let cause = skip_level(level);
+        let cause = Unknown::SkipLevel(level);
         self.note_unknown(&cause, &at);
         let span = Span::new(0, parsed.text.trim_end().len());
         if !is_bare && self.is_level_read_again(level, &at.place(span)) {
             self.state.rests_on.insert(Open::SkipLevel);
         }
+        // The switch of blocks without a number is read when the main program begins, and the others
+        // where the machine is read so (R2.90).
+        let writer = if is_bare || at_start {
+            Writer::Nothing
+        } else {
+            Writer::Machine
+        };
         let question = MachineQuestion {
             kind: ConditionKind::Skip(level),
             span,
-            texts: vec![cause.clone()],
+            texts: vec!["executed".into()],
             cause: cause.clone(),
-            // The switch of blocks without a number is read when the main program begins, and the others
-            // where the machine is read so (R2.90).
-            reads: Some(Asking {
-                writer: if is_bare || at_start {
-                    Writer::Nothing
-                } else {
-                    Writer::Machine
-                },
-                reads: Vec::new(),
-                meaning: cause.to_string(),
-            }),
+            reads: Some(Asking::of_unknown(writer, cause)),
             kept: None,
         };
         let goals = [after, entry].map(Goal::block);
@@ -392,11 +390,11 @@ impl Interpreter {
     }
 
     /// Notes the level as a value of the machine.
-    pub(in crate::interpreter) fn note_unknown(&mut self, cause: &str, at: &BlockContext<'_>) {
+    pub(in crate::interpreter) fn note_unknown(&mut self, cause: &Unknown, at: &BlockContext<'_>) {
         if self.options.notes == Notes::Taken {
             let note = Note {
                 kind: NoteKind::Unknown,
-                name: cause.to_owned(),
+                name: cause.to_string(),
                 place: at.place(Span::new(0, at.text.trim_end().len())),
             };
             self.scratch.notes.borrow_mut().push(note);
@@ -407,14 +405,5 @@ impl Interpreter {
 impl ControlState {
     fn is_effective(&self, (axis, kind): (AxisIndex, Kind)) -> bool {
         self.compensation.is_parameterised(axis, kind)
-    }
-}
-
-/// A value as a program writes it.
-fn shown(value: &Value) -> String {
-    match value {
-        Value::Number(number) => number.to_string(),
-        Value::Text(text) => format!("\"{text}\""),
-        Value::Unknown(name) => name.to_string(),
     }
 }

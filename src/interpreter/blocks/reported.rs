@@ -15,9 +15,9 @@ use crate::interpreter::run::way_condition::limit_to;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::{Branch, JumpTarget};
 use crate::interpreter::unknown::branching::MachineQuestion;
-use crate::interpreter::values::cause::ERROR_COMMAND;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::functions::numeric;
-use crate::interpreter::values::plain::{Asking, Writer, reads, text_of};
+use crate::interpreter::values::plain::{Asking, ConditionSubject, Writer, reads, text_of};
 use crate::readings::{Alternative, Question};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Expression, Hash, Operand};
@@ -53,7 +53,7 @@ impl Interpreter {
         outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         match self.remedy_class(hash, at)? {
-            RemedyClass::Known(0.0) => self.pass_over(ERROR_COMMAND, hash.span, at),
+            RemedyClass::Known(0.0) => self.pass_over("#ERROR", hash.span, at),
             RemedyClass::Known(class) => {
                 let class_text = match hash.arguments.first() {
                     Some(_) => format!("`RC={class}`"),
@@ -81,14 +81,10 @@ impl Interpreter {
                 let question = MachineQuestion {
                     kind: ConditionKind::Stop,
                     span: hash.span,
-                    texts: vec![format!("`{ERROR_COMMAND}`").into()],
-                    cause: ERROR_COMMAND.into(),
+                    texts: vec!["`#ERROR`".into()],
+                    cause: Unknown::RemedyClass,
                     // The control has one answer for all of them.
-                    reads: Some(Asking {
-                        writer: Writer::Nothing,
-                        reads: Vec::new(),
-                        meaning: ERROR_COMMAND.to_owned(),
-                    }),
+                    reads: Some(Asking::of_unknown(Writer::Nothing, Unknown::RemedyClass)),
                     kept: None,
                 };
                 let ways = self.part_at_error(question, at);
@@ -103,11 +99,8 @@ impl Interpreter {
                     kind: ConditionKind::Branch,
                     span,
                     texts: vec![format!("{text} != 0").into()],
-                    cause: doubt.cause().clone(),
-                    reads: reads.map(|asking| Asking {
-                        meaning: format!("{ERROR_COMMAND}{}", asking.meaning),
-                        ..asking
-                    }),
+                    cause: doubt.cause(),
+                    reads: reads.map(|asking| asking.about(ConditionSubject::RemedyClass)),
                     kept: doubt.kept_answer(|value| usize::from(value.number() == Some(0.0))),
                 };
                 let ways = self.part_at_error(question, at);
@@ -159,21 +152,17 @@ impl Interpreter {
     /// Where they cannot be, it goes on.
     pub(in crate::interpreter) fn perhaps_stop(
         &mut self,
-        (error, scope): (&'static str, StopScope),
+        (error, scope): (Unknown, StopScope),
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let asking = Asking {
-            writer: Writer::Nothing,
-            reads: Vec::new(),
-            meaning: error.to_owned(),
-        };
+        let asking = || Asking::of_unknown(Writer::Nothing, error.clone());
         let question = MachineQuestion {
             kind: ConditionKind::Stop,
             span,
-            texts: vec![error.into()],
-            cause: error.into(),
-            reads: (scope == StopScope::Rest).then_some(asking),
+            texts: vec![error.to_string().into()],
+            reads: (scope == StopScope::Rest).then(asking),
+            cause: error,
             kept: None,
         };
         let ways = self.part_at_error(question, at);
@@ -204,7 +193,7 @@ impl Interpreter {
                 let frame = self.state.control.frames.running();
                 self.departing.push(Branch {
                     to: JumpTarget::End,
-                    cause: ERROR_COMMAND.into(),
+                    cause: Unknown::RemedyClass,
                     here: frame.map_or(0, |frame| frame.next),
                     say: Some(Span::new(0, at.text.len())),
                 });

@@ -13,7 +13,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::step::{ControlStep, Passage, Request};
 use crate::interpreter::run::stopping::stops;
-use crate::interpreter::values::cause::program;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::found::VariableUse;
 use crate::machine::Keeps;
 use crate::syntax::Fault;
@@ -76,7 +76,7 @@ impl Interpreter {
         ) {
             Ok(found) => found?,
             Err(fault) => {
-                let cause = program(&wanted.name);
+                let cause = Unknown::Program(wanted.missing());
                 self.state.told.enter_root(&cause, wanted.span, at);
                 self.state.control.memory.miss(&cause);
                 self.note_use(VariableUse::write_anything);
@@ -131,13 +131,14 @@ impl Interpreter {
 
     /// A program that only the machine has (R2.83): whatever it may change is unknown after it.
     fn pass_over_external(&mut self, wanted: WantedCall, at: &BlockContext<'_>) {
+        let program = wanted.missing();
         let name = wanted.name;
         self.pass_over(&name, wanted.span, at);
-        self.leave_to_machine(&name);
+        self.leave_to_machine(&program);
         let keeps = self.machine.programs.keeps(&name);
         if !keeps.compensation && self.scratch.undecided.is_none() {
             self.scratch.left_open = Some(LeftOpen {
-                program: name.as_str().into(),
+                program: program.clone(),
                 place: at.place(wanted.span),
             });
         }
@@ -151,7 +152,7 @@ impl Interpreter {
                 } => "the compensation of every axis becomes unknown",
                 Keeps { .. } => "every axis becomes unknown",
             };
-            if wanted.lacks_program {
+            if wanted.word.is_some() {
                 self.warn_without_program(&name, what, wanted.span, at);
             } else {
                 let message = format!(
@@ -160,12 +161,12 @@ impl Interpreter {
                 let fault = Fault::new(Code::Fc902, wanted.span, message).with_help(
                     "if it leaves them as they are, say so in `[machine.external_keeps]`",
                 );
-                self.tell_once(&program(&name), "call", fault, at);
+                self.tell_once(&Unknown::Program(program.clone()), "call", fault, at);
             }
         }
         if let Some(after_motion_only) = wanted.repeat {
             self.state.control.cycles = ModalCycles::of(Repeated {
-                call: RepeatedCall::External(name),
+                call: RepeatedCall::External(program),
                 own: wanted.own,
                 after_motion_only,
             });
@@ -229,8 +230,8 @@ impl Interpreter {
     ) -> Option<Request> {
         let found = match &cycle.call {
             RepeatedCall::Program(found) | RepeatedCall::Perhaps(found) => *found,
-            RepeatedCall::External(name) => {
-                self.leave_to_machine(name);
+            RepeatedCall::External(program) => {
+                self.leave_to_machine(program);
                 return None;
             }
         };
@@ -243,7 +244,8 @@ impl Interpreter {
         if let RepeatedCall::Perhaps(_) = cycle.call {
             let section = self.programs.section(found);
             let region = section.start..section.end;
-            let cause = self.programs.index(found.unit).source.name().clone();
+            let name = self.programs.index(found.unit).source.name().clone();
+            let cause = Unknown::Cycle(name);
             self.havoc_region(found.unit, region, &cause);
             self.havoc_called(finder);
             return None;
@@ -326,7 +328,7 @@ impl Interpreter {
         let source = &self.programs.index(unit).source;
         let is_cut = unit == 0 && (source.name().is_empty() || source.lines().first() > 1);
         let fault = if is_cut {
-            self.havoc_all(&"L SEQUENCE".into());
+            self.havoc_all(&Unknown::text("L SEQUENCE"));
             Fault::new(
                 Code::Fc902,
                 span,

@@ -1,7 +1,5 @@
 //! Parts of programs: `L SEQUENCE` (R2.77), and M17 and M29 with a place to return to (R2.78).
 
-use std::sync::Arc;
-
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::wanted::{CalledPart, WantedCall};
@@ -12,6 +10,7 @@ use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::step::{AwaitedBlock, ControlStep, Destination};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::Fault;
@@ -51,7 +50,7 @@ impl Interpreter {
         let Some(passes) = numeric(&passes, span)?.and_then(rounded) else {
             let cause = match passes {
                 Value::Unknown(cause) => cause,
-                Value::Number(_) | Value::Text(_) => "REPEAT".into(),
+                Value::Number(_) | Value::Text(_) => Unknown::text("REPEAT"),
             };
             self.unknown_part(name, "how often a part is executed", &cause, span, at);
             return Ok(());
@@ -89,7 +88,7 @@ impl Interpreter {
         &mut self,
         name: String,
         what: &str,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) {
@@ -115,7 +114,7 @@ impl Interpreter {
         &mut self,
         target: BlockReference,
         at: &BlockContext<'_>,
-    ) -> Result<Result<LabelName, Arc<str>>, Box<Fault>> {
+    ) -> Result<Result<LabelName, Unknown>, Box<Fault>> {
         let value = match target {
             BlockReference::Label(name) => {
                 return Ok(Ok(LabelName::Text(name.of(at.text).to_owned())));
@@ -124,13 +123,15 @@ impl Interpreter {
             BlockReference::Variable(place) => self.value(Operand::Expression(place), at)?,
         };
         match value {
-            Value::Number(number) => Ok(rounded(number).map(LabelName::Number).ok_or("N".into())),
+            Value::Number(number) => Ok(rounded(number)
+                .map(LabelName::Number)
+                .ok_or_else(|| Unknown::text("N"))),
             Value::Text(name) => Ok(Ok(LabelName::Text(name.to_string()))),
             Value::Unknown(cause) => Ok(Err(cause)),
         }
     }
 
-    fn unknown_return(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &BlockContext<'_>) {
+    fn unknown_return(&mut self, what: &str, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
         self.havoc_by_call(cause);
         self.tell_unknown(
             what,

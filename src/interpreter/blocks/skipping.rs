@@ -1,13 +1,11 @@
 //! Blocks with a skip mark whose level is not known to be on or off (R2.90).
 
-use std::sync::Arc;
-
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::RepeatedCall;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::region::Region;
-use crate::interpreter::values::cause::skip_level;
+use crate::interpreter::values::cause::Unknown;
 use crate::syntax::ast::{Block, Flow, Item};
 use crate::text::Span;
 
@@ -21,7 +19,7 @@ impl Interpreter {
         at: &BlockContext<'_>,
         outcome: &mut BlockOutcome,
     ) {
-        let cause = skip_level(level);
+        let cause = Unknown::SkipLevel(level);
         self.note_unknown(&cause, at);
         self.perhaps_refused(&cause, at);
         if let Some((flow, span)) = structure(at.block) {
@@ -41,7 +39,7 @@ impl Interpreter {
     }
 
     /// A modal cycle is repeated after the block if the control executes it.
-    fn perhaps_repeat_cycles(&mut self, region: &Region, cause: &Arc<str>) {
+    fn perhaps_repeat_cycles(&mut self, region: &Region, cause: &Unknown) {
         for cycle in self.state.control.cycles.known().to_vec() {
             if cycle.after_motion_only && !region.moves() {
                 continue;
@@ -52,7 +50,7 @@ impl Interpreter {
                     let blocks = section.start..section.end;
                     self.havoc_region(found.unit, blocks, cause);
                 }
-                RepeatedCall::External(name) => self.leave_to_machine(&name),
+                RepeatedCall::External(program) => self.leave_to_machine(&program),
             }
         }
     }

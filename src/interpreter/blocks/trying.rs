@@ -7,13 +7,17 @@ use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::PassedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::values::cause::unknown_value;
+use crate::interpreter::values::cause::Unknown;
 use crate::syntax::ast::Item;
 use crate::syntax::control_part;
 
 impl Interpreter {
     /// Reports what the control refuses if it executes the block.
-    pub(in crate::interpreter) fn perhaps_refused(&mut self, cause: &str, at: &BlockContext<'_>) {
+    pub(in crate::interpreter) fn perhaps_refused(
+        &mut self,
+        cause: &Unknown,
+        at: &BlockContext<'_>,
+    ) {
         let said = self.try_out(cause, at, |run| {
             let mut outcome = BlockOutcome::default();
             for word in &at.block.words {
@@ -55,7 +59,7 @@ impl Interpreter {
         }
     }
 
-    fn try_block(&mut self, (unit, entry): (usize, EntryIndex), cause: &str) {
+    fn try_block(&mut self, (unit, entry): (usize, EntryIndex), cause: &Unknown) {
         let block = self.programs.parsed(unit, entry);
         if self.is_skipped(&block.block) {
             return;
@@ -81,7 +85,7 @@ impl Interpreter {
 
     /// Keeps the refusals in a block until the end of the program: the dry run may have executed it by
     /// then.
-    fn try_called(&mut self, place: (usize, EntryIndex), cause: &str) {
+    fn try_called(&mut self, place: (usize, EntryIndex), cause: &Unknown) {
         let block = self.programs.looked_at(place.0, place.1);
         if self.is_skipped(&block.block) {
             return;
@@ -101,7 +105,7 @@ impl Interpreter {
 
     /// Returns the refusals of the COMP commands of a block, including those of its macros, whose other words
     /// depend on unknown values.
-    fn refused_comp(&mut self, cause: &str, at: &BlockContext<'_>) -> Vec<Diagnostic> {
+    fn refused_comp(&mut self, cause: &Unknown, at: &BlockContext<'_>) -> Vec<Diagnostic> {
         let items = at.block.items.iter();
         let (macros, commands): (Vec<_>, Vec<_>) = items
             .filter(|item| matches!(item, Item::Comp(_) | Item::MacroUse(_)))
@@ -124,7 +128,7 @@ impl Interpreter {
     /// Tries part of a block for its messages only, and leaves everything else unchanged.
     fn try_out(
         &mut self,
-        cause: &str,
+        cause: &Unknown,
         at: &BlockContext<'_>,
         attempt: impl FnOnce(&mut Self),
     ) -> Vec<Diagnostic> {
@@ -141,7 +145,7 @@ impl Interpreter {
         self.state.ended.truncate(ended);
         let mut said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
         for said in said.iter_mut().filter(|said| !said.code.is_about_text()) {
-            let value = unknown_value(cause, at.file);
+            let value = cause.seen_from(at.file);
             let message = &mut said.message;
             *message = format!("{message}; whether the block is executed depends on {value}");
         }

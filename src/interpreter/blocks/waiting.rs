@@ -6,8 +6,8 @@ use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::step::ControlStep;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{Truth, conclusions, is_written_by_machine};
-use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Hash, Operand};
 
@@ -41,10 +41,10 @@ impl Interpreter {
         }
         if value.truth() != Some(true) {
             for (target, value) in conclusions(at.block, at.text, expression, Truth::Holds) {
-                if let RegionTarget::Variable(name) = &target
+                if let Location::Variable(name) = &target
                     && self.externals.may_change(name)
                 {
-                    self.write(AssignedPlace::Variable(name.clone()), value);
+                    self.write(&target, value);
                     self.state.control.memory.hold(name, at.as_setter());
                 }
             }

@@ -15,6 +15,7 @@ use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::run::region::Exit;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::language::{AxisWords, GAction, GFunction, Group};
 use crate::syntax::ast::{Address, Operand, Word};
@@ -182,7 +183,7 @@ impl Interpreter {
     /// FC210: an unknown word, which may do anything (R2.70).
     fn unread_word(&mut self, span: Span, at: &BlockContext<'_>) {
         let text = span.of(at.text);
-        self.havoc_by_call(&text.into());
+        self.havoc_by_call(&Unknown::text(text));
         self.scratch
             .diagnostics
             .push(at.diagnostic(not_known(text, span)));
@@ -321,7 +322,7 @@ impl Interpreter {
                 self.scratch.plc_acts = true;
                 // It may be M30 or M17.
                 for exit in [Exit::End, Exit::Return] {
-                    let _ = self.note_jump(&exit, &"M".into());
+                    let _ = self.note_jump(&exit, &Unknown::text("M"));
                 }
             }
             (b'M' | b'T' | b'D', number) => {

@@ -1,7 +1,5 @@
 //! Programs that words call, and the unknown state where the program is not known (R2.14, R2.75).
 
-use std::sync::Arc;
-
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::is_named_m;
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
@@ -9,7 +7,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::language::{CoordinateEffect, GFunction};
 use crate::syntax::Fault;
@@ -23,7 +21,7 @@ pub(in crate::interpreter) enum Configured {
     /// A program.
     Program(String),
     /// A program, or none; the name depends on a value that only the machine knows.
-    Unknown(Arc<str>),
+    Unknown(Unknown),
 }
 
 impl Interpreter {
@@ -74,7 +72,7 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let cause = letter.into();
+        let cause = Unknown::text(letter);
         self.havoc_by_call(&cause);
         if let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) {
             self.look_through_words(letter.as_bytes()[0], span, unit, &cause);
@@ -98,7 +96,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn unknown_call(
         &mut self,
         what: &str,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) {
@@ -118,7 +116,7 @@ impl Interpreter {
             return;
         };
         let shown = call.span.of(at.text).trim();
-        self.havoc_all(&shown.into());
+        self.havoc_all(&Unknown::text(shown));
         let message = format!(
             "`{shown}` is in the same block as a jump or an end; whether the control calls a program there is not \
              known, and everything that a program could change is unknown from here on"
@@ -133,16 +131,16 @@ impl Interpreter {
         &mut self,
         what: &str,
         then: &str,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let value = unknown_value(cause, at.file);
+        let value = cause.seen_from(at.file);
         let message = format!(
             "{what} depends on {value}; {then}, and everything that a program could change becomes unknown"
         );
         let fault = Fault::new(Code::Fc902, at.in_block(span), message);
-        self.tell_once(cause, "call", fault.with_help(how_to_set(cause)), at);
+        self.tell_once(cause, "call", fault.with_help(cause.advice()), at);
     }
 
     /// A harmless implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
@@ -160,7 +158,7 @@ impl Interpreter {
         &mut self,
         span: Span,
         unit: usize,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) {
         let calling = self.programs.unit_mut(unit);
         if calling.open_calls.insert(b'L') {
@@ -170,7 +168,7 @@ impl Interpreter {
     }
 
     /// A word with an unknown number, which may call any program that one of its letter calls.
-    fn look_through_words(&mut self, letter: u8, span: Span, unit: usize, cause: &Arc<str>) {
+    fn look_through_words(&mut self, letter: u8, span: Span, unit: usize, cause: &Unknown) {
         if self.programs.unit_mut(unit).open_calls.insert(letter) {
             let names = self.programs_of_words(letter);
             self.look_through(names, CallScope::Global, span, unit, cause);
@@ -183,7 +181,7 @@ impl Interpreter {
         scope: CallScope,
         span: Span,
         unit: usize,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) {
         let calls = names.into_iter().map(|name| RegionCall {
             call: WantedCall::program(scope, name, span),
@@ -199,7 +197,7 @@ impl Interpreter {
         &mut self,
         word: FunctionWord,
         unit: usize,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) {
         let mut configured = vec![self.configured(word)];
         let has_program = !matches!(configured[0], Configured::None);

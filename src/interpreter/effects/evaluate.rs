@@ -1,7 +1,6 @@
 //! Values of operands, system variables, and the effects of assignments.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
@@ -13,9 +12,9 @@ use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::expression::{Evaluator, ExpressionScope, Macros, ParameterSource};
 use crate::interpreter::values::functions::numeric;
-use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
+use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::canonical;
+use crate::interpreter::values::variable::{VariableFamily, canonical};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
 use crate::text::Span;
@@ -228,11 +227,11 @@ impl Interpreter {
     /// FC322: the effect of an assignment to such a variable is not known.
     pub(in crate::interpreter) fn warn_own(
         &mut self,
-        place: &AssignedPlace,
+        place: Option<&Denoted>,
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let AssignedPlace::Variable(name) = place else {
+        let Some(name) = place.and_then(Denoted::variable) else {
             return;
         };
         let Some(own) = self.own_variable(name) else {
@@ -284,14 +283,15 @@ impl Interpreter {
         if watching {
             // A counter is not read (R2.84).
             let place = self.target_place(assignment.target.place, at)?;
-            self.state.watching = !only_counts(assignment, &place, at);
+            self.state.watching =
+                !place.is_some_and(|it| only_counts(assignment, &it.location, at));
         }
         let value = self.value(assignment.value, at);
         self.state.watching = watching;
         let value = value?;
         let place = self.target_place(assignment.target.place, at)?;
-        self.warn_own(&place, assignment.target.span, at);
-        let counts = self.counts_given(assignment, &place, at);
+        self.warn_own(place.as_ref(), assignment.target.span, at);
+        let counts = self.counts_given(assignment, place.as_ref(), at);
         self.set_by(place, value, at);
         if let Some(name) = counts {
             self.state.control.memory.release(&name);
@@ -303,60 +303,53 @@ impl Interpreter {
         &mut self,
         place: Expression,
         at: &BlockContext<'_>,
-    ) -> Result<AssignedPlace, Box<Fault>> {
+    ) -> Result<Option<Denoted>, Box<Fault>> {
         let mut stack = std::mem::take(&mut self.scratch.stack);
         let found = self.with_evaluator(at, |evaluator| evaluator.place(place, &mut stack));
         self.scratch.stack = stack;
         found
     }
 
-    pub(in crate::interpreter) fn write(&mut self, place: AssignedPlace, value: Value) {
-        if let AssignedPlace::Variable(name) = &place
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: Value) {
+        if let Location::Variable(name) = location
             && let Some(own) = self.own_variable(name)
         {
             return self.havoc_own(own);
         }
         self.scratch.wrote = true;
-        self.journal.write(&place, &value);
-        self.note_use(|used| used.write(&place, &value));
-        self.state
-            .track
-            .write(&place, &mut self.state.control.memory);
-        if self.state.track.ways.is_open() {
-            self.state.track.ways.write(&place, self.state.seq);
+        self.journal.write(location, &value);
+        self.note_use(|used| used.write(location, &value));
+        let state = &mut self.state;
+        let control = &mut state.control;
+        state.track.write(location, &mut control.memory);
+        if state.track.ways.is_open() {
+            state.track.ways.write(location, state.seq);
         }
-        match place {
-            AssignedPlace::Parameter(Owner::Program, index) => {
-                self.state.control.memory.set_parameter(index, value);
-            }
-            AssignedPlace::Parameter(Owner::Call, index) => {
-                if let Some(frame) = self.state.control.frames.running_mut() {
-                    frame.own.insert(index, value);
+        match location {
+            Location::Parameter(Owner::Call, index) => {
+                if let Some(frame) = control.frames.running_mut() {
+                    frame.own.insert(*index, value);
                 }
             }
-            AssignedPlace::Variable(name) => self.state.control.memory.set_variable(&name, value),
-            AssignedPlace::Elements(name, cause) => {
-                self.state.control.memory.havoc_elements(&name, &cause);
-            }
-            AssignedPlace::Parameters(cause) => self.state.control.memory.havoc_parameters(&cause),
-            AssignedPlace::Nowhere => {}
+            _ => control.memory.write(location, value),
         }
     }
 
     /// Writes a value that a block sets.
     pub(in crate::interpreter) fn set_by(
         &mut self,
-        place: AssignedPlace,
+        place: Option<Denoted>,
         value: Value,
         at: &BlockContext<'_>,
     ) {
-        let shared = match &place {
-            AssignedPlace::Variable(name) if name.starts_with("V.E.") => Some(name.clone()),
-            _ => None,
+        let Some((location, value)) = place.map(|place| place.assigned(value)) else {
+            return;
         };
-        self.write(place, value);
-        if let Some(name) = shared {
-            self.state.control.memory.hold(&name, at.as_setter());
+        self.write(&location, value);
+        if let Location::Variable(name) = &location
+            && VariableFamily::of(name) == VariableFamily::External
+        {
+            self.state.control.memory.hold(name, at.as_setter());
         }
     }
 
@@ -365,14 +358,13 @@ impl Interpreter {
     fn counts_given(
         &self,
         assignment: Assignment,
-        place: &AssignedPlace,
+        place: Option<&Denoted>,
         at: &BlockContext<'_>,
     ) -> Option<String> {
-        let AssignedPlace::Variable(name) = place else {
-            return None;
-        };
-        let is_given = name.starts_with("V.E.") && self.state.control.memory.given(name).is_some();
-        (is_given && reads_itself(assignment, name, at)).then(|| name.clone())
+        let name = place?.variable()?;
+        let is_given = VariableFamily::of(name) == VariableFamily::External
+            && self.state.control.memory.given(name).is_some();
+        (is_given && reads_itself(assignment, name, at)).then(|| name.to_owned())
     }
 
     /// The number that an operand is, if it is known; FC312 for a string (R2.37).
@@ -403,28 +395,6 @@ impl Interpreter {
         match self.value(value, at) {
             Ok(Value::Number(number)) => Some(number),
             _ => None,
-        }
-    }
-
-    /// A value may have been written.
-    pub(in crate::interpreter) fn lose(&mut self, target: &RegionTarget, cause: &Arc<str>) {
-        let unknown = || Value::Unknown(cause.clone());
-        match target {
-            RegionTarget::Parameter(owner, index) => {
-                self.write(AssignedPlace::Parameter(*owner, *index), unknown());
-            }
-            RegionTarget::Variable(name) => {
-                self.write(AssignedPlace::Variable(name.clone()), unknown());
-            }
-            RegionTarget::Elements(name) => {
-                self.write(
-                    AssignedPlace::Elements(name.clone(), cause.clone()),
-                    unknown(),
-                );
-            }
-            RegionTarget::Parameters => {
-                self.write(AssignedPlace::Parameters(cause.clone()), unknown());
-            }
         }
     }
 }
@@ -482,7 +452,7 @@ fn reads_itself(assignment: Assignment, name: &str, at: &BlockContext<'_>) -> bo
 /// Whether an assignment counts: `P1 = P1 + 1`.
 pub(in crate::interpreter) fn only_counts(
     assignment: Assignment,
-    place: &AssignedPlace,
+    location: &Location,
     at: &BlockContext<'_>,
 ) -> bool {
     let Operand::Expression(value) = assignment.value else {
@@ -505,11 +475,11 @@ pub(in crate::interpreter) fn only_counts(
         }
         _ => None,
     };
-    match (read, place) {
-        (Some((Node::Parameter { owner, index }, _)), AssignedPlace::Parameter(to, number)) => {
+    match (read, location) {
+        (Some((Node::Parameter { owner, index }, _)), Location::Parameter(to, number)) => {
             owner == to && index == number
         }
-        (Some((Node::Variable { subscripts: 0 }, Some(span))), AssignedPlace::Variable(name)) => {
+        (Some((Node::Variable { subscripts: 0 }, Some(span))), Location::Variable(name)) => {
             span.of(at.text) == name
         }
         _ => false,

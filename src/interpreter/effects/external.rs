@@ -2,19 +2,20 @@
 
 use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::values::cause::program;
+use crate::interpreter::values::cause::{MissingProgram, Unknown};
 use crate::syntax::ast::CallScope;
 
 impl Interpreter {
     /// Whether only the machine has the program.
     pub(in crate::interpreter) fn is_external(&self, wanted: &WantedCall) -> bool {
-        wanted.lacks_program
+        wanted.word.is_some()
             || wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
     }
 
     /// Makes unknown what a program that only the machine has does not keep.
-    pub(in crate::interpreter) fn leave_to_machine(&mut self, name: &str) {
-        let keeps = self.machine.programs.keeps(name);
+    pub(in crate::interpreter) fn leave_to_machine(&mut self, program: &MissingProgram) {
+        let name = program.to_string();
+        let keeps = self.machine.programs.keeps(&name);
         self.scratch.plc_acts = true;
         if !keeps.compensation {
             if let Some(undecided) = &mut self.scratch.undecided {
@@ -27,13 +28,13 @@ impl Interpreter {
         }
         if !keeps.parameters {
             // It writes the P parameters and variables of its caller (R2.33, R2.52).
-            self.havoc_memory(&program(name));
+            self.havoc_memory(&Unknown::Program(program.clone()));
         }
         self.state.control.modal.functions.perhaps_give_feeds();
         if !keeps.positions {
             self.state.control.modal.havoc_positions();
             self.perhaps_move_all();
-            self.state.control.modal.note_transformed(name);
+            self.state.control.modal.note_transformed(&name);
         }
     }
 }

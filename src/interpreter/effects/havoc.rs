@@ -1,15 +1,14 @@
 //! Transitions to the unknown (R2.50, R2.70).
 
-use std::sync::Arc;
-
 use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::found::VariableUse;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::memory::unescaped;
-use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
 use crate::language::{Certainty, HashAction, HashWords, Holds, MotionKind};
 use crate::syntax::ast::Effect as Unread;
@@ -17,14 +16,11 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Makes unknown what text of unknown meaning could change (R2.70).
-    pub(in crate::interpreter) fn havoc_unread(&mut self, effect: Unread, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_unread(&mut self, effect: Unread, cause: &Unknown) {
         match effect {
             Unread::Everything => self.havoc_by_call(cause),
             Unread::Parameters => {
-                self.write(
-                    AssignedPlace::Parameters(cause.clone()),
-                    Value::Unknown(cause.clone()),
-                );
+                self.write(&Location::Parameters, Value::Unknown(cause.clone()));
             }
             Unread::Spindle => self.state.control.modal.pace.havoc_spindle(),
         }
@@ -32,7 +28,7 @@ impl Interpreter {
 
     /// Everything that a program could change becomes unknown: every kind of every axis, positions and
     /// modal words, parameters and variables (R2.52).
-    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Unknown) {
         if let Some(undecided) = &mut self.scratch.undecided {
             undecided
                 .differing
@@ -48,7 +44,7 @@ impl Interpreter {
 
     /// A part of the block that may call any program: everything becomes unknown, and once more after the
     /// words of the block, since programs are called after them.
-    pub(in crate::interpreter) fn havoc_by_call(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_by_call(&mut self, cause: &Unknown) {
         self.havoc_all(cause);
         let calls = &mut self.scratch.unknown_call;
         calls.get_or_insert_with(|| cause.clone());
@@ -66,7 +62,7 @@ impl Interpreter {
     }
 
     /// Every parameter and variable becomes unknown.
-    pub(in crate::interpreter) fn havoc_memory(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_memory(&mut self, cause: &Unknown) {
         self.journal.begin_anew();
         self.scratch.plc_acts = true;
         self.scratch.wrote = true;
@@ -90,7 +86,7 @@ impl Interpreter {
     }
 
     /// The macros of programs may be gone; those of the machine remain as the machine defines them.
-    pub(in crate::interpreter) fn havoc_macros(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_macros(&mut self, cause: &Unknown) {
         let machine = &self.machine.programs.macros;
         let stays = |name: &str, code: &str| {
             let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
@@ -107,7 +103,7 @@ impl Interpreter {
     }
 
     /// A command that may or may not have been executed (R2.51).
-    pub(in crate::interpreter) fn havoc_hash(&mut self, command: HashWords, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_hash(&mut self, command: HashWords, cause: &Unknown) {
         match command.action {
             HashAction::EndModalCycles => self.state.control.cycles.havoc(),
             HashAction::ForgetMacros => self.havoc_macros(cause),

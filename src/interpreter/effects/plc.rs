@@ -10,8 +10,9 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::condition::KeptAnswer;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::state::State;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::{HeldValues, SetAt};
-use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::Operand;
@@ -19,8 +20,8 @@ use crate::syntax::ast::Operand;
 /// A value that the program set and that decides a condition.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct KeptValue {
-    /// The variable, or several.
-    pub(in crate::interpreter) name: Arc<str>,
+    /// The variables.
+    pub(in crate::interpreter) names: Arc<[String]>,
     /// The block that set it.
     pub(in crate::interpreter) set: SetAt,
     /// The value of the condition.
@@ -31,7 +32,7 @@ pub(in crate::interpreter) struct KeptValue {
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) enum Doubt {
     /// A value that only the machine knows.
-    Unknown(Arc<str>),
+    Unknown(Unknown),
     /// A value that the program set and that the PLC may change.
     Kept(KeptValue),
 }
@@ -46,10 +47,10 @@ impl Doubt {
     }
 
     /// The value that decides.
-    pub(in crate::interpreter) fn cause(&self) -> &Arc<str> {
+    pub(in crate::interpreter) fn cause(&self) -> Unknown {
         match self {
-            Self::Unknown(cause) => cause,
-            Self::Kept(kept) => &kept.name,
+            Self::Unknown(cause) => cause.clone(),
+            Self::Kept(kept) => Unknown::text(kept.names.first().map_or("", String::as_str)),
         }
     }
 
@@ -62,7 +63,7 @@ impl Doubt {
             return None;
         };
         Some(KeptAnswer {
-            name: kept.name.clone(),
+            names: kept.names.clone(),
             set: kept.set.clone(),
             sides: 1_u64.checked_shl(u32::try_from(place(&kept.value)).ok()?)?,
         })
@@ -110,7 +111,7 @@ impl Interpreter {
         let State { control, track, .. } = &mut self.state;
         track.assumed.undo_external(&is_it, &mut control.memory);
         let changed = control.memory.let_change(is_it);
-        let is_changed = |target: &RegionTarget| matches!(target, RegionTarget::Variable(name) if changed.contains(name));
+        let is_changed = |target: &Location| matches!(target, Location::Variable(name) if changed.contains(name));
         if !changed.is_empty() {
             track.readings.havoc(is_changed);
         }
@@ -143,7 +144,7 @@ impl Interpreter {
         let is_open = matches!(doubted, Ok(Value::Unknown(_)));
         let kept = is_open.then(|| {
             Doubt::Kept(KeptValue {
-                name: relied.join(" or ").into(),
+                names: relied.into(),
                 set,
                 value: value.clone(),
             })

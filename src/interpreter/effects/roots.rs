@@ -1,12 +1,10 @@
 //! Origins of unknown values, and the messages on them (R2.95).
 
-use std::sync::Arc;
-
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::undecided::MentionedUnknowns;
-use crate::interpreter::values::cause::name_of;
+use crate::interpreter::values::cause::Unknown;
 use crate::syntax::Fault;
 use crate::text::Span;
 
@@ -14,7 +12,7 @@ impl Interpreter {
     /// Adds a message about an unknown value once per program (FC902); again only where `what` differs.
     pub(in crate::interpreter) fn tell_once(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         what: &str,
         fault: Fault,
         at: &BlockContext<'_>,
@@ -39,7 +37,7 @@ impl MentionedUnknowns {
     /// Remembers where an unknown value first occurred.
     pub(in crate::interpreter) fn enter_root(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) {
@@ -50,10 +48,10 @@ impl MentionedUnknowns {
     pub(in crate::interpreter) fn with_origin(
         &self,
         said: Diagnostic,
-        cause: &str,
+        cause: &Unknown,
         at: &BlockContext<'_>,
     ) -> Diagnostic {
-        let is_shown = at.text.contains(name_of(cause)) || at.block.skip.is_some();
+        let is_shown = cause.is_shown_in(at.text) || at.block.skip.is_some();
         let origin = self.origin(cause).filter(|_| !is_shown);
         match origin {
             Some(origin) if (&origin.file, origin.first_line) != (at.file, at.line) => {

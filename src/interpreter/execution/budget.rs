@@ -4,6 +4,7 @@ use crate::diagnostic::{Advice, Budget, Code, Diagnostic, Severity};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::cause::Unknown;
 use crate::syntax::Fault;
 use crate::text::Span;
 
@@ -24,11 +25,11 @@ impl Interpreter {
     pub(in crate::interpreter) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.scratch.wrote);
         if self.is_past_regions() {
-            self.havoc_all(&"the budget of work".into());
+            self.havoc_all(&Unknown::Work);
             return Some(too_many_regions(at));
         }
         if self.state.effort.level() > self.options.limits.work && self.is_exhausted() {
-            self.havoc_all(&"the budget of work".into());
+            self.havoc_all(&Unknown::Work);
             return Some(self.too_much_work(at));
         }
         let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);

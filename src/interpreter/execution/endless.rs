@@ -8,8 +8,6 @@
 //! Where a value that is not known offline may lead out of such a loop, the loop is not endless: the
 //! run follows that way (R2.51, R2.52).
 
-use std::sync::Arc;
-
 use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
@@ -22,9 +20,10 @@ use crate::interpreter::run::path::{Path, RunTrack};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::run::ways::{Leaving, WayOut};
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::reads::Reads;
-use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::value::Value;
 
 /// Greatest number of passes after which a repeated state is recognised.
 const LONGEST_PERIOD: u64 = 8;
@@ -61,7 +60,7 @@ enum Enough {
     /// Its state repeats.
     Repeated,
     /// It was run often enough; holds the value that may end it.
-    TooMany(Arc<str>),
+    TooMany(Unknown),
 }
 
 impl Interpreter {
@@ -136,11 +135,11 @@ impl Interpreter {
         if known.passes > most + MOST_JOINED_PASSES {
             let after = known.from.saturating_add(1);
             self.state.track.loops.push(known);
-            self.havoc_loop(&"a loop that runs too long".into(), finder);
+            self.havoc_loop(&Unknown::Passes, finder);
             return ControlStep::Jump(after);
         }
         let now = self.at_head(target);
-        let cause = "a loop that is repeated".into();
+        let cause = Unknown::Passes;
         match known.covered.take() {
             Some(before) if before.covers(&now, &cause) => return ControlStep::Covered,
             Some(mut before) if known.passes > most => {
@@ -240,7 +239,7 @@ impl Interpreter {
 
     /// Makes unknown what the innermost loop could change in the passes that are not run.
     #[cold]
-    fn havoc_loop(&mut self, cause: &Arc<str>, finder: &mut dyn Finder) {
+    fn havoc_loop(&mut self, cause: &Unknown, finder: &mut dyn Finder) {
         let Some(last) = self.state.track.loops.last() else {
             return;
         };
@@ -275,7 +274,7 @@ impl Interpreter {
                 cause: out.cause.clone(),
             }),
         }
-        let decides = unknown_value(&out.cause, at.file);
+        let decides = out.cause.seen_from(at.file);
         let passes = match known.passes {
             1 => "one pass".to_owned(),
             passes => format!("{passes} passes"),
@@ -294,7 +293,7 @@ impl Interpreter {
             self.programs.index(unit).block_place(head),
             message,
         );
-        let said = said.with_help(how_to_set(&out.cause));
+        let said = said.with_help(out.cause.advice());
         self.scratch.diagnostics.push(said);
         Some(match out.to {
             Leaving::To(block) => ControlStep::Jump(block),
@@ -313,12 +312,14 @@ impl Interpreter {
 
 impl State {
     /// Makes counters unknown where other ways have left a loop that is not run to its end.
-    fn lose_counters(&mut self, counters: &[RegionTarget], since: u64) {
-        let cause: Arc<str> = "a loop that is repeated".into();
+    fn lose_counters(&mut self, counters: &[Location], since: u64) {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
         for path in self.pending.iter_mut().chain(ended) {
             if path.parted >= since {
-                path.control.memory.lose(counters, &cause);
+                for counter in counters {
+                    let unknown = Value::Unknown(Unknown::Passes);
+                    path.control.memory.write(counter, unknown);
+                }
             }
         }
     }
@@ -347,8 +348,7 @@ impl State {
             .flat_map(|path| path.track.reach.conditions());
         let conditions = conditions.filter_map(|it| self.conditions.get(it as usize));
         let kept = conditions.filter_map(|condition| condition.kept.as_ref());
-        let names = kept.flat_map(|kept| kept.name.split(" or "));
-        names.map(str::to_owned).collect()
+        kept.flat_map(|kept| kept.names.iter().cloned()).collect()
     }
 
     /// The innermost loop begins anew: the passes so far prove nothing.
@@ -389,7 +389,7 @@ impl State {
 
 impl RunTrack {
     /// The value that may end a loop that was left often enough.
-    fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
+    fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Unknown> {
         let mut left = self.left_loops.iter();
         let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
         (found.times >= RUN_THROUGH).then(|| found.cause.clone())
@@ -411,7 +411,7 @@ impl RunTrack {
 }
 
 impl ProgramStore {
-    fn endless(&self, known: &Loop, counters: &[RegionTarget]) -> Diagnostic {
+    fn endless(&self, known: &Loop, counters: &[Location]) -> Diagnostic {
         let place = self.index(known.unit).block_place(known.head);
         let passes = known.passes;
         let names: Vec<String> = counters.iter().map(|name| format!("`{name}`")).collect();
@@ -433,7 +433,7 @@ impl ProgramStore {
 
 /// Returns the differences from the present state if they are counters; `None` where anything else
 /// differs.
-fn counters(mark: &Mark, state: &State) -> Option<Vec<RegionTarget>> {
+fn counters(mark: &Mark, state: &State) -> Option<Vec<Location>> {
     if mark.occurred != state.occurred {
         return None;
     }

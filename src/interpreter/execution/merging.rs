@@ -9,7 +9,7 @@ use crate::interpreter::run::path::{EndedPath, Last, Passed};
 use crate::interpreter::run::possible_state::shown;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_set::WaySet;
-use crate::interpreter::values::cause::ERROR_COMMAND;
+use crate::interpreter::values::cause::Unknown;
 
 impl Interpreter {
     /// Ends a way. Returns the end of the run if no other way continues.
@@ -27,7 +27,7 @@ impl Interpreter {
             // The effects of the other ways are not known.
             self.state.pending.clear();
             self.state.ended.clear();
-            self.havoc_all(&"a way that was not followed".into());
+            self.havoc_all(&Unknown::Ways);
             return Some(by);
         }
         let never_ends = std::mem::take(&mut self.scratch.endless);
@@ -158,7 +158,7 @@ impl State {
         let mut ways = ended.iter().map(|end| end.path.clone());
         let mut all = ways.next()?;
         for way in ways {
-            all.join(way, &ERROR_COMMAND.into());
+            all.join(way, &Unknown::RemedyClass);
         }
         let mut control = all.control;
         let _ = control.compensation.program_end();

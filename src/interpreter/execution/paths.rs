@@ -20,7 +20,7 @@ use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_condition::limit_to;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::language::Group;
 
@@ -91,7 +91,7 @@ impl Interpreter {
         let mut mine = self.state.leave_path();
         let parted = Self::what_parts(&mine, &other);
         let condition = parted.and_then(|number| self.state.conditions.get(number as usize));
-        let cause = condition.map_or_else(|| "another way".into(), |found| found.cause.clone());
+        let cause = condition.map_or_else(|| Unknown::Ways, |found| found.cause.clone());
         mine.undo_differing(&mut other);
         let before = [mine.control.clone(), other.control.clone()];
         for path in [&mine, &other] {
@@ -247,7 +247,7 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
         );
         let mut said = Diagnostic::new(Code::Fc901, condition.place.clone(), message);
         said.lower(Severity::Info);
-        return said.with_help(how_to_set(cause));
+        return said.with_help(cause.advice());
     }
     let asks = match condition.kind {
         ConditionKind::Skip(_) => format!(
@@ -255,12 +255,12 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
         ),
         ConditionKind::Probe => format!(
             "whether this jump is taken depends on {}",
-            unknown_value(cause, &condition.place.file)
+            cause.seen_from(&condition.place.file)
         ),
         ConditionKind::Call(_) => {
             format!(
                 "what this call leaves depends on {}",
-                unknown_value(cause, &condition.place.file)
+                cause.seen_from(&condition.place.file)
             )
         }
         ConditionKind::Stop => format!("whether {cause} ends the program is not documented"),
@@ -271,12 +271,12 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
         | ConditionKind::Search => {
             format!(
                 "this condition depends on {}",
-                unknown_value(cause, &condition.place.file)
+                cause.seen_from(&condition.place.file)
             )
         }
     };
     let message = format!(
         "{asks}; every way is followed, and where they meet what differs is unknown: {shown}"
     );
-    Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(how_to_set(cause))
+    Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(cause.advice())
 }

@@ -18,6 +18,7 @@ use crate::interpreter::run::path::RunTrack;
 use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::run::undecided::MentionedUnknowns;
+use crate::interpreter::values::cause::MissingProgram;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::{Place, SourceFile, Span};
 
@@ -162,7 +163,7 @@ impl Interpreter {
             return Ok(());
         };
         if self.machine.programs.is_external(&name) {
-            self.leave_to_machine(&name);
+            self.leave_to_machine(&MissingProgram::Named(name.into()));
             return Ok(());
         }
         let place = Place {

@@ -7,7 +7,6 @@
 
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
@@ -16,7 +15,7 @@ use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Last, Path};
 use crate::interpreter::unknown::telling::of_axes;
-use crate::interpreter::values::cause::how_to_set;
+use crate::interpreter::values::cause::Unknown;
 
 /// Most values that the advice names.
 const MAX_NAMED: usize = 3;
@@ -36,7 +35,7 @@ impl Interpreter {
     #[cold]
     pub(in crate::interpreter) fn widen(&mut self, finder: &mut dyn Finder) {
         self.state.is_widened = true;
-        let cause: Arc<str> = "ways that are not followed".into();
+        let cause = Unknown::Ways;
         let mut left = BTreeSet::new();
         let mut ways = std::mem::take(&mut self.state.pending);
         ways.insert(0, self.state.leave_path());
@@ -116,14 +115,14 @@ impl Interpreter {
              whatever these blocks could change is unknown{unknown}"
         );
         let mut said = Diagnostic::new(Code::Fc908, place, message);
-        let mut causes: Vec<&Arc<str>> = Vec::new();
+        let mut causes: Vec<&Unknown> = Vec::new();
         for condition in &self.state.conditions {
             if causes.len() < MAX_NAMED && !causes.contains(&&condition.cause) {
                 causes.push(&condition.cause);
             }
         }
         for cause in causes {
-            said = said.with_help(how_to_set(cause));
+            said = said.with_help(cause.advice());
         }
         Some(said.with_help(Advice::RaiseBudget(Budget::Ways)))
     }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::index::LabelName;
+use crate::interpreter::values::cause::MissingProgram;
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::Span;
@@ -47,8 +48,8 @@ pub(in crate::interpreter) struct WantedCall {
     pub(in crate::interpreter) repeat: Option<bool>,
     /// The part of the program, where it is not all of it.
     pub(in crate::interpreter) part: Option<CalledPart>,
-    /// Whether the name is that of a word for which no program is known (R2.94).
-    pub(in crate::interpreter) lacks_program: bool,
+    /// The G function that is called, where no program is known for it (R2.94).
+    pub(in crate::interpreter) word: Option<u32>,
 }
 
 impl WantedCall {
@@ -63,16 +64,22 @@ impl WantedCall {
             form: CallForm::Plain,
             repeat: None,
             part: None,
-            lacks_program: false,
+            word: None,
         }
     }
 
     /// G80 and the like, which call a program of the machine that is not known (R2.94).
     pub(in crate::interpreter) fn of_word(number: u32, span: Span) -> Self {
         Self {
-            lacks_program: true,
+            word: Some(number),
             ..Self::program(CallScope::Global, format!("G{number}"), span)
         }
+    }
+
+    /// The called program, if it is missing.
+    pub(in crate::interpreter) fn missing(&self) -> MissingProgram {
+        let named = || MissingProgram::Named(self.name.as_str().into());
+        self.word.map_or_else(named, MissingProgram::OfG)
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
-use std::sync::Arc;
 
 use super::event::{Aside, Note, Outcome};
 use super::lone_part::LonePart;
@@ -14,6 +13,7 @@ use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::values::cause::{MissingProgram, Unknown};
 use crate::interpreter::values::externals::HeldValues;
 use crate::interpreter::values::value::Value;
 use crate::language::MotionEffect;
@@ -42,7 +42,7 @@ pub(in crate::interpreter) enum AfterError {
 /// A program that only the machine has, and its call: the state that it leaves is not known.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct LeftOpen {
-    pub(in crate::interpreter) program: Arc<str>,
+    pub(in crate::interpreter) program: MissingProgram,
     pub(in crate::interpreter) place: Place,
 }
 
@@ -52,7 +52,7 @@ pub(in crate::interpreter) struct PassedOver {
     pub(in crate::interpreter) unit: usize,
     pub(in crate::interpreter) blocks: Range<EntryIndex>,
     /// The value that decides whether they are executed.
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     pub(in crate::interpreter) by: PassedBy,
 }
 
@@ -127,7 +127,7 @@ pub(in crate::interpreter) struct BlockScratch {
     /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
     pub(in crate::interpreter) flushing: RefCell<Option<String>>,
     /// Why a program may be called that is not known, if one may.
-    pub(in crate::interpreter) unknown_call: Option<Arc<str>>,
+    pub(in crate::interpreter) unknown_call: Option<Unknown>,
     /// A part of the macro expanded last that limits what may be in the block.
     pub(in crate::interpreter) lone: Option<LonePart>,
     /// Macros that the block has expanded.

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::condition::{Clash, Condition, ConditionKind, MAX_ANSWERS};
 use super::way_set::{Way, WayAnswer};
-use crate::interpreter::values::plain::{Asking, Writer};
-use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
+use crate::interpreter::values::location::Location;
+use crate::interpreter::values::plain::{Asking, ConditionMeaning, ConditionSubject, Writer};
 use crate::interpreter::values::value::Value;
 
 /// Number of remembered conditions on values of the machine; older ones contradict nothing.
@@ -24,21 +24,21 @@ const MAX_COMPARED: usize = 8;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ImpliedValues {
     /// The values that follow from it.
-    pub(in crate::interpreter) is: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) is: Vec<(Location, Value)>,
     /// The values that it rules out.
-    pub(in crate::interpreter) is_not: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) is_not: Vec<(Location, Value)>,
 }
 
 impl ImpliedValues {
     /// A variable for which no value gives both answers.
-    fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a RegionTarget> {
-        let differs = |(target, value): &&(RegionTarget, Value)| {
+    fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a Location> {
+        let differs = |(target, value): &&(Location, Value)| {
             let mut known = other.is.iter();
             let mut ruled_out = other.is_not.iter();
             known.any(|(of, other)| of == target && other != value)
                 || ruled_out.any(|(of, other)| of == target && other == value)
         };
-        let is_ruled_out = |pair: &&(RegionTarget, Value)| other.is.contains(pair);
+        let is_ruled_out = |pair: &&(Location, Value)| other.is.contains(pair);
         let found = self.is.iter().find(differs);
         let found = found.or_else(|| self.is_not.iter().find(is_ruled_out));
         found.map(|(target, _)| target)
@@ -51,9 +51,8 @@ pub(in crate::interpreter) struct RememberedCondition {
     pub(in crate::interpreter) condition: u32,
     /// Number of the time that the condition is asked.
     time: u32,
-    meaning: Arc<str>,
+    meaning: Arc<ConditionMeaning>,
     writer: Writer,
-    reads: Vec<RegionTarget>,
     answers: Vec<ImpliedValues>,
 }
 
@@ -66,9 +65,8 @@ impl RememberedCondition {
         Self {
             condition,
             time,
-            meaning: Arc::from(&*asking.meaning),
+            meaning: Arc::clone(&asking.meaning),
             writer: asking.writer,
-            reads: asking.reads.clone(),
             answers,
         }
     }
@@ -104,19 +102,20 @@ impl RememberedCondition {
 
     /// The variables that it reads, or what it asks for.
     fn names(&self) -> String {
-        let mut names: Vec<String> = self.reads.iter().filter_map(name_of).collect();
-        names.dedup();
-        if names.is_empty() {
-            return self.meaning.to_string();
+        if let ConditionSubject::Unknown(unknown) = &self.meaning.subject {
+            return unknown.to_string();
         }
+        let reads = self.meaning.reads.iter();
+        let mut names: Vec<String> = reads.filter_map(name_of).collect();
+        names.dedup();
         names.join(" or ")
     }
 }
 
-fn name_of(target: &RegionTarget) -> Option<String> {
+fn name_of(target: &Location) -> Option<String> {
     match target {
-        RegionTarget::Variable(name) => Some(name.clone()),
-        RegionTarget::Parameter(..) | RegionTarget::Elements(_) | RegionTarget::Parameters => None,
+        Location::Variable(name) => Some(name.clone()),
+        Location::Parameter(..) | Location::Elements(_) | Location::Parameters => None,
     }
 }
 
@@ -147,25 +146,25 @@ impl RememberedConditions {
             None => self.0.clear(),
             Some(asking) => {
                 let is_read = |it: &Arc<RememberedCondition>| {
-                    it.reads.iter().any(|of| asking.reads.contains(of))
+                    it.meaning
+                        .reads
+                        .iter()
+                        .any(|of| asking.meaning.reads.contains(of))
                 };
                 self.0
-                    .retain(|it| !is_read(it) && *it.meaning != *asking.meaning);
+                    .retain(|it| !is_read(it) && it.meaning != asking.meaning);
             }
         }
     }
 
     /// The program writes a value.
-    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace) {
-        let is_it = |target: &RegionTarget| match (target, place) {
-            (RegionTarget::Parameter(of, one), AssignedPlace::Parameter(owner, other)) => {
-                (of, one) == (owner, other)
+    pub(in crate::interpreter) fn write(&mut self, location: &Location) {
+        match location {
+            Location::Elements(_) | Location::Parameters => {
+                self.0.retain(|it| it.meaning.reads.is_empty());
             }
-            (RegionTarget::Variable(one), AssignedPlace::Variable(other)) => one == other,
-            (_, AssignedPlace::Elements(..) | AssignedPlace::Parameters(_)) => true,
-            _ => false,
-        };
-        self.0.retain(|it| !it.reads.iter().any(is_it));
+            one => self.0.retain(|it| !it.meaning.reads.contains(one)),
+        }
     }
 
     /// The control does something: moves, changes tools.
@@ -174,8 +173,8 @@ impl RememberedConditions {
     }
 
     /// Some values differ from here on.
-    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&RegionTarget) -> bool) {
-        self.0.retain(|it| !it.reads.iter().any(&is_other));
+    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&Location) -> bool) {
+        self.0.retain(|it| !it.meaning.reads.iter().any(&is_other));
     }
 
     /// Whether each answer of each has a bit.

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::comp::Kind;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::SetAt;
 use crate::text::Place;
 
@@ -50,12 +51,26 @@ pub(in crate::interpreter) struct Clash {
 /// The answers that hold while a variable of the machine keeps the value that the program set (R2.99).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct KeptAnswer {
-    /// The variable, or several.
-    pub(in crate::interpreter) name: Arc<str>,
+    /// The variables; states before schema 4 have them in words.
+    #[serde(alias = "name", deserialize_with = "one_or_more")]
+    pub(in crate::interpreter) names: Arc<[String]>,
     /// The block that set it.
     pub(in crate::interpreter) set: SetAt,
     /// The answers, a bit each.
     pub(in crate::interpreter) sides: u64,
+}
+
+fn one_or_more<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<[String]>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Names {
+        One(String),
+        More(Arc<[String]>),
+    }
+    Ok(match Names::deserialize(deserializer)? {
+        Names::One(name) => [name].into(),
+        Names::More(names) => names,
+    })
 }
 
 /// A condition that only the machine knows.
@@ -66,7 +81,7 @@ pub(in crate::interpreter) struct Condition {
     /// Text of the condition for each answer but the last, which is that none of them holds.
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
     /// The value that decides.
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// Number of the question at its place: a place that is reached again asks again.
     pub(in crate::interpreter) round: u8,
     /// Number of times that its number was given to a question.
@@ -81,6 +96,25 @@ pub(in crate::interpreter) struct Condition {
 }
 
 impl Condition {
+    /// A condition that is asked for the first time.
+    pub(in crate::interpreter) fn new(
+        kind: ConditionKind,
+        place: Place,
+        texts: Vec<Arc<str>>,
+        cause: Unknown,
+    ) -> Self {
+        Self {
+            kind,
+            place,
+            texts,
+            cause,
+            round: 0,
+            time: 0,
+            clashes: Vec::new(),
+            kept: None,
+        }
+    }
+
     /// Renumbers the conditions; those without a number are left out.
     pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> Option<u32>) -> Self {
         let mut copy = self.clone();
@@ -111,5 +145,20 @@ impl Condition {
             && self.kind == other.kind
             && self.place.file == other.place.file
             && self.texts == other.texts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variables_in_words_are_read() {
+        // R9.32
+        for names in ["\"name\":\"V.E.A\"", "\"names\":[\"V.E.A\"]"] {
+            let saved = format!("{{{names},\"set\":{{\"file\":\"a.nc\",\"line\":3}},\"sides\":1}}");
+            let kept: KeptAnswer = serde_json::from_str(&saved).expect("an answer");
+            assert_eq!(*kept.names, ["V.E.A".to_owned()]);
+        }
     }
 }

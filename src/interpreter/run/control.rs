@@ -1,7 +1,6 @@
 //! The part of the control's state at a moment that blocks of programs can see or change.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +17,9 @@ use super::way_set::WaySet;
 use super::ways::join_names;
 use crate::comp::Compensation;
 use crate::interpreter::coordinates::modal::Modal;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::memory::Memory;
-use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 use crate::language::{Holds, Simplification};
 
@@ -78,7 +78,7 @@ impl ControlState {
         &mut self,
         other: &Self,
         reach: [&WaySet; 2],
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) -> usize {
         let Self {
             compensation,
@@ -149,10 +149,7 @@ impl ControlState {
     }
 
     /// The values whose numbers differ in another state; `None` where anything else does.
-    pub(in crate::interpreter) fn differing_numbers(
-        &self,
-        other: &Self,
-    ) -> Option<Vec<RegionTarget>> {
+    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let Self {
             compensation,
             possible,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::interpreter::programs::index::ProgramId;
+use crate::interpreter::values::cause::MissingProgram;
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::{Call, Repetition};
 
@@ -29,8 +30,8 @@ pub(in crate::interpreter) enum RepeatedCall {
     Program(ProgramId),
     /// A program that was found, or nothing: it is not known whether the cycle is in force.
     Perhaps(ProgramId),
-    /// A program that only the machine has, by its name.
-    External(String),
+    /// A program that only the machine has.
+    External(MissingProgram),
 }
 
 impl ModalCycles {

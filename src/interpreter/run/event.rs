@@ -17,6 +17,7 @@ use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::motion::{Motion, Travel};
 use crate::interpreter::coordinates::moving::MovedAxis;
+use crate::interpreter::values::cause::Unknown;
 use crate::language::{Certainty, Group, MotionKind};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
@@ -240,7 +241,7 @@ pub struct ProgramEnd {
     pub is_passed_into: bool,
     /// Value that only the machine knows and that decides whether the program ends there; `None`
     /// for the end of the dry run.
-    pub cause: Option<Arc<str>>,
+    pub cause: Option<Unknown>,
     /// The state that is left there.
     pub compensation: Compensation,
 }
@@ -248,13 +249,7 @@ pub struct ProgramEnd {
 impl ProgramEnd {
     /// What decides whether the program ends there, in words: `` `V.E.A` ``, a missing jump label.
     pub(crate) fn decided_by(&self) -> Option<String> {
-        let cause = self.cause.as_deref()?;
-        let is_words = cause.contains(' ') && !cause.starts_with('#');
-        Some(if is_words {
-            cause.to_owned()
-        } else {
-            format!("`{cause}`")
-        })
+        self.cause.as_ref().map(Unknown::quoted)
     }
 }
 

@@ -25,6 +25,7 @@ use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::found::{FoundVariables, VariableUse};
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::interpreter::values::work_budget::{PER_REGION_UNIT, WorkBudget};
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::readings::QuestionSet;
@@ -330,7 +331,7 @@ impl Interpreter {
 
     /// Whether a variable outlives programs, and only they write it.
     pub(crate) fn only_programs_write(&self, name: &str) -> bool {
-        name.starts_with("V.S.") || self.externals.is_own(name)
+        VariableFamily::of(name) == VariableFamily::Shared || self.externals.is_own(name)
     }
 
     /// The values that the running program sees, by name: the own parameters of its call, the

@@ -7,14 +7,15 @@ use std::sync::Arc;
 use super::region::Region;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::wanted::WantedCall;
-use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
 
 /// A call found in a region that may or may not be executed.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct RegionCall {
     pub(in crate::interpreter) call: WantedCall,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// The file that holds the call.
     pub(in crate::interpreter) unit: usize,
     /// The region that holds it, where it is written there.
@@ -24,7 +25,7 @@ pub(in crate::interpreter) struct RegionCall {
 /// Writes since regions were last made unknown: a loop that returns to a region examines only these.
 #[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Journal {
-    written: Vec<RegionTarget>,
+    written: Vec<Location>,
     /// Rises when the list is restarted.
     epoch: u64,
     /// The end of the list when a region was made unknown.
@@ -34,26 +35,15 @@ pub(in crate::interpreter) struct Journal {
 impl Journal {
     /// A value became known.
     #[inline]
-    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, value: &Value) {
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: &Value) {
         // If no region was examined, nothing has to be kept.
         if self.seen.is_empty() || matches!(value, Value::Unknown(_)) {
             return;
         }
-        match place {
-            AssignedPlace::Parameter(owner, index) => {
-                self.note(RegionTarget::Parameter(*owner, *index));
-            }
-            AssignedPlace::Variable(name) => self.note(RegionTarget::Variable(name.clone())),
-            AssignedPlace::Elements(..) | AssignedPlace::Parameters(_) | AssignedPlace::Nowhere => {
-            }
-        }
-    }
-
-    fn note(&mut self, target: RegionTarget) {
         if self.written.len() >= MAX_WRITTEN {
             self.begin_anew();
         } else {
-            self.written.push(target);
+            self.written.push(location.clone());
         }
     }
 
@@ -65,7 +55,7 @@ impl Journal {
     }
 
     /// Returns the writes since the region was last made unknown; `None` where they are not known.
-    pub(in crate::interpreter) fn since(&self, key: RegionKey) -> Option<&[RegionTarget]> {
+    pub(in crate::interpreter) fn since(&self, key: RegionKey) -> Option<&[Location]> {
         let &(epoch, from) = self.seen.get(&key)?;
         (epoch == self.epoch).then(|| self.written.get(from..).unwrap_or_default())
     }

@@ -16,10 +16,14 @@ use super::way_set::WaySet;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::HeldVariable;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::memory::Memory;
-use crate::interpreter::values::target::{AssignedPlace as Written, RegionTarget};
+use crate::interpreter::values::plain::ConditionMeaning;
+use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::syntax::ast::Owner;
 use crate::text::{Place, Span};
 
@@ -55,8 +59,14 @@ pub(in crate::interpreter) struct RunTrack {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct AskedCondition {
     pub(in crate::interpreter) condition: u32,
-    pub(in crate::interpreter) key: Arc<str>,
-    pub(in crate::interpreter) reads: Vec<RegionTarget>,
+    pub(in crate::interpreter) meaning: Arc<ConditionMeaning>,
+}
+
+impl AskedCondition {
+    /// Whether no value decides, so that it has one answer on all ways.
+    pub(in crate::interpreter) fn reads_nothing(&self) -> bool {
+        self.meaning.reads.is_empty()
+    }
 }
 
 /// Adjacent blocks of one skip level.
@@ -70,10 +80,9 @@ pub(in crate::interpreter) struct Marked {
 
 /// Values that follow from conditions, with what was known before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<AssumedRow>", from = "Vec<AssumedRow>")]
-pub(in crate::interpreter) struct AssumedValues(BTreeMap<RegionTarget, ValueBefore>);
-
-type AssumedRow = (RegionTarget, ValueBefore);
+pub(in crate::interpreter) struct AssumedValues(
+    #[serde(with = "rows")] BTreeMap<Location, ValueBefore>,
+);
 
 /// What was known of a value before a condition.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -86,8 +95,8 @@ pub(in crate::interpreter) struct ValueBefore {
 impl ValueBefore {
     /// Whether as much was known of a value, whatever the cause of an unknown one. A variable of the machine that was
     /// never written is as unknown as one that the PLC may have changed.
-    fn is_like(&self, other: &Self, target: &RegionTarget, memory: &Memory) -> bool {
-        let is_external = matches!(target, RegionTarget::Variable(name) if memory.may_change(name));
+    fn is_like(&self, other: &Self, target: &Location, memory: &Memory) -> bool {
+        let is_external = matches!(target, Location::Variable(name) if memory.may_change(name));
         let is_open = |it: &Self| match &it.value {
             Some(Value::Unknown(_)) => true,
             Some(_) => false,
@@ -97,28 +106,16 @@ impl ValueBefore {
     }
 }
 
-impl From<Vec<AssumedRow>> for AssumedValues {
-    fn from(rows: Vec<AssumedRow>) -> Self {
-        Self(rows.into_iter().collect())
-    }
-}
-
-impl From<AssumedValues> for Vec<AssumedRow> {
-    fn from(assumed: AssumedValues) -> Self {
-        assumed.0.into_iter().collect()
-    }
-}
-
 impl AssumedValues {
     /// A value that applies on this way from here on.
     pub(in crate::interpreter) fn assume(
         &mut self,
         memory: &mut Memory,
-        target: &RegionTarget,
+        target: &Location,
         value: Value,
     ) {
         let before = match target {
-            RegionTarget::Parameter(Owner::Program, index) => {
+            Location::Parameter(Owner::Program, index) => {
                 let before = memory.parameter(*index);
                 memory.set_parameter(*index, value);
                 ValueBefore {
@@ -126,7 +123,7 @@ impl AssumedValues {
                     set: None,
                 }
             }
-            RegionTarget::Variable(name) => {
+            Location::Variable(name) => {
                 let before = ValueBefore {
                     value: memory.variable(name),
                     set: memory.release(name),
@@ -136,9 +133,9 @@ impl AssumedValues {
                 memory.hold_again(name, told);
                 before
             }
-            RegionTarget::Parameter(Owner::Call, _)
-            | RegionTarget::Elements(_)
-            | RegionTarget::Parameters => return,
+            Location::Parameter(Owner::Call, _) | Location::Elements(_) | Location::Parameters => {
+                return;
+            }
         };
         self.0.entry(target.clone()).or_insert(before);
     }
@@ -154,29 +151,29 @@ impl AssumedValues {
         is_it: impl Fn(&str) -> bool,
         memory: &mut Memory,
     ) {
-        let stays = |target: &&RegionTarget| !matches!(target, RegionTarget::Variable(name) if is_it(name) && memory.may_change(name));
+        let stays = |target: &&Location| !matches!(target, Location::Variable(name) if is_it(name) && memory.may_change(name));
         let kept = self.0.keys().filter(stays).cloned().collect();
         self.undo_but(&kept, memory);
     }
 
-    fn undo_but(&mut self, kept: &BTreeSet<RegionTarget>, memory: &mut Memory) {
+    fn undo_but(&mut self, kept: &BTreeSet<Location>, memory: &mut Memory) {
         let (stay, go) = std::mem::take(&mut self.0)
             .into_iter()
             .partition(|(target, _)| kept.contains(target));
         self.0 = stay;
-        let go: BTreeMap<RegionTarget, ValueBefore> = go;
+        let go: BTreeMap<Location, ValueBefore> = go;
         for (target, before) in go {
             match (target, before.value) {
-                (RegionTarget::Parameter(_, index), Some(value)) => {
+                (Location::Parameter(_, index), Some(value)) => {
                     memory.set_parameter(index, value);
                 }
-                (RegionTarget::Parameter(_, index), None) => memory.delete_parameter(index),
-                (RegionTarget::Variable(name), Some(value)) => {
+                (Location::Parameter(_, index), None) => memory.delete_parameter(index),
+                (Location::Variable(name), Some(value)) => {
                     memory.set_variable(&name, value);
                     memory.hold_again(&name, before.set);
                 }
-                (RegionTarget::Variable(name), None) => memory.delete(&name),
-                (RegionTarget::Elements(_) | RegionTarget::Parameters, _) => {}
+                (Location::Variable(name), None) => memory.delete(&name),
+                (Location::Elements(_) | Location::Parameters, _) => {}
             }
         }
     }
@@ -186,36 +183,34 @@ impl AssumedValues {
     }
 }
 
-fn value_of(memory: &Memory, target: &RegionTarget) -> Option<Value> {
+fn value_of(memory: &Memory, target: &Location) -> Option<Value> {
     match target {
-        RegionTarget::Parameter(_, index) => memory.parameter(*index),
-        RegionTarget::Variable(name) => memory.variable(name),
-        RegionTarget::Elements(_) | RegionTarget::Parameters => None,
+        Location::Parameter(_, index) => memory.parameter(*index),
+        Location::Variable(name) => memory.variable(name),
+        Location::Elements(_) | Location::Parameters => None,
     }
 }
 
 impl RunTrack {
     /// A value is written: conclusions about it from conditions no longer apply.
     #[inline]
-    pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, memory: &mut Memory) {
         if !self.readings.is_empty() {
-            self.readings.write(place);
+            self.readings.write(location);
         }
         if !self.asked.is_empty() || !self.assumed.is_empty() {
-            self.havoc_written(place, memory);
+            self.havoc_written(location, memory);
         }
     }
 
     #[cold]
-    fn havoc_written(&mut self, place: &Written, memory: &mut Memory) {
-        let target = match place {
-            Written::Parameter(owner, index) => RegionTarget::Parameter(*owner, *index),
-            Written::Variable(name) => RegionTarget::Variable(name.clone()),
-            Written::Elements(..) | Written::Parameters(_) => return self.write_anything(memory),
-            Written::Nowhere => return,
-        };
-        self.assumed.0.remove(&target);
-        self.asked.retain(|asked| !asked.reads.contains(&target));
+    fn havoc_written(&mut self, location: &Location, memory: &mut Memory) {
+        if let Location::Elements(_) | Location::Parameters = location {
+            return self.write_anything(memory);
+        }
+        self.assumed.0.remove(location);
+        self.asked
+            .retain(|asked| !asked.meaning.reads.contains(location));
     }
 
     /// Anything may be written.
@@ -227,12 +222,13 @@ impl RunTrack {
 
     /// Another program runs, with its own parameters and variables.
     pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
-        let is_own = |target: &RegionTarget| match target {
-            RegionTarget::Parameter(owner, _) => *owner == Owner::Call,
-            RegionTarget::Variable(name) => name.starts_with("V.L."),
-            RegionTarget::Elements(_) | RegionTarget::Parameters => true,
+        let is_own = |target: &Location| match target {
+            Location::Parameter(owner, _) => *owner == Owner::Call,
+            Location::Variable(name) => VariableFamily::of(name) == VariableFamily::Local,
+            Location::Elements(_) | Location::Parameters => true,
         };
-        self.asked.retain(|asked| !asked.reads.iter().any(is_own));
+        self.asked
+            .retain(|asked| !asked.meaning.reads.iter().any(is_own));
         self.readings.havoc(is_own);
         self.open_loops.retain(|(of, ..)| *of <= depth);
     }
@@ -266,10 +262,9 @@ impl RunTrack {
         self.ways.join(ways);
         self.reach.or(reach);
         // A condition that reads nothing is not written on any way.
-        let is_kept = |asked: &AskedCondition| asked.reads.is_empty();
         self.asked
-            .retain(|mine| asked.contains(mine) || is_kept(mine));
-        for theirs in asked.iter().filter(|asked| is_kept(asked)) {
+            .retain(|mine| asked.contains(mine) || mine.reads_nothing());
+        for theirs in asked.iter().filter(|asked| asked.reads_nothing()) {
             if !self.asked.contains(theirs) {
                 self.asked.push(theirs.clone());
             }
@@ -296,7 +291,7 @@ pub(in crate::interpreter) struct Path {
 impl Path {
     /// Another way reaches the same block: what differs becomes unknown. Returns how many values do. Beside a way
     /// that the control may take, one that an error has ended does not count.
-    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
+    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Unknown) -> usize {
         if self.track.failed.is_some() != other.track.failed.is_some() {
             if self.track.failed.is_some() {
                 *self = other;
@@ -337,21 +332,21 @@ impl Path {
     pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
         if !(mine.is_empty() && theirs.is_empty()) {
-            let common = |(target, before): (&RegionTarget, &ValueBefore)| {
+            let common = |(target, before): (&Location, &ValueBefore)| {
                 let memories = [&self.control.memory, &other.control.memory];
                 let now = memories.map(|memory| value_of(memory, target));
                 let theirs = theirs.0.get(target).filter(|_| now[0] == now[1])?;
                 let is_like = before.is_like(theirs, target, memories[0]);
                 is_like.then(|| target.clone())
             };
-            let common: BTreeSet<RegionTarget> = mine.0.iter().filter_map(common).collect();
+            let common: BTreeSet<Location> = mine.0.iter().filter_map(common).collect();
             mine.undo_but(&common, &mut self.control.memory);
             theirs.undo_but(&common, &mut other.control.memory);
         }
     }
 
     /// Whether everything that another way may do from the same block is done on this one, too.
-    pub(in crate::interpreter) fn covers(&self, other: &Self, cause: &Arc<str>) -> bool {
+    pub(in crate::interpreter) fn covers(&self, other: &Self, cause: &Unknown) -> bool {
         let mut both = self.clone();
         both.join(other.clone(), cause);
         both.control == self.control && both.track.reach == self.track.reach
@@ -385,7 +380,7 @@ pub(in crate::interpreter) struct BranchSide {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
     /// Values that follow from it.
-    pub(in crate::interpreter) values: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) values: Vec<(Location, Value)>,
     /// The state of a kind that follows from it.
     pub(in crate::interpreter) state: Option<(AxisIndex, Kind, Membership)>,
     pub(in crate::interpreter) marked: Option<Marked>,
@@ -460,7 +455,7 @@ pub(in crate::interpreter) struct Loop {
     /// The state at the start of an earlier pass.
     pub(in crate::interpreter) mark: Option<Box<Mark>>,
     /// Counters, once it is known that nothing else changes any more.
-    pub(in crate::interpreter) endless: Option<Vec<RegionTarget>>,
+    pub(in crate::interpreter) endless: Option<Vec<Location>>,
     /// Join of the states at the beginnings of all passes, where the loop is left on some ways
     /// (R14.3).
     pub(in crate::interpreter) covered: Option<Box<Path>>,
@@ -506,7 +501,7 @@ pub(in crate::interpreter) struct LeftLoop {
     pub(in crate::interpreter) unit: usize,
     pub(in crate::interpreter) head: EntryIndex,
     pub(in crate::interpreter) times: u32,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
 }
 
 impl LeftLoop {

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::way_set::WaySet;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership};
+use crate::interpreter::values::rows;
 
 /// The ways on which a kind of an axis is selected, and those on which it is not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -49,28 +50,9 @@ impl Split {
 /// The states of kinds that are unknown because ways differ. A kind that is unknown and not among
 /// them may be in any state on any way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<PossibleRow>", from = "Vec<PossibleRow>")]
-pub(in crate::interpreter) struct PossibleKinds(BTreeMap<(AxisIndex, Kind), Split>);
-
-type PossibleRow = (AxisIndex, Kind, Split);
-
-impl From<Vec<PossibleRow>> for PossibleKinds {
-    fn from(rows: Vec<PossibleRow>) -> Self {
-        let rows = rows.into_iter();
-        Self(
-            rows.map(|(axis, kind, split)| ((axis, kind), split))
-                .collect(),
-        )
-    }
-}
-
-impl From<PossibleKinds> for Vec<PossibleRow> {
-    fn from(possible: PossibleKinds) -> Self {
-        let rows = possible.0.into_iter();
-        rows.map(|((axis, kind), split)| (axis, kind, split))
-            .collect()
-    }
-}
+pub(in crate::interpreter) struct PossibleKinds(
+    #[serde(with = "rows")] BTreeMap<(AxisIndex, Kind), Split>,
+);
 
 impl FromIterator<((AxisIndex, Kind), Split)> for PossibleKinds {
     fn from_iter<I: IntoIterator<Item = ((AxisIndex, Kind), Split)>>(splits: I) -> Self {

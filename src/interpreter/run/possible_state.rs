@@ -89,11 +89,20 @@ impl PossibleStates {
         if let Some(words) = those.words(file) {
             return Some(words);
         }
-        let others = others.first().and_then(|others| others.words(file));
-        Some(match others {
-            Some(words) => unless(&words),
-            None => "on more ways than can be named".to_owned(),
-        })
+        let others = others.first().and_then(|others| others.unless(file));
+        Some(others.unwrap_or_else(|| "on more ways than can be named".to_owned()))
+    }
+
+    /// Returns the condition for the other state of two, as seen from a file: `unless …`, or `if …` where a state
+    /// only needs one condition not to hold.
+    pub(crate) fn unless(&self, state: State, file: &str) -> Option<String> {
+        let found = self.states.iter().find(|it| it.state == state)?;
+        let only = found.ways.iter().flatten().flatten().next();
+        let denied = only.filter(|_| self.rests_on_one_condition());
+        match denied.and_then(WayCondition::affirmed) {
+            Some(other) => Some(format!("if {}", other.in_words(file))),
+            None => found.unless(file),
+        }
     }
 
     /// Whether the states depend only on what programs that only the machine has leave.
@@ -143,7 +152,7 @@ impl PossibleStates {
     }
 
     /// Whether one condition decides.
-    pub(crate) fn rests_on_one_condition(&self) -> bool {
+    fn rests_on_one_condition(&self) -> bool {
         let mut named = self.states.iter().flat_map(|state| &state.ways);
         named.all(|ways| matches!(ways.as_slice(), [way] if way.len() == 1))
     }
@@ -158,6 +167,11 @@ impl PossibleState {
     fn words(&self, file: &str) -> Option<String> {
         let ways = self.ways.as_ref().filter(|_| !self.is_always())?;
         Some(after_if(ways, self.more, file))
+    }
+
+    fn unless(&self, file: &str) -> Option<String> {
+        let ways = self.ways.as_ref().filter(|_| !self.is_always())?;
+        Some(unless(ways, self.more, file))
     }
 
     /// Whether there are too many ways to name any.
@@ -275,7 +289,7 @@ pub(in crate::interpreter) fn ways_of(
 /// The change without which a condition has only the answer that the program set.
 pub(in crate::interpreter) fn change_since(kept: &KeptAnswer) -> WayChange {
     WayChange {
-        name: kept.name.clone(),
+        name: kept.names.join(" or ").into(),
         file: kept.set.file.clone(),
         line: kept.set.line,
     }

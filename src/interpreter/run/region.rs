@@ -7,7 +7,8 @@ use super::event::EndedBy;
 use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
-use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::location::Location;
+use crate::interpreter::values::names::parts;
 use crate::language::{HashWords, Simplification};
 use crate::syntax::ast::Owner;
 use crate::text::Span;
@@ -85,9 +86,9 @@ impl Exit {
 #[derive(Debug, Default)]
 pub(in crate::interpreter) struct Region {
     pub(in crate::interpreter) effects: Vec<RegionEffect>,
-    pub(in crate::interpreter) targets: Vec<RegionTarget>,
+    pub(in crate::interpreter) targets: Vec<Location>,
     /// The targets, to ask whether something is one.
-    pub(in crate::interpreter) written: HashSet<RegionTarget>,
+    pub(in crate::interpreter) written: HashSet<Location>,
     pub(in crate::interpreter) calls: Vec<WantedCall>,
     pub(in crate::interpreter) exits: Vec<Exit>,
     /// Its blocks that end the program, each with its unit.
@@ -128,15 +129,13 @@ impl Region {
     }
 
     /// Whether the region could write what was written.
-    pub(in crate::interpreter) fn writes(&self, written: &RegionTarget) -> bool {
+    pub(in crate::interpreter) fn writes(&self, written: &Location) -> bool {
         let whole = match written {
-            RegionTarget::Parameter(Owner::Program, _) => {
-                self.written.contains(&RegionTarget::Parameters)
-            }
-            RegionTarget::Variable(name) => name.split_once('[').is_some_and(|(array, _)| {
-                self.written
-                    .contains(&RegionTarget::Elements(array.to_owned()))
-            }),
+            Location::Parameter(Owner::Program, _) => self.written.contains(&Location::Parameters),
+            Location::Variable(name) => match parts(name) {
+                (_, "") => false,
+                (array, _) => self.written.contains(&Location::Elements(array.to_owned())),
+            },
             _ => false,
         };
         whole || self.written.contains(written)

@@ -1,13 +1,13 @@
 //! The call stack: the programs that run, each called by the one before it.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::step::{Passage, Request};
 use crate::interpreter::coordinates::saved;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::names::join_value;
 use crate::interpreter::values::value::Value;
 use crate::text::Place;
@@ -71,7 +71,7 @@ pub(in crate::interpreter) enum Seeking {
 
 impl CallFrame {
     /// Joins another way at the same block: whatever differs becomes unknown.
-    fn join(&mut self, other: &Self, cause: &Arc<str>) {
+    fn join(&mut self, other: &Self, cause: &Unknown) {
         let Self {
             // Both are at the same block.
             unit: _,
@@ -111,7 +111,7 @@ impl CallFrame {
 
 impl CallStack {
     /// Joins another way at the same block: whatever differs becomes unknown.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Unknown) {
         for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
             mine.join(theirs, cause);
         }

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::rows;
 use crate::text::Place;
 
 /// Unknown values that are remembered; beyond them a message may be said again.
@@ -14,7 +16,7 @@ const MAX_ROOTS: usize = 1000;
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct Undecided {
     /// The value that decides.
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// The position of its message among those of the block.
     pub(in crate::interpreter) said: usize,
     /// The number of doubts of the block before it.
@@ -44,7 +46,8 @@ impl Differing {
 /// The unknown values that messages of the program were about, by what makes them unknown.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct MentionedUnknowns {
-    roots: BTreeMap<Arc<str>, Root>,
+    #[serde(with = "rows")]
+    roots: BTreeMap<Unknown, Root>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -57,11 +60,7 @@ struct Root {
 
 impl MentionedUnknowns {
     /// Remembers where a value first occurred.
-    pub(in crate::interpreter) fn enter(
-        &mut self,
-        cause: &Arc<str>,
-        place: impl FnOnce() -> Place,
-    ) {
+    pub(in crate::interpreter) fn enter(&mut self, cause: &Unknown, place: impl FnOnce() -> Place) {
         if self.roots.len() < MAX_ROOTS && !self.roots.contains_key(cause) {
             let root = Root {
                 place: place(),
@@ -72,7 +71,7 @@ impl MentionedUnknowns {
     }
 
     /// The block where a value first occurred.
-    pub(in crate::interpreter) fn origin(&self, cause: &str) -> Option<&Place> {
+    pub(in crate::interpreter) fn origin(&self, cause: &Unknown) -> Option<&Place> {
         self.roots.get(cause).map(|root| &root.place)
     }
 
@@ -80,7 +79,7 @@ impl MentionedUnknowns {
     /// A message that a loop repeats at its own place is counted, not withheld (R2.85).
     pub(in crate::interpreter) fn is_new(
         &mut self,
-        cause: &str,
+        cause: &Unknown,
         named: impl IntoIterator<Item = String>,
         place: &Place,
     ) -> bool {

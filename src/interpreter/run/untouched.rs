@@ -9,26 +9,14 @@ use super::possible_state::ways_of;
 use super::way_condition::{WayCondition, if_ways};
 use super::way_set::WaySet;
 use crate::comp::{AxisIndex, Kind, KindSet};
+use crate::interpreter::values::rows;
 
 /// Axis and kind → the ways on which no command of the program has switched it. A kind without an entry
 /// was switched on no way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<UntouchedRow>", from = "Vec<UntouchedRow>")]
-pub(in crate::interpreter) struct Untouched(BTreeMap<(AxisIndex, Kind), WaySet>);
-
-type UntouchedRow = ((AxisIndex, Kind), WaySet);
-
-impl From<Vec<UntouchedRow>> for Untouched {
-    fn from(rows: Vec<UntouchedRow>) -> Self {
-        Self(rows.into_iter().collect())
-    }
-}
-
-impl From<Untouched> for Vec<UntouchedRow> {
-    fn from(untouched: Untouched) -> Self {
-        untouched.0.into_iter().collect()
-    }
-}
+pub(in crate::interpreter) struct Untouched(
+    #[serde(with = "rows")] BTreeMap<(AxisIndex, Kind), WaySet>,
+);
 
 impl Untouched {
     /// A program begins.

@@ -134,7 +134,7 @@ fn as_text<S: Serializer>(text: &Arc<str>, serializer: S) -> Result<S::Ok, S::Er
 /// Ways as words, as seen from a file: `V.E.A == 2 (line 12), or if skip level 1 is on`.
 pub(crate) fn ways_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
     let named = ways.len().min(MAX_NAMED);
-    in_words(&ways[..named], ways.len() - named, file)
+    in_words(&ways[..named], ways.len() - named, ", or if ", file)
 }
 
 /// The words after `if`, or after `only if` where a value of the machine must change on each way.
@@ -163,13 +163,6 @@ pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
     }
 }
 
-/// The words for all other ways: `unless …`.
-pub(crate) fn unless(if_words: &str) -> String {
-    let words = if_words.strip_prefix("only ").unwrap_or(if_words);
-    let words = words.strip_prefix("if ").unwrap_or(words);
-    format!("unless {}", words.replace(", or if ", ", or "))
-}
-
 /// Whether each of some ways needs a value of the machine to change between two conditions. The ways
 /// that need no change come before the others.
 pub(crate) fn all_need_change(ways: &[Vec<WayCondition>]) -> bool {
@@ -186,12 +179,21 @@ pub(in crate::interpreter) fn after_if(
     file: &str,
 ) -> String {
     let only = if all_need_change(ways) { "only " } else { "" };
-    format!("{only}if {}", in_words(ways, more, file))
+    format!("{only}if {}", in_words(ways, more, ", or if ", file))
 }
 
-fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
+/// The words for all other ways.
+pub(in crate::interpreter) fn unless(
+    ways: &[Vec<WayCondition>],
+    more: usize,
+    file: &str,
+) -> String {
+    format!("unless {}", in_words(ways, more, ", or ", file))
+}
+
+fn in_words(ways: &[Vec<WayCondition>], more: usize, or: &str, file: &str) -> String {
     let named = ways.iter().map(|way| way_in_words(way, file));
-    let mut words = named.collect::<Vec<_>>().join(", or if ");
+    let mut words = named.collect::<Vec<_>>().join(or);
     match more {
         0 => {}
         1 => words.push_str(", and on 1 more way"),
@@ -332,6 +334,17 @@ impl WayCondition {
 }
 
 impl WayCondition {
+    /// The condition that holds where this one of a block does not.
+    pub(in crate::interpreter) fn affirmed(&self) -> Option<Self> {
+        let mut affirmed = self.clone();
+        let (Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked)) = &mut affirmed else {
+            return None;
+        };
+        let is_denied = !asked.holds && asked.changed.is_none();
+        asked.holds = true;
+        is_denied.then_some(affirmed)
+    }
+
     /// The change of a value without which it contradicts an earlier condition of its way.
     fn changed(&self) -> Option<&WayChange> {
         match self {

@@ -6,7 +6,6 @@
 //! program joins at program end.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +15,9 @@ use super::event::EndedBy;
 use crate::comp::KindSet;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
+use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
 use crate::text::Span;
 
@@ -55,29 +56,16 @@ pub(in crate::interpreter) struct WayEnd {
     pub(in crate::interpreter) place: (usize, EntryIndex),
     pub(in crate::interpreter) by: EndedBy,
     /// Value that decides whether the program ends there.
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// Selections that are possible there.
     pub(in crate::interpreter) kinds: Vec<AxisKinds>,
 }
 
 /// Targets with the executed block that wrote them last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<(RegionTarget, u64)>", from = "Vec<(RegionTarget, u64)>")]
 pub(in crate::interpreter) struct WrittenTargets(
-    pub(in crate::interpreter) BTreeMap<RegionTarget, u64>,
+    #[serde(with = "rows")] pub(in crate::interpreter) BTreeMap<Location, u64>,
 );
-
-impl From<Vec<(RegionTarget, u64)>> for WrittenTargets {
-    fn from(written: Vec<(RegionTarget, u64)>) -> Self {
-        Self(written.into_iter().collect())
-    }
-}
-
-impl From<WrittenTargets> for Vec<(RegionTarget, u64)> {
-    fn from(written: WrittenTargets) -> Self {
-        written.0.into_iter().collect()
-    }
-}
 
 /// A way that left the one of the dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -90,7 +78,7 @@ pub(in crate::interpreter) struct OpenPath {
     pub(in crate::interpreter) since: u64,
     /// The executed block at which it left last, where it left several times.
     pub(in crate::interpreter) latest: u64,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     pub(in crate::interpreter) standing: PathState,
     /// Blocks that it executes before it reaches the target.
     pub(in crate::interpreter) tails: Vec<Remainder>,
@@ -139,7 +127,7 @@ pub(in crate::interpreter) struct Remainder {
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct Branch {
     pub(in crate::interpreter) to: JumpTarget,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// The block after what is passed over.
     pub(in crate::interpreter) here: EntryIndex,
     /// Span for the message on it, until it is reported.
@@ -171,7 +159,7 @@ pub(in crate::interpreter) enum Leaving {
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct WayOut {
     pub(in crate::interpreter) to: Leaving,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
 }
 
 impl Ways {
@@ -218,18 +206,11 @@ impl Ways {
     }
 
     /// A value was written.
-    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, seq: u64) {
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, seq: u64) {
         if self.written.0.len() >= MAX_WRITTEN {
             return self.write_anything(seq);
         }
-        let target = match place {
-            AssignedPlace::Parameter(owner, index) => RegionTarget::Parameter(*owner, *index),
-            AssignedPlace::Variable(name) => RegionTarget::Variable(name.clone()),
-            AssignedPlace::Elements(name, _) => RegionTarget::Elements(name.clone()),
-            AssignedPlace::Parameters(_) => RegionTarget::Parameters,
-            AssignedPlace::Nowhere => return,
-        };
-        self.written.0.insert(target, seq);
+        self.written.0.insert(location.clone(), seq);
     }
 
     /// Something was declared or deleted.
@@ -387,7 +368,7 @@ impl OpenPath {
 pub(in crate::interpreter) fn join_names(
     names: &mut BTreeMap<String, Value>,
     other: &BTreeMap<String, Value>,
-    cause: &Arc<str>,
+    cause: &Unknown,
 ) {
     if names == other {
         return;

@@ -1,7 +1,6 @@
 //! Ways that leave the one of the dry run (R2.51, R2.52).
 
 use std::ops::RangeInclusive;
-use std::sync::Arc;
 
 use crate::comp::AxisIndex;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
@@ -11,6 +10,7 @@ use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::region::{Exit, Region};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::ways::{AxisKinds, Branch, JumpTarget, WayEnd};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
@@ -20,7 +20,7 @@ impl Interpreter {
         &mut self,
         region: &Region,
         passed: RangeInclusive<EntryIndex>,
-        cause: &Arc<str>,
+        cause: &Unknown,
         say: Option<Span>,
     ) {
         let Some(place) = self.state.control.frames.program() else {
@@ -45,14 +45,14 @@ impl Interpreter {
     }
 
     /// The way that a refused command of a region ends; what is refused is reported at its block.
-    fn note_refusal(&mut self, region: &Region, cause: &Arc<str>) {
+    fn note_refusal(&mut self, region: &Region, cause: &Unknown) {
         if region.is_refused {
             self.note_stop(cause);
         }
     }
 
     /// A way that an error ends somewhere in what may be executed.
-    pub(in crate::interpreter) fn note_stop(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn note_stop(&mut self, cause: &Unknown) {
         if self.options.stop != StopPolicy::KeepGoing {
             self.departing.push(Branch {
                 to: JumpTarget::End,
@@ -64,7 +64,7 @@ impl Interpreter {
     }
 
     /// The ways that leave a called program and do not come back to its caller.
-    pub(in crate::interpreter) fn note_far_exits(&mut self, region: &Region, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn note_far_exits(&mut self, region: &Region, cause: &Unknown) {
         self.state.note_ends(region, cause);
         self.note_refusal(region, cause);
         for exit in &region.exits {
@@ -84,7 +84,7 @@ impl Interpreter {
     }
 
     /// Notes a jump that may be taken. Returns whether anything differs if it is.
-    pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Arc<str>) -> bool {
+    pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Unknown) -> bool {
         let Some(frame) = self.state.control.frames.running() else {
             return false;
         };
@@ -130,7 +130,7 @@ impl Interpreter {
 
 impl State {
     /// The program ends of a region, which may be reached with the current state (R1.58).
-    fn note_ends(&mut self, region: &Region, cause: &Arc<str>) {
+    fn note_ends(&mut self, region: &Region, cause: &Unknown) {
         if region.ends.is_empty() {
             return;
         }

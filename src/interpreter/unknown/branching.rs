@@ -16,8 +16,9 @@ use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_condition::WayCondition;
 use crate::interpreter::run::way_set::{WayAnswer, WaySet};
-use crate::interpreter::values::plain::{Asking, Writer};
-use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
+use crate::interpreter::values::plain::{Asking, ConditionMeaning, Writer};
 use crate::interpreter::values::value::Value;
 use crate::text::Span;
 
@@ -39,7 +40,7 @@ pub(in crate::interpreter) struct MachineQuestion {
     pub(in crate::interpreter) span: Span,
     /// Text of the condition for each answer but the last.
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
-    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) cause: Unknown,
     /// Values that it reads, where that is plain.
     pub(in crate::interpreter) reads: Option<Asking>,
     /// The answer that what the program set gives.
@@ -48,10 +49,10 @@ pub(in crate::interpreter) struct MachineQuestion {
 
 impl MachineQuestion {
     /// The key of equal questions, if only the program writes the values that it reads.
-    fn key(&self) -> Option<Arc<str>> {
+    fn key(&self) -> Option<&Arc<ConditionMeaning>> {
         let asking = self.reads.as_ref();
         let asking = asking.filter(|asking| asking.writer == Writer::Nothing)?;
-        Some(Arc::from(&*asking.meaning))
+        Some(&asking.meaning)
     }
 }
 
@@ -60,9 +61,9 @@ pub(in crate::interpreter) struct Goal {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
     /// Values that follow from the answer.
-    pub(in crate::interpreter) values: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) values: Vec<(Location, Value)>,
     /// Values that the answer rules out.
-    pub(in crate::interpreter) ruled_out: Vec<(RegionTarget, Value)>,
+    pub(in crate::interpreter) ruled_out: Vec<(Location, Value)>,
 }
 
 impl Goal {
@@ -245,10 +246,10 @@ impl Interpreter {
         answers: Vec<ImpliedValues>,
         at: &BlockContext<'_>,
     ) -> u32 {
-        let key = question.key();
+        let key = question.key().cloned();
         if let Some(key) = &key {
             let mut asked = self.state.track.asked.iter();
-            if let Some(asked) = asked.find(|asked| asked.key == *key) {
+            if let Some(asked) = asked.find(|asked| asked.meaning == *key) {
                 return asked.condition;
             }
             if let Some(asked) = self.state.asked_elsewhere(key) {
@@ -257,31 +258,22 @@ impl Interpreter {
                 return condition;
             }
         }
-        let condition = self.state.ask_anew(Condition {
-            kind: question.kind,
-            place: at.place(question.span),
-            texts: question.texts.clone(),
-            cause: question.cause.clone(),
-            round: 0,
-            time: 0,
-            clashes: Vec::new(),
-            kept: None,
-        });
+        let condition = self.state.ask_anew(Condition::new(
+            question.kind,
+            at.place(question.span),
+            question.texts,
+            question.cause,
+        ));
         self.keep_answer(condition, question.kept.as_ref());
         let track = &mut self.state.track;
         track.asked.retain(|asked| asked.condition != condition);
-        if let Some(key) = key {
+        if let Some(meaning) = key {
             if track.asked.len() >= MAX_ASKED {
                 track.asked.remove(0);
             }
-            let reads = question.reads.map(|asking| asking.reads);
-            track.asked.push(AskedCondition {
-                condition,
-                key,
-                reads: reads.unwrap_or_default(),
-            });
+            track.asked.push(AskedCondition { condition, meaning });
         } else {
-            self.compare(condition, &question, answers);
+            self.compare(condition, (question.kind, question.reads), answers);
         }
         condition
     }
@@ -303,11 +295,17 @@ impl Interpreter {
     }
 
     /// Finds the answers that contradict earlier ones, unless the machine changes a value in between.
-    fn compare(&mut self, condition: u32, question: &MachineQuestion, answers: Vec<ImpliedValues>) {
+    fn compare(
+        &mut self,
+        condition: u32,
+        (kind, asking): (ConditionKind, Option<Asking>),
+        answers: Vec<ImpliedValues>,
+    ) {
         let place = condition as usize;
-        let is_own = |target: &RegionTarget| matches!(target, RegionTarget::Variable(name) if self.is_own(name));
-        let asking = question.reads.as_ref();
-        let asking = asking.filter(|asking| !asking.reads.iter().any(is_own));
+        let is_own =
+            |target: &Location| matches!(target, Location::Variable(name) if self.is_own(name));
+        let asking = asking.as_ref();
+        let asking = asking.filter(|asking| !asking.meaning.reads.iter().any(is_own));
         let is_again = self.state.is_asked_again(place);
         let State {
             track,
@@ -321,12 +319,12 @@ impl Interpreter {
         };
         known.time = known.time.saturating_add(1);
         known.clashes.clear();
-        if is_again || !is_compared(question.kind) {
+        if is_again || !is_compared(kind) {
             track.readings.wait_for(asking);
         }
         // Other ways may name the same condition as it was asked before.
         let is_alone = known.time == 1 || (pending.is_empty() && ended.is_empty());
-        if let Some(asking) = asking.filter(|_| is_alone && is_compared(question.kind)) {
+        if let Some(asking) = asking.filter(|_| is_alone && is_compared(kind)) {
             let reading = RememberedCondition::of((condition, known.time), asking, answers);
             known.clashes = track.readings.ask(reading);
         }
@@ -376,11 +374,11 @@ impl State {
     }
 
     /// A question that reads no value, and so has one answer on all ways, as another way asked it.
-    fn asked_elsewhere(&self, key: &Arc<str>) -> Option<AskedCondition> {
+    fn asked_elsewhere(&self, meaning: &ConditionMeaning) -> Option<AskedCondition> {
         let ended = self.ended.iter().map(|ended| &ended.path);
         let paths = self.pending.iter().chain(ended);
         let mut asked = paths.flat_map(|path| &path.track.asked);
-        let found = asked.find(|asked| asked.reads.is_empty() && asked.key == *key);
+        let found = asked.find(|asked| asked.reads_nothing() && *asked.meaning == *meaning);
         found.cloned()
     }
 

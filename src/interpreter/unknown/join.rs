@@ -1,7 +1,6 @@
 //! Ways that join the one of the dry run again (R2.51, R2.52).
 
 use std::collections::HashSet;
-use std::sync::Arc;
 
 use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
@@ -16,8 +15,9 @@ use crate::interpreter::run::state::State;
 use crate::interpreter::run::ways::{
     AxisKinds, Branch, JumpTarget, OpenPath, PathState, RETURN, Remainder, Ways, join_names,
 };
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
-use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
+use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -42,13 +42,13 @@ impl Interpreter {
                 JumpTarget::Return | JumpTarget::Far => "the program may be left here, which",
                 JumpTarget::Block(_) => "a jump may leave this control block, which",
             };
-            let value = unknown_value(&way.cause, at.file);
+            let value = way.cause.seen_from(at.file);
             let message = format!(
                 "{what} depends on {value}; the dry run continues, and where both ways meet what differs is unknown"
             );
             let span = way.say.filter(|span| span.end > span.start);
             let span = span.unwrap_or(Span::new(0, at.text.len()));
-            let help = how_to_set(&way.cause);
+            let help = way.cause.advice();
             let fault = Fault::new(Code::Fc902, span, message).with_help(help);
             self.tell_once(&way.cause, what, fault, at);
         }
@@ -244,12 +244,12 @@ impl Interpreter {
         let written = &self.state.track.ways.written.0;
         self.state.effort.charge_region(ITEM + written.len());
         let later = written.iter().filter(|(_, seq)| **seq > since);
-        let later: Vec<RegionTarget> = later.map(|(target, _)| target.clone()).collect();
+        let later: Vec<Location> = later.map(|(target, _)| target.clone()).collect();
         if self.state.track.ways.everything > since {
             self.havoc_memory(&cause);
         }
         for target in &later {
-            self.lose(target, &cause);
+            self.write(target, Value::Unknown(cause.clone()));
         }
         for tail in way.tails {
             if tails.insert(tail) {
@@ -260,7 +260,7 @@ impl Interpreter {
 
     /// Makes unknown the possible effects of a section from a block on, and of the blocks that it
     /// jumps back to.
-    fn havoc_tail(&mut self, tail: Remainder, cause: &Arc<str>) {
+    fn havoc_tail(&mut self, tail: Remainder, cause: &Unknown) {
         let Remainder {
             unit,
             section,
@@ -298,7 +298,7 @@ impl Interpreter {
 
 impl State {
     /// A way that leaves now.
-    fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> OpenPath {
+    fn way(&self, depth: usize, target: EntryIndex, cause: Unknown) -> OpenPath {
         let count = self.control.compensation.len();
         self.effort.charge_region(ITEM + count);
         OpenPath {

@@ -11,7 +11,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::possible::Split;
 use crate::interpreter::run::way_set::WaySet;
-use crate::interpreter::values::cause::program;
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 
 impl Interpreter {
@@ -36,16 +36,12 @@ impl Interpreter {
         }
         self.state.effort.charge(ITEM * 8);
         let name: Arc<str> = self.machine.axis(axis).name.as_str().into();
-        let condition = self.state.ask_anew(Condition {
-            kind: ConditionKind::Call(kind),
-            place: left.place.clone(),
-            texts: vec![left.program.clone(), name],
-            cause: program(&left.program),
-            round: 0,
-            time: 0,
-            clashes: Vec::new(),
-            kept: None,
-        });
+        let condition = self.state.ask_anew(Condition::new(
+            ConditionKind::Call(kind),
+            left.place.clone(),
+            vec![left.program.to_string().into(), name],
+            Unknown::Program(left.program.clone()),
+        ));
         let reach = &self.state.track.reach;
         let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
         if let (Some(on), Some(off)) = (sides.next(), sides.next()) {

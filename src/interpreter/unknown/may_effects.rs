@@ -20,8 +20,8 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::lone_part::{LonePart, has_parts};
 use crate::interpreter::run::region::{Exit, Region, RegionEffect};
 use crate::interpreter::values::expression::unquoted;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::subscript;
-use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::variable::{canonical, with_subscripts};
 use crate::interpreter::values::work_budget::ITEM;
@@ -139,7 +139,7 @@ impl MayEffects<'_> {
         }
     }
 
-    fn writes(&mut self, target: RegionTarget) {
+    fn writes(&mut self, target: Location) {
         if self.region.written.insert(target.clone()) {
             self.region.targets.push(target);
         }
@@ -202,7 +202,7 @@ impl MayEffects<'_> {
                     self.effect(RegionEffect::All);
                 }
             }
-            Item::Unread(Unread::Parameters, _) => self.writes(RegionTarget::Parameters),
+            Item::Unread(Unread::Parameters, _) => self.writes(Location::Parameters),
             Item::Flow(flow, _) => self.flow(flow, at),
             Item::Return(back) if back.levels != ReturnLevels::One || back.target.is_some() => {
                 self.exit(Exit::Far);
@@ -363,9 +363,9 @@ impl MayEffects<'_> {
     fn deletes(&mut self, place: Expression, at: &BlockContext<'_>) {
         let target = Self::target(place, at);
         match &target {
-            Some(RegionTarget::Variable(name)) => self.writes(RegionTarget::Elements(name.clone())),
-            Some(RegionTarget::Parameter(Owner::Program, index)) => {
-                self.writes(RegionTarget::Elements(format!("P{index}")));
+            Some(Location::Variable(name)) => self.writes(Location::Elements(name.clone())),
+            Some(Location::Parameter(Owner::Program, index)) => {
+                self.writes(Location::Elements(format!("P{index}")));
             }
             _ => {}
         }
@@ -376,7 +376,7 @@ impl MayEffects<'_> {
 
     /// Returns the possible targets of an assignment. A place that has to be computed may be
     /// different each time.
-    fn target(place: Expression, at: &BlockContext<'_>) -> Option<RegionTarget> {
+    fn target(place: Expression, at: &BlockContext<'_>) -> Option<Location> {
         let root = place.end.checked_sub(1)?;
         let inner = place.start as usize..root as usize;
         let operands = at.block.nodes.get(inner).unwrap_or_default();
@@ -388,14 +388,14 @@ impl MayEffects<'_> {
             canonical(name).into_owned()
         };
         Some(match node {
-            Node::Parameter { owner, index } => RegionTarget::Parameter(*owner, *index),
-            Node::Variable { subscripts: 0 } => RegionTarget::Variable(name()),
+            Node::Parameter { owner, index } => Location::Parameter(*owner, *index),
+            Node::Variable { subscripts: 0 } => Location::Variable(name()),
             Node::Variable { .. } if is_plain => {
                 let values: Vec<String> = operands.iter().map(subscript).collect();
                 let name = with_subscripts(span.of(at.text), &values);
-                RegionTarget::Variable(name)
+                Location::Variable(name)
             }
-            Node::Variable { .. } => RegionTarget::Elements(name()),
+            Node::Variable { .. } => Location::Elements(name()),
             Node::IndexedParameter { owner, subscripts } => {
                 let index = match operands.first() {
                     Some(Node::Number(number)) if is_plain || *subscripts > 0 => rounded(*number),
@@ -403,19 +403,19 @@ impl MayEffects<'_> {
                 };
                 let index = index.and_then(|index| u32::try_from(index).ok());
                 match (index, *subscripts) {
-                    (Some(index), 0) => RegionTarget::Parameter(*owner, index),
+                    (Some(index), 0) => Location::Parameter(*owner, index),
                     (Some(index), _) if is_plain => {
                         let mut element = format!("P{index}");
                         for node in &operands[1..] {
                             element.extend(["[", &subscript(node), "]"]);
                         }
-                        RegionTarget::Variable(element)
+                        Location::Variable(element)
                     }
-                    (Some(index), _) => RegionTarget::Elements(format!("P{index}")),
-                    (None, _) => RegionTarget::Parameters,
+                    (Some(index), _) => Location::Elements(format!("P{index}")),
+                    (None, _) => Location::Parameters,
                 }
             }
-            Node::Unread => RegionTarget::Parameters,
+            Node::Unread => Location::Parameters,
             _ => return None,
         })
     }

@@ -18,7 +18,8 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::region::{Region, RegionEffect};
 use crate::interpreter::run::step::ControlStep;
-use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::language::HashAction;
@@ -30,7 +31,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn skip_unknown(
         &mut self,
         passed: Range<EntryIndex>,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) -> Option<ControlStep> {
@@ -49,7 +50,7 @@ impl Interpreter {
         &mut self,
         unit: usize,
         blocks: Range<EntryIndex>,
-        cause: &Arc<str>,
+        cause: &Unknown,
         by: PassedBy,
     ) {
         self.scratch.passed.push(PassedOver {
@@ -66,7 +67,7 @@ impl Interpreter {
         &mut self,
         unit: usize,
         range: Range<EntryIndex>,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) -> Arc<Region> {
         let version = self.state.control.memory.macro_version();
         let region = self.havoc_blocks(unit, range.clone(), cause);
@@ -82,7 +83,7 @@ impl Interpreter {
         &mut self,
         unit: usize,
         range: Range<EntryIndex>,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) -> Arc<Region> {
         let key = (unit, range.start, range.end);
         let version = self.state.control.memory.macro_version();
@@ -98,19 +99,19 @@ impl Interpreter {
         }
         let since = self.journal.since(key).filter(|_| !is_new);
         if let Some(written) = since {
-            let known: Vec<RegionTarget> = written
+            let known: Vec<Location> = written
                 .iter()
                 .filter(|written| region.writes(written))
                 .cloned()
                 .collect();
             self.state.effort.charge_region(written.len());
             for target in &known {
-                self.lose(target, cause);
+                self.write(target, Value::Unknown(cause.clone()));
             }
         } else {
             self.state.effort.charge_region(region.targets.len());
             for target in &region.targets {
-                self.lose(target, cause);
+                self.write(target, Value::Unknown(cause.clone()));
             }
         }
         self.journal.mark(key);
@@ -128,7 +129,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn havoc_block(
         &mut self,
         at: &BlockContext<'_>,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) -> Region {
         let version = self.state.control.memory.macro_version();
         let region = self.suffer_block(at, cause);
@@ -143,7 +144,7 @@ impl Interpreter {
         &mut self,
         call: &Call,
         at: &BlockContext<'_>,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) {
         let unit = self.running_unit();
         let region = self.region_of_call(unit, call, at);
@@ -151,7 +152,7 @@ impl Interpreter {
         self.scratch.unknown_call = Some(cause.clone());
     }
 
-    fn suffer_block(&mut self, at: &BlockContext<'_>, cause: &Arc<str>) -> Region {
+    fn suffer_block(&mut self, at: &BlockContext<'_>, cause: &Unknown) -> Region {
         let unit = self.running_unit();
         let region = self.region_of_block(unit, at);
         self.suffer_region(&region, unit, cause);
@@ -163,7 +164,7 @@ impl Interpreter {
         frame.map_or(0, |frame| frame.unit)
     }
 
-    fn suffer_region(&mut self, region: &Region, unit: usize, cause: &Arc<str>) {
+    fn suffer_region(&mut self, region: &Region, unit: usize, cause: &Unknown) {
         self.state.effort.charge_region(
             ITEM * (region.effects.len() + region.calls.len() + region.targets.len()),
         );
@@ -172,7 +173,7 @@ impl Interpreter {
             self.suffer(effect, unit, cause);
         }
         for target in &region.targets {
-            self.lose(target, cause);
+            self.write(target, Value::Unknown(cause.clone()));
         }
         let calls = region.calls.iter().map(|call| RegionCall {
             call: call.clone(),
@@ -184,7 +185,7 @@ impl Interpreter {
     }
 
     /// Something of the state may have changed.
-    fn suffer(&mut self, effect: &RegionEffect, unit: usize, cause: &Arc<str>) {
+    fn suffer(&mut self, effect: &RegionEffect, unit: usize, cause: &Unknown) {
         let modal = &mut self.state.control.modal;
         match effect {
             RegionEffect::Compensation(axis, kinds) => match self.state.control.addressed(axis) {
@@ -265,11 +266,11 @@ impl Interpreter {
             }
             callers.extend(region.map(|region| (region, cause.clone())));
             if self.is_external(&call) {
-                self.leave_to_machine(&call.name);
-                let name = call.name.clone();
+                let program = call.missing();
+                self.leave_to_machine(&program);
                 self.state
                     .control
-                    .perhaps_repeat(&call, RepeatedCall::External(name));
+                    .perhaps_repeat(&call, RepeatedCall::External(program));
                 continue;
             }
             let caller = self

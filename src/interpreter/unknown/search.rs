@@ -12,6 +12,7 @@ use crate::interpreter::run::path::Last;
 use crate::interpreter::run::possible::{PossibleSide, join};
 use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::values::cause::Unknown;
 use crate::readings::{Alternative, Question};
 use crate::text::Span;
 
@@ -95,16 +96,12 @@ impl Interpreter {
             }
             return;
         }
-        let condition = self.state.ask_anew(Condition {
-            kind: ConditionKind::Search,
-            place: at.place(Span::new(0, at.text.trim_end().len())),
-            texts: vec![Arc::from("executed")],
-            cause: Arc::from("the block search"),
-            round: 0,
-            time: 0,
-            clashes: Vec::new(),
-            kept: None,
-        });
+        let condition = self.state.ask_anew(Condition::new(
+            ConditionKind::Search,
+            at.place(Span::new(0, at.text.trim_end().len())),
+            vec![Arc::from("executed")],
+            Unknown::Search,
+        ));
         let reach = &self.state.track.reach;
         let sides: Vec<WaySet> = answers(condition, 2)
             .map(|answer| reach.and(&WaySet::of(answer)))

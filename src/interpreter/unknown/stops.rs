@@ -14,7 +14,7 @@ use crate::interpreter::run::path::{EndedPath, Passed};
 use crate::interpreter::run::stopping::{FailedAt, stops};
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::Ways;
-use crate::interpreter::values::cause::ERROR_COMMAND;
+use crate::interpreter::values::cause::Unknown;
 use crate::readings::Question;
 use crate::text::Span;
 
@@ -138,16 +138,12 @@ impl Interpreter {
             return vec![(ways.clone(), NextStart::Reset)];
         }
         self.state.rests_on.insert(Question::Restart);
-        let condition = self.state.ask_anew(Condition {
-            kind: ConditionKind::Restart,
-            place: at.place(Span::new(0, at.text.trim_end().len())),
-            texts: vec![Arc::from("restarted")],
-            cause: Arc::from(ERROR_COMMAND),
-            round: 0,
-            time: 0,
-            clashes: Vec::new(),
-            kept: None,
-        });
+        let condition = self.state.ask_anew(Condition::new(
+            ConditionKind::Restart,
+            at.place(Span::new(0, at.text.trim_end().len())),
+            vec![Arc::from("restarted")],
+            Unknown::RemedyClass,
+        ));
         let starts = [NextStart::Restart, NextStart::Reset];
         let answers = answers(condition, 2).map(|answer| ways.and(&WaySet::of(answer)));
         answers.zip(starts).collect()

@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
@@ -15,8 +14,9 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Region, RegionEffect};
 use crate::interpreter::run::undecided::{Differing, Undecided};
 use crate::interpreter::run::ways::JumpTarget;
-use crate::interpreter::values::cause::{decided_level, how_to_set, unknown_value};
-use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::location::Location;
+use crate::interpreter::values::variable::VariableFamily;
 use crate::language::{GAction, GFunction, Group, HashAction, HashWords};
 use crate::machine::Parameters;
 use crate::syntax::Fault;
@@ -30,24 +30,24 @@ impl Interpreter {
     /// soon as the programs that the part may call are known.
     pub(in crate::interpreter) fn open_undecided(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
     ) {
         if self.scratch.unread.get() || self.scratch.undecided.is_some() {
             return;
         }
-        let message = match decided_level(cause) {
-            Some(level) if at.block.skip == Some(level) => format!(
+        let message = match cause {
+            Unknown::SkipLevel(level) if at.block.skip == Some(*level) => format!(
                 "whether the control executes the blocks of {cause} depends on a switch of the \
                  machine; whatever they could change is unknown from here on"
             ),
             _ => format!(
                 "this control block depends on {}; whatever it could change is unknown from here on",
-                unknown_value(cause, at.file)
+                cause.seen_from(at.file)
             ),
         };
-        let fault = Fault::new(Code::Fc901, span, message).with_help(how_to_set(cause));
+        let fault = Fault::new(Code::Fc901, span, message).with_help(cause.advice());
         let said = at.diagnostic(fault);
         let said = self.state.told.with_origin(said, cause, at);
         self.scratch.undecided = Some(Box::new(Undecided {
@@ -80,7 +80,7 @@ impl Interpreter {
             .unwrap_or_default()
             .to_vec();
         if !doubted.is_empty()
-            && let Some(level) = decided_level(&cause)
+            && let Unknown::SkipLevel(level) = cause
         {
             doubted.extend(self.switched_by_level(level));
         }
@@ -119,7 +119,7 @@ impl Interpreter {
             message.push_str(&named.join(", "));
         }
         // For a control block, FC902 reports this.
-        if let Some(leaves) = differing.leaves.filter(|_| decided_level(&cause).is_some()) {
+        if let (Some(leaves), Unknown::SkipLevel(_)) = (differing.leaves, &cause) {
             let message = &mut self.scratch.diagnostics[said].message;
             message.push_str("; ");
             message.push_str(leaves);
@@ -153,20 +153,18 @@ impl Interpreter {
         let Some(mut undecided) = self.scratch.undecided.take() else {
             return;
         };
-        let is_skip = decided_level(&undecided.cause).is_some();
+        let is_skip = matches!(undecided.cause, Unknown::SkipLevel(_));
         for effect in &region.effects {
             self.weigh(effect, is_skip, &mut undecided.differing);
         }
         for target in &region.targets {
-            if let RegionTarget::Variable(name) | RegionTarget::Elements(name) = target
+            if let Location::Variable(name) | Location::Elements(name) = target
                 && outlives(name)
             {
                 undecided.differing.name(format!("`{name}`"));
             }
-            if matches!(
-                target,
-                RegionTarget::Parameter(..) | RegionTarget::Parameters
-            ) && self.machine.parameters == Parameters::Kept
+            if matches!(target, Location::Parameter(..) | Location::Parameters)
+                && self.machine.parameters == Parameters::Kept
             {
                 undecided.differing.decides = true;
             }
@@ -241,9 +239,9 @@ impl Interpreter {
         for effect in &region.effects {
             self.weigh(effect, false, &mut differing);
         }
-        let outlives = |target: &RegionTarget| match target {
-            RegionTarget::Variable(name) | RegionTarget::Elements(name) => outlives(name),
-            RegionTarget::Parameter(..) | RegionTarget::Parameters => {
+        let outlives = |target: &Location| match target {
+            Location::Variable(name) | Location::Elements(name) => outlives(name),
+            Location::Parameter(..) | Location::Parameters => {
                 self.machine.parameters == Parameters::Kept
             }
         };
@@ -310,6 +308,5 @@ fn weigh_command(command: HashWords, differing: &mut Differing) {
 
 /// Whether a variable is read by others than the program that writes it (R2.34, R2.36).
 fn outlives(name: &str) -> bool {
-    let own = ["V.P.", "V.L.", "V.CYC."];
-    name.starts_with("V.") && !own.iter().any(|prefix| name.starts_with(prefix))
+    VariableFamily::of(name).is_read_by_others()
 }

@@ -2,10 +2,10 @@
 //! arrays, macros, kept parameters, coupling groups.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::cause::Unknown;
 use super::value::Value;
 use crate::interpreter::run::carried_ways::CarriedWays;
 
@@ -28,17 +28,17 @@ pub struct Carried {
     pub variables: BTreeMap<String, Value>,
     /// Arrays of which some element was written, but it is not known which, with the value that made it
     /// so.
-    pub lost: BTreeMap<String, Arc<str>>,
+    pub lost: BTreeMap<String, Unknown>,
     /// Declared arrays.
     pub arrays: BTreeMap<String, ArrayShape>,
     /// P parameters, where the machine keeps them.
     pub parameters: BTreeMap<u32, Value>,
     /// Set when some kept parameter was written, but it is not known which.
-    pub lost_parameters: Option<Arc<str>>,
+    pub lost_parameters: Option<Unknown>,
     /// Macros with their code.
     pub macros: BTreeMap<String, String>,
     /// Macros that may have been redefined, with the value that made it so.
-    pub lost_macros: BTreeMap<String, Arc<str>>,
+    pub lost_macros: BTreeMap<String, Unknown>,
     /// The coupling groups that `#SET AX LINK` defined, with the names of their axes.
     pub couplings: BTreeMap<String, Vec<String>>,
     /// The kinds that are unknown because ways differ.

@@ -1,106 +1,315 @@
-//! Names of values that are not known offline in messages, and the advice on them (R2.50).
+//! What makes values unknown: its words in messages, and the advice on it (R2.50).
 
+use std::fmt;
 use std::sync::Arc;
 
-use super::externals::SetVariable;
-use crate::diagnostic::Advice;
+use serde::{Deserialize, Serialize};
+
+use super::externals::SetAt;
+use crate::diagnostic::{Advice, Budget};
 use crate::language::is_command;
 
-/// The name of a skip level as a cause.
-const SKIP: &str = "skip level ";
-
-/// The name of a missing program as a cause.
-const PROGRAM: &str = "program ";
-
-/// The signal of a probe as a cause (R2.91).
-pub(in crate::interpreter) const PROBE: &str = "the signal of the probe";
-
-/// The remedy class of `#ERROR` that is left out, as a cause (R2.100).
-pub(in crate::interpreter) const ERROR_COMMAND: &str = "#ERROR";
-
-/// A skip level as the deciding value (R2.90).
-pub(in crate::interpreter) fn skip_level(level: u8) -> Arc<str> {
-    format!("{SKIP}{level}").into()
+/// Something that only the machine knows and that makes values unknown (R2.50).
+///
+/// A saved state has the words of those without data, as states before schema 4 have them.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum Unknown {
+    /// The switch of a skip level (R2.90).
+    SkipLevel(u8),
+    /// The signal of a probe (R2.91).
+    #[serde(rename = "the signal of the probe")]
+    Probe,
+    /// A program that is missing (R2.83, R2.95).
+    Program(MissingProgram),
+    /// A variable that the program set and the PLC may have changed (R2.99).
+    Changed(Arc<ChangedVariable>),
+    /// The remedy class of `#ERROR` that is left out (R2.100).
+    #[serde(rename = "#ERROR")]
+    RemedyClass,
+    /// The reaction of the control to a missing jump label.
+    #[serde(rename = "a missing jump label")]
+    MissingLabel,
+    /// The reaction of the control to a feed move without a feed, error 20008 (R2.110).
+    #[serde(rename = "error 20008")]
+    MissingFeed,
+    /// The number of passes of a loop (R14.3).
+    #[serde(rename = "a loop that is repeated")]
+    Passes,
+    /// The ways past the budget of ways, which are not followed (R14.4).
+    #[serde(rename = "ways that are not followed")]
+    Ways,
+    /// What the control would do past the budget of work (R2.60).
+    #[serde(rename = "the budget of work")]
+    Work,
+    /// The effect of a block search on the commands that it passes (R2.96).
+    #[serde(rename = "the block search")]
+    Search,
+    /// A modal cycle that may be in force, by the name of its program (R2.13).
+    Cycle(Arc<str>),
+    /// A parameter, a variable or other text of a program.
+    #[serde(untagged)]
+    Text(UnknownText),
 }
 
-/// The skip level that decides, where one does.
-pub(in crate::interpreter) fn decided_level(name: &str) -> Option<u8> {
-    name.strip_prefix(SKIP)?.parse().ok()
+/// A program that only the machine has.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum MissingProgram {
+    /// The program of a name.
+    Named(Arc<str>),
+    /// The program that a G function calls, by its number (R2.94).
+    OfG(u32),
 }
 
-/// A missing program as the deciding value (R2.83, R2.95).
-pub(in crate::interpreter) fn program(name: &str) -> Arc<str> {
-    format!("{PROGRAM}{name}").into()
+/// A variable that the program set and the PLC may have changed, with the value and the block that set it.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct ChangedVariable {
+    /// The name of the variable.
+    pub name: Arc<str>,
+    /// The value, as a program writes it.
+    pub value: Arc<str>,
+    /// The path of the file.
+    pub file: Arc<str>,
+    /// The line of the block, from 1.
+    pub line: u32,
 }
 
-/// A value that is not known offline, with the reason, as seen from a file.
-pub(in crate::interpreter) fn unknown_value(name: &str, file: &str) -> String {
-    if let Some(set) = SetVariable::of(name) {
-        set.seen_from(file)
-    } else if decided_level(name).is_some() {
-        format!("{name}, a switch of the machine")
-    } else if name == PROBE {
-        format!("{name}, which only the machine knows")
-    } else if let Some(program) = name.strip_prefix(PROGRAM) {
-        let of = if is_word(program) { "of " } else { "" };
-        format!("the program {of}`{program}`, which is missing")
-    } else if name.starts_with("V.S.") {
-        format!("`{name}`, which a program before this one may have left")
-    } else if is_settable(name) {
-        format!("`{name}`, which only the machine knows")
-    } else if name == ERROR_COMMAND {
-        format!("what the control does at `{name}`")
-    } else if is_command(name) {
-        format!("`{name}`, whose result only the machine knows")
-    } else {
-        format!("`{name}`, which frictcomp does not know")
+/// Text of a program whose value is not known.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(from = "Arc<str>", into = "Arc<str>")]
+pub struct UnknownText {
+    text: Arc<str>,
+    meaning: TextMeaning,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+enum TextMeaning {
+    /// A parameter, a variable or an address.
+    Value,
+    /// A variable that outlives programs.
+    Inherited,
+    /// A `#` command.
+    Command,
+    NotUnderstood,
+}
+
+impl From<Arc<str>> for UnknownText {
+    fn from(text: Arc<str>) -> Self {
+        let meaning = match text.as_bytes() {
+            [b'#', ..] if is_command(&text) => TextMeaning::Command,
+            text if text.contains(&b' ') => TextMeaning::NotUnderstood,
+            [b'V', b'.', b'S', b'.', ..] => TextMeaning::Inherited,
+            [b'V' | b'v', b'.', ..]
+            | [b'A'..=b'Z']
+            | [b'P' | b'p', b'0'..=b'9', ..]
+            | [b'@', b'P' | b'p', b'0'..=b'9', ..] => TextMeaning::Value,
+            _ => TextMeaning::NotUnderstood,
+        };
+        Self { text, meaning }
     }
 }
 
-/// Whether a missing program is named by the G word that calls it (R2.94).
-fn is_word(program: &str) -> bool {
-    let number = program.strip_prefix('G').unwrap_or_default();
-    !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit())
+impl From<UnknownText> for Arc<str> {
+    fn from(text: UnknownText) -> Self {
+        text.text
+    }
 }
 
-/// Whether a name is one of a parameter or variable.
-fn is_settable(name: &str) -> bool {
-    let name = name.strip_prefix('@').unwrap_or(name);
-    name.starts_with("V.")
-        || name.starts_with("v.")
-        || name
-            .strip_prefix(['P', 'p'])
-            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-        || matches!(name.as_bytes(), [b'A'..=b'Z'])
-}
+impl Unknown {
+    /// Text of a program: a parameter, a variable, an address, a command, or what is not understood.
+    pub fn text(text: impl Into<Arc<str>>) -> Self {
+        Self::Text(text.into().into())
+    }
 
-/// Returns the advice by which a user makes a value known.
-pub(in crate::interpreter) fn how_to_set(name: &str) -> Advice {
-    if let Some(level) = decided_level(name) {
-        return Advice::SetSkip(level);
+    /// A variable after the PLC may have changed the value that the program set.
+    pub(in crate::interpreter) fn changed(name: &str, value: String, at: &SetAt) -> Self {
+        Self::Changed(Arc::new(ChangedVariable {
+            name: name.into(),
+            value: value.into(),
+            file: at.file.clone(),
+            line: at.line,
+        }))
     }
-    if name == PROBE {
-        return "set the state afterwards, for example with `X[COMP ON FRICT]`".into();
-    }
-    if let Some(program) = name.strip_prefix(PROGRAM) {
-        if is_word(program) {
-            return format!("FC325 says how to describe `{program}`").into();
+
+    /// Its words in a message, with the reason why it is not known, as seen from a file.
+    pub(in crate::interpreter) fn seen_from(&self, file: &str) -> String {
+        match self {
+            Self::SkipLevel(_) => format!("{self}, a switch of the machine"),
+            Self::Probe => format!("{self}, which only the machine knows"),
+            Self::Program(MissingProgram::Named(name)) => {
+                format!("the program `{name}`, which is missing")
+            }
+            Self::Program(word) => format!("the program of `{word}`, which is missing"),
+            Self::Changed(changed) => changed.seen_from(file),
+            Self::RemedyClass => format!("what the control does at `{self}`"),
+            Self::MissingLabel | Self::MissingFeed => format!("what the control does at {self}"),
+            Self::Passes => "how often a loop is repeated".to_owned(),
+            Self::Search => "whether the block search executes what it passes".to_owned(),
+            Self::Cycle(name) => format!("whether the modal cycle `{name}` is in force"),
+            Self::Ways | Self::Work => self.to_string(),
+            Self::Text(UnknownText { text, meaning }) => {
+                let why = match meaning {
+                    TextMeaning::Value => "which only the machine knows",
+                    TextMeaning::Inherited => "which a program before this one may have left",
+                    TextMeaning::Command => "whose result only the machine knows",
+                    TextMeaning::NotUnderstood => "which frictcomp does not know",
+                };
+                format!("`{text}`, {why}")
+            }
         }
-        return format!("give frictcomp `{program}`, or say in `[machine.external_keeps]` that it keeps parameters").into();
     }
-    if name == ERROR_COMMAND {
-        return "`RC=0` lets the program go on, `RC=2` stops it".into();
+
+    /// The advice by which a user makes it known.
+    pub(in crate::interpreter) fn advice(&self) -> Advice {
+        match self {
+            Self::SkipLevel(level) => Advice::SetSkip(*level),
+            Self::Probe => "set the state afterwards, for example with `X[COMP ON FRICT]`".into(),
+            Self::Program(MissingProgram::Named(name)) => format!("give frictcomp `{name}`, or say in `[machine.external_keeps]` that it keeps parameters").into(),
+            Self::Program(word) => format!("FC325 says how to describe `{word}`").into(),
+            Self::Changed(changed) => Advice::SetVariable(changed.name.to_string()),
+            Self::RemedyClass => "`RC=0` lets the program go on, `RC=2` stops it".into(),
+            Self::MissingLabel => "write the label that the jump looks for".into(),
+            Self::MissingFeed => "write a feed before the first feed move".into(),
+            Self::Passes => "give the values that decide how often the loop is repeated".into(),
+            Self::Ways => Advice::RaiseBudget(Budget::Ways),
+            Self::Work => Advice::RaiseBudget(Budget::Work),
+            Self::Search => "`\"R2.96\"` in `[reading]` of frictcomp.toml decides".into(),
+            Self::Cycle(name) => format!("FC901 or FC902 shows what decides whether `{name}` is in force").into(),
+            Self::Text(UnknownText { text, meaning }) => match meaning {
+                TextMeaning::Value | TextMeaning::Inherited => Advice::SetVariable(text.to_string()),
+                TextMeaning::Command => format!("to check one case, assign the value in a block after `{text}`").into(),
+                TextMeaning::NotUnderstood => format!("FC210, FC207 or FC902 shows where `{text}` first occurs").into(),
+            },
+        }
     }
-    if is_command(name) {
-        return format!("to check one case, assign the value in a block after `{name}`").into();
+
+    /// Whether a block shows it.
+    pub(in crate::interpreter) fn is_shown_in(&self, text: &str) -> bool {
+        match self {
+            Self::Text(of) => text.contains(&*of.text),
+            Self::Changed(changed) => text.contains(&*changed.name),
+            Self::Cycle(name) => text.contains(&**name),
+            Self::RemedyClass => text.contains("#ERROR"),
+            _ => false,
+        }
     }
-    if !is_settable(name) {
-        return format!("FC210, FC207 or FC902 shows where `{name}` first occurs").into();
+
+    /// Its words where it decides something: `` `V.E.A` ``, a missing jump label.
+    pub(in crate::interpreter) fn quoted(&self) -> String {
+        match self {
+            Self::Text(_) | Self::RemedyClass | Self::Cycle(_) => format!("`{self}`"),
+            _ => self.to_string(),
+        }
     }
-    Advice::SetVariable(name_of(name).to_owned())
 }
 
-/// The name by which a user knows a value that is not known offline.
-pub(in crate::interpreter) fn name_of(cause: &str) -> &str {
-    SetVariable::of(cause).map_or(cause, |set| set.name)
+impl fmt::Display for Unknown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SkipLevel(level) => write!(f, "skip level {level}"),
+            Self::Probe => f.write_str("the signal of the probe"),
+            Self::Program(name) => write!(f, "program {name}"),
+            Self::Changed(changed) => {
+                let ChangedVariable {
+                    name,
+                    value,
+                    file,
+                    line,
+                } = &**changed;
+                write!(f, "{name}, which {file}:{line} set to {value}")
+            }
+            Self::RemedyClass => f.write_str("#ERROR"),
+            Self::MissingLabel => f.write_str("a missing jump label"),
+            Self::MissingFeed => f.write_str("error 20008"),
+            Self::Passes => f.write_str("a loop that is repeated"),
+            Self::Ways => f.write_str("ways that are not followed"),
+            Self::Work => f.write_str("the budget of work"),
+            Self::Search => f.write_str("the block search"),
+            Self::Cycle(name) => f.write_str(name),
+            Self::Text(text) => f.write_str(&text.text),
+        }
+    }
+}
+
+impl fmt::Debug for Unknown {
+    /// Its words, as a text.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.to_string())
+    }
+}
+
+impl fmt::Display for MissingProgram {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Named(name) => f.write_str(name),
+            Self::OfG(number) => write!(f, "G{number}"),
+        }
+    }
+}
+
+impl ChangedVariable {
+    fn seen_from(&self, file: &str) -> String {
+        let Self {
+            name, value, line, ..
+        } = self;
+        let place = if *self.file == *file {
+            format!("line {line}")
+        } else {
+            format!("{}:{line}", self.file)
+        };
+        format!("`{name}`, which {place} set to {value} and the PLC may have changed")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_names_the_block_that_set_a_variable() {
+        // R2.99
+        let at = SetAt {
+            file: "a (1).nc".into(),
+            line: 3,
+        };
+        let changed = Unknown::changed("V.E.N[2]", "\"A, which b.nc:2 set to B\"".to_owned(), &at);
+        assert_eq!(
+            changed.seen_from("b.nc"),
+            "`V.E.N[2]`, which a (1).nc:3 set to \"A, which b.nc:2 set to B\" and the PLC may have changed"
+        );
+        assert!(changed.seen_from("a (1).nc").contains("which line 3 set"));
+    }
+
+    #[test]
+    fn only_a_name_can_be_given_a_value() {
+        // R2.50
+        let advice = |text: &str| Unknown::text(text).advice();
+        for name in ["P5", "@P1", "V.E.A[P1,2]", "V.S.A", "M"] {
+            assert_eq!(advice(name), Advice::SetVariable(name.to_owned()));
+        }
+        for other in ["P5 / 0", "V.E.A, which a.nc:3 set to 1", "#BLA"] {
+            assert!(matches!(advice(other), Advice::Words(_)), "{other}");
+        }
+    }
+
+    #[test]
+    fn states_of_every_schema_are_read() {
+        // R9.30
+        for (saved, known) in [
+            ("\"V.S.A\"", Unknown::text("V.S.A")),
+            ("\"#ERROR\"", Unknown::RemedyClass),
+            ("\"the signal of the probe\"", Unknown::Probe),
+            ("{\"SkipLevel\":2}", Unknown::SkipLevel(2)),
+            (
+                "{\"Program\":{\"OfG\":80}}",
+                Unknown::Program(MissingProgram::OfG(80)),
+            ),
+        ] {
+            assert_eq!(serde_json::to_string(&known).expect("text"), saved);
+            let read: Unknown = serde_json::from_str(saved).expect(saved);
+            assert_eq!(read, known);
+        }
+    }
 }

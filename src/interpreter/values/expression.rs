@@ -5,18 +5,17 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use super::externals::{HeldValues, SetVariable};
+use super::cause::Unknown;
+use super::externals::HeldValues;
 use super::found::VariableUse;
 use super::functions::{binary, call, fault, numeric, wrong_type};
+use super::location::{Denoted, Location};
 use super::memory::Memory;
 use super::names::parts;
-use super::parameter_key::ParameterKey;
 use super::reads::Reads;
-use super::target::{AssignedPlace, RegionTarget};
 use super::value::{Slot, Value, rounded};
-use super::variable::{as_written, canonical, set_name, with_subscripts};
+use super::variable::{VariableFamily, as_written, canonical, set_name, with_subscripts};
 use super::work_budget::{ITEM, WorkBudget};
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
@@ -151,21 +150,21 @@ impl Evaluator<'_> {
                 Node::Text => self.text(span),
                 Node::Parameter { owner, index } => self.parameter(owner, index, span),
                 Node::IndexedParameter { owner, subscripts } => {
-                    ParameterKey::pop(owner, usize::from(subscripts), span, stack)
-                        .and_then(|key| self.keyed_parameter(&key, span))
+                    Denoted::pop_parameter(owner, usize::from(subscripts), span, stack)
+                        .and_then(|place| self.denoted(place, span))
                 }
                 Node::Variable { subscripts: 0 } => {
                     self.variable(&canonical(span.of(self.text)), span)
                 }
                 Node::Variable { subscripts } => self
-                    .variable_key(at, usize::from(subscripts), stack)
-                    .and_then(|key| self.keyed_variable(key, span)),
+                    .computed_variable(at, usize::from(subscripts), stack)
+                    .and_then(|place| self.denoted(place, span)),
                 Node::Unread => {
                     self.scope.unread.set(true);
                     let text = span.of(self.text).trim();
-                    Ok(Value::Unknown(
-                        text.chars().take(40).collect::<String>().into(),
-                    ))
+                    Ok(Value::Unknown(Unknown::text(
+                        text.chars().take(40).collect::<String>(),
+                    )))
                 }
                 Node::Negate => pop(stack).and_then(|value| match value {
                     Value::Number(number) => Ok(Value::Number(-number)),
@@ -210,27 +209,28 @@ impl Evaluator<'_> {
     fn perhaps_there(&self, function: Function, at: usize) -> Option<Value> {
         self.scope.used.filter(|_| function == Function::Exist)?;
         let argument = at.checked_sub(1)?;
-        let name = match self.block.nodes[argument] {
-            Node::Variable { subscripts: 0 } => canonical(self.block.spans[argument].of(self.text)),
+        let location = match self.block.nodes[argument] {
+            Node::Variable { subscripts: 0 } => {
+                let text = self.block.spans[argument].of(self.text);
+                Location::Variable(canonical(text).into_owned())
+            }
             Node::Parameter {
                 owner: Owner::Program,
                 index,
-            } => format!("P{index}").into(),
+            } => Location::Parameter(Owner::Program, index),
             _ => return None,
         };
-        let is_found = self.scope.memory.is_found(&name);
-        is_found.then(|| Value::Unknown(name.as_ref().into()))
+        let is_found = self.scope.memory.is_found(&location);
+        is_found.then(|| Value::Unknown(Unknown::text(location.to_string())))
     }
 
     /// Notes a value that the program may have found.
-    fn note_found(&self, name: &str) {
-        let base = parts(name).0;
-        if let Some(used) = self
-            .scope
-            .used
-            .filter(|_| self.scope.memory.is_unwritten(base))
-        {
-            used.borrow_mut().want(base);
+    fn note_found(&self, location: impl FnOnce() -> Location) {
+        if let Some(used) = self.scope.used {
+            let location = location();
+            if self.scope.memory.is_unwritten(&location) {
+                used.borrow_mut().want(location);
+            }
         }
     }
 
@@ -248,12 +248,10 @@ impl Evaluator<'_> {
 
     fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
         if let Some(reads) = self.scope.reads {
-            reads
-                .borrow_mut()
-                .note(RegionTarget::Parameter(owner, index));
+            reads.borrow_mut().note(Location::Parameter(owner, index));
         }
-        if self.scope.used.is_some() && owner == Owner::Program {
-            self.note_found(&format!("P{index}"));
+        if owner == Owner::Program {
+            self.note_found(|| Location::Parameter(owner, index));
         }
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
@@ -274,21 +272,19 @@ impl Evaluator<'_> {
     fn outside(&self, name: &str, span: Span) -> Value {
         self.scope.memory.variable(name).unwrap_or_else(|| {
             (self.scope.unknown)(name, self.shown.unwrap_or(span));
-            Value::Unknown(name.into())
+            Value::Unknown(Unknown::text(name))
         })
     }
 
-    fn keyed_parameter(&self, key: &ParameterKey, span: Span) -> Slot {
-        match key {
-            ParameterKey::Plain(owner, index) => self.parameter(*owner, *index, span),
-            ParameterKey::Element(name) => {
-                self.note_read(name);
-                let known = self.scope.memory.variable(name);
-                let given = || self.scope.memory.given(name).cloned();
-                let known = known.or_else(given).or_else(|| self.as_set(span));
-                known.ok_or_else(|| never_written(span, self.text))
+    /// The value of a parameter or variable that is computed.
+    fn denoted(&self, place: Denoted, span: Span) -> Slot {
+        match (place.location, place.decided_by) {
+            (_, Some(cause)) => Ok(self.as_set(span).unwrap_or(Value::Unknown(cause))),
+            (Location::Parameter(owner, index), None) => self.parameter(owner, index, span),
+            (Location::Variable(name) | Location::Elements(name), None) => {
+                self.variable(&name, span)
             }
-            ParameterKey::Unknown(_, cause) => Ok(cause.clone()),
+            (Location::Parameters, None) => Ok(Value::Unknown(Unknown::text("P"))),
         }
     }
 
@@ -322,13 +318,13 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The full name of a variable whose subscripts are on the stack.
-    fn variable_key(
+    /// The variable whose subscripts are on the stack.
+    fn computed_variable(
         &self,
         at: usize,
         subscripts: usize,
         stack: &mut Vec<Slot>,
-    ) -> Result<VariableKey, Box<Fault>> {
+    ) -> Result<Denoted, Box<Fault>> {
         let from = stack.len().saturating_sub(subscripts);
         let mut values = Vec::with_capacity(subscripts);
         let mut unknown = None;
@@ -344,18 +340,10 @@ impl Evaluator<'_> {
         let text = self.block.spans[at].of(self.text);
         if let Some(cause) = unknown {
             let array = text.split('[').next().unwrap_or_default();
-            return Ok(VariableKey::Unknown(canonical(array).into_owned(), cause));
+            let elements = Location::Elements(canonical(array).into_owned());
+            return Ok(Denoted::any_of(elements, cause));
         }
-        Ok(VariableKey::Name(with_subscripts(text, &values)))
-    }
-
-    fn keyed_variable(&self, key: VariableKey, span: Span) -> Slot {
-        match key {
-            VariableKey::Name(name) => self.variable(&name, span),
-            VariableKey::Unknown(_, cause) => {
-                Ok(self.as_set(span).unwrap_or(Value::Unknown(cause)))
-            }
-        }
+        Ok(Location::Variable(with_subscripts(text, &values)).into())
     }
 
     /// The value that the user gave an element as the program writes it.
@@ -367,16 +355,15 @@ impl Evaluator<'_> {
     }
 
     fn note_read(&self, name: &str) {
-        self.note_found(name);
+        self.note_found(|| Location::named(parts(name).0));
         if let Some(reads) = self.scope.reads {
-            reads
-                .borrow_mut()
-                .note(RegionTarget::Variable(name.to_owned()));
+            reads.borrow_mut().note(Location::Variable(name.to_owned()));
         }
     }
 
     fn variable(&self, name: &str, span: Span) -> Slot {
-        if name.starts_with("V.A.") || name.starts_with("V.E.") {
+        let family = VariableFamily::of(name);
+        if matches!(family, VariableFamily::Axis | VariableFamily::External) {
             self.scope.waits.set(true);
         }
         self.note_read(name);
@@ -389,13 +376,13 @@ impl Evaluator<'_> {
         if let Some(value) = self.as_set(span) {
             return Ok(value);
         }
-        if is_program_variable(name) {
+        if is_program_variable(family) {
             return Err(never_written(span, self.text));
         }
         Ok((self.scope.system)(name).unwrap_or_else(|| {
             let written = as_written(span.of(self.text));
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
-            Value::Unknown(written.into())
+            Value::Unknown(Unknown::text(written))
         }))
     }
 
@@ -403,9 +390,7 @@ impl Evaluator<'_> {
     fn relied_on(&self, name: &str, value: Value, span: Span) -> Value {
         let memory = self.scope.memory;
         let is_known = !matches!(value, Value::Unknown(_));
-        if let Value::Unknown(cause) = &value
-            && SetVariable::of(cause).is_some()
-        {
+        if let Value::Unknown(Unknown::Changed(_)) = &value {
             let written = as_written(span.of(self.text));
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
         }
@@ -417,7 +402,7 @@ impl Evaluator<'_> {
             self.scope.relied.borrow_mut().push(name.to_owned());
         }
         match self.scope.held {
-            HeldValues::Doubted if is_known && is_held => Value::Unknown(name.into()),
+            HeldValues::Doubted if is_known && is_held => Value::Unknown(Unknown::text(name)),
             HeldValues::Taken | HeldValues::Doubted => value,
         }
     }
@@ -428,7 +413,7 @@ impl Evaluator<'_> {
         let argument = text.split_once('[').map_or("", |(_, argument)| argument);
         let name = argument.split(['[', ']', ',']).next().unwrap_or_default();
         let name = name.trim();
-        self.note_found(name);
+        self.note_found(|| Location::named(name));
         let place = match dimension.transpose()? {
             Some(Value::Unknown(cause)) => return Ok(Value::Unknown(cause)),
             Some(value) => numeric(&value, span)?.and_then(rounded).unwrap_or(1),
@@ -444,11 +429,15 @@ impl Evaluator<'_> {
                     "the array does not have that many dimensions",
                 )),
             },
-            None if self.scope.memory.is_found(name) => Ok(Value::Unknown(name.into())),
-            None if is_program_variable(name) => Err(never_written(span, self.text)),
+            None if self.scope.memory.is_found(&Location::named(name)) => {
+                Ok(Value::Unknown(Unknown::text(name)))
+            }
+            None if is_program_variable(VariableFamily::of(name)) => {
+                Err(never_written(span, self.text))
+            }
             None => {
                 (self.scope.unknown)(name, self.shown.unwrap_or(span));
-                Ok(Value::Unknown(name.into()))
+                Ok(Value::Unknown(Unknown::text(name)))
             }
         }
     }
@@ -458,10 +447,10 @@ impl Evaluator<'_> {
         &self,
         place: Expression,
         stack: &mut Vec<Slot>,
-    ) -> Result<AssignedPlace, Box<Fault>> {
+    ) -> Result<Option<Denoted>, Box<Fault>> {
         let bottom = stack.len();
         let Some(root) = place.end.checked_sub(1) else {
-            return Ok(AssignedPlace::Nowhere);
+            return Ok(None);
         };
         self.run(
             Expression {
@@ -473,38 +462,28 @@ impl Evaluator<'_> {
         let root = root as usize;
         let span = self.block.spans[root];
         let found = match self.block.nodes[root] {
-            Node::Parameter { owner, index } => Ok(AssignedPlace::Parameter(owner, index)),
+            Node::Parameter { owner, index } => Ok(Location::Parameter(owner, index).into()),
             Node::Unread => {
                 self.scope.unread.set(true);
-                let text: Arc<str> = span.of(self.text).trim().into();
-                Ok(AssignedPlace::Parameters(text))
+                let text = Unknown::text(span.of(self.text).trim());
+                Ok(Denoted::any_of(Location::Parameters, text))
             }
             Node::IndexedParameter { owner, subscripts } => {
-                ParameterKey::pop(owner, usize::from(subscripts), span, stack).map(
-                    |key| match key {
-                        ParameterKey::Plain(owner, index) => AssignedPlace::Parameter(owner, index),
-                        ParameterKey::Element(name) => AssignedPlace::Variable(name),
-                        ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
-                            Some(array) => AssignedPlace::Elements(array, cause),
-                            None => AssignedPlace::Parameters(cause),
-                        },
-                        ParameterKey::Unknown(..) => AssignedPlace::Nowhere,
-                    },
-                )
+                Denoted::pop_parameter(owner, usize::from(subscripts), span, stack)
             }
-            Node::Variable { subscripts: 0 } => Ok(AssignedPlace::Variable(
-                canonical(span.of(self.text)).into_owned(),
-            )),
-            Node::Variable { subscripts } => self
-                .variable_key(root, usize::from(subscripts), stack)
-                .map(|key| match key {
-                    VariableKey::Name(name) => AssignedPlace::Variable(name),
-                    VariableKey::Unknown(array, cause) => AssignedPlace::Elements(array, cause),
-                }),
-            _ => Ok(AssignedPlace::Nowhere),
+            Node::Variable { subscripts: 0 } => {
+                Ok(Location::Variable(canonical(span.of(self.text)).into_owned()).into())
+            }
+            Node::Variable { subscripts } => {
+                self.computed_variable(root, usize::from(subscripts), stack)
+            }
+            _ => {
+                stack.truncate(bottom);
+                return Ok(None);
+            }
         };
         stack.truncate(bottom);
-        found
+        found.map(Some)
     }
 
     /// The dimensions in a declaration's subscripts; for an unknown one, the cause.
@@ -540,17 +519,11 @@ impl Evaluator<'_> {
     }
 }
 
-enum VariableKey {
-    Name(String),
-    /// A subscript is not known.
-    Unknown(String, Arc<str>),
-}
-
 fn pop(stack: &mut Vec<Slot>) -> Slot {
     // An operand is missing: that is not a zero (R2.50).
     stack
         .pop()
-        .unwrap_or_else(|| Ok(Value::Unknown("an expression".into())))
+        .unwrap_or_else(|| Ok(Value::Unknown(Unknown::text("an expression"))))
 }
 
 fn never_written(span: Span, text: &str) -> Box<Fault> {
@@ -572,9 +545,6 @@ pub(in crate::interpreter) fn unquoted(text: &str) -> &str {
 }
 
 /// Whether only programs write a variable: `V.P.`, `V.L.`, `V.S.`.
-fn is_program_variable(name: &str) -> bool {
-    ["V.P.", "V.L.", "V.S."]
-        .iter()
-        .any(|prefix| name.starts_with(prefix))
-        || name.starts_with('P')
+fn is_program_variable(family: VariableFamily) -> bool {
+    family.is_written() && family != VariableFamily::Cycle
 }

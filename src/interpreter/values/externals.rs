@@ -10,10 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::persistent::PersistentMap;
 use super::value::Value;
-use super::variable::set_name;
-
-/// The family of the variables that programs share with the PLC.
-const FAMILY: &str = "V.E.";
+use super::variable::{VariableFamily, set_name};
 
 /// The variables of the machine of which the configuration says who writes them, with all elements and fields.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -45,7 +42,7 @@ impl ExternalNames {
 
     /// Whether the PLC may write a variable while a program runs.
     pub(in crate::interpreter) fn may_change(&self, name: &str) -> bool {
-        name.starts_with(FAMILY) && !self.is_stable(name)
+        VariableFamily::of(name) == VariableFamily::External && !self.is_stable(name)
     }
 
     /// The variables that only programs write.
@@ -193,55 +190,6 @@ pub(in crate::interpreter) struct SetAt {
     pub(in crate::interpreter) line: u32,
 }
 
-/// A variable that the program set and the PLC may have changed, as the cause of an unknown value:
-/// `V.E.REQ, which part.nc:3 set to 1`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) struct SetVariable<'a> {
-    pub(in crate::interpreter) name: &'a str,
-    value: &'a str,
-    file: &'a str,
-    line: &'a str,
-}
-
-impl<'a> SetVariable<'a> {
-    /// The cause of the value of a variable after the PLC has acted.
-    pub(in crate::interpreter) fn cause(name: &str, value: &Value, at: &SetAt) -> Arc<str> {
-        let SetAt { file, line } = at;
-        let text = match value {
-            Value::Number(number) => number.to_string(),
-            Value::Text(text) => format!("\"{text}\""),
-            Value::Unknown(_) => return name.into(),
-        };
-        format!("{name}, which {file}:{line} set to {text}").into()
-    }
-
-    /// Takes a cause apart; `None` for any other.
-    pub(in crate::interpreter) fn of(cause: &'a str) -> Option<Self> {
-        let (name, rest) = cause.split_once(", which ")?;
-        let (place, value) = rest.split_once(" set to ")?;
-        let (file, line) = place.rsplit_once(':')?;
-        Some(Self {
-            name,
-            value,
-            file,
-            line,
-        })
-    }
-
-    /// Its words as seen from a file.
-    pub(in crate::interpreter) fn seen_from(self, file: &str) -> String {
-        let Self {
-            name, value, line, ..
-        } = self;
-        let place = if self.file == file {
-            format!("line {line}")
-        } else {
-            format!("{}:{line}", self.file)
-        };
-        format!("`{name}`, which {place} set to {value} and the PLC may have changed")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -256,26 +204,5 @@ mod tests {
         assert!(!names.is_own("V.E.LISTS") && names.may_change("V.E.LISTS"));
         assert!(names.is_stable("V.E.MATERIAL") && !names.is_own("V.E.MATERIAL"));
         assert!(!names.may_change("V.P.A"));
-    }
-
-    #[test]
-    fn a_cause_names_the_block_that_set_the_variable() {
-        // R2.99
-        let at = SetAt {
-            file: "a (1).nc".into(),
-            line: 3,
-        };
-        let cause = SetVariable::cause(
-            "V.E.N[2]",
-            &Value::Text("A, which b.nc:2 set to B".into()),
-            &at,
-        );
-        let found = SetVariable::of(&cause).expect("one");
-        assert_eq!(found.name, "V.E.N[2]");
-        let words = found.seen_from("b.nc");
-        assert!(
-            words.contains("which a (1).nc:3 set to \"A, which b.nc:2 set to B\""),
-            "{words}"
-        );
     }
 }

@@ -3,10 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use super::cause::Unknown;
 use super::externals::ExternalNames;
+use super::location::Location;
 use super::names::parts;
-use super::target::AssignedPlace;
 use super::value::Value;
+use super::variable::VariableFamily;
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 
@@ -15,7 +17,7 @@ use crate::syntax::ast::Owner;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FoundVariables {
     /// The value that each has if it exists: known if every write is of the same value.
-    names: BTreeMap<String, Value>,
+    values: BTreeMap<Location, Value>,
     /// Set where any of them may have been written.
     anything: bool,
 }
@@ -24,30 +26,29 @@ impl FoundVariables {
     /// Adds the values that other programs write.
     pub(crate) fn add(&mut self, other: &Self) {
         self.anything |= other.anything;
-        for (name, value) in &other.names {
-            self.write(name, value.clone());
+        for (location, value) in &other.values {
+            self.write(location, value.clone());
         }
     }
 
-    /// Returns the part for some names.
-    pub(crate) fn of(&self, names: &BTreeSet<String>) -> Self {
-        let asked = self.names.iter().filter(|(name, _)| names.contains(*name));
-        Self {
-            names: asked
-                .map(|(name, value)| (name.clone(), value.clone()))
-                .collect(),
-            anything: self.anything && !names.is_empty(),
-        }
+    /// Returns the part that a program asks for.
+    pub(crate) fn wanted_by(&self, used: &VariableUse) -> Self {
+        let mut part = self.clone();
+        part.values
+            .retain(|location, _| used.wanted.contains(location));
+        part.anything &= !used.wanted.is_empty();
+        part
     }
 
-    /// The names that may exist, with their values; none is known where anything may have been written.
-    pub(in crate::interpreter) fn names(&self) -> impl Iterator<Item = (&String, Value)> {
-        self.names.iter().map(|(name, value)| {
-            let known = (!self.anything).then(|| value.clone());
-            (
-                name,
-                known.unwrap_or_else(|| Value::Unknown(name.as_str().into())),
-            )
+    /// The locations that may exist, with their values; none is known where anything may have been written.
+    pub(in crate::interpreter) fn values(&self) -> impl Iterator<Item = (&Location, Value)> {
+        self.values.iter().map(|(location, value)| {
+            let value = if self.anything {
+                unknown(location)
+            } else {
+                value.clone()
+            };
+            (location, value)
         })
     }
 
@@ -55,30 +56,27 @@ impl FoundVariables {
         self.anything
     }
 
-    fn write(&mut self, name: &str, value: Value) {
-        match self.names.get_mut(name) {
-            Some(known) if *known == value => {}
-            Some(known) => *known = Value::Unknown(name.into()),
-            None => {
-                self.names.insert(name.to_owned(), named(name, value));
-            }
+    fn write(&mut self, location: &Location, value: Value) {
+        let known = self.values.get(location);
+        if known.is_some_and(|known| *known == value) {
+            return;
         }
+        let is_known = known.is_none() && !matches!(value, Value::Unknown(_));
+        let value = if is_known { value } else { unknown(location) };
+        self.values.insert(location.clone(), value);
     }
 }
 
-/// The value as found by the next program: one that is not known is named as the variable.
-fn named(name: &str, value: Value) -> Value {
-    match value {
-        Value::Unknown(_) => Value::Unknown(name.into()),
-        known => known,
-    }
+/// A value as found by the next program that is not known.
+fn unknown(location: &Location) -> Value {
+    Value::Unknown(Unknown::text(location.to_string()))
 }
 
 /// The use that a program makes of the variables that outlive programs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct VariableUse {
-    /// The names that it asks for without certainly having written them before.
-    pub(crate) wanted: BTreeSet<String>,
+    /// The locations that it asks for without certainly having written them before.
+    wanted: BTreeSet<Location>,
     /// The values that it may have written.
     pub(crate) written: FoundVariables,
     parameters: Parameters,
@@ -108,51 +106,57 @@ impl VariableUse {
         self.written.anything = true;
     }
 
-    /// Notes a name that is asked for without an earlier write.
-    pub(in crate::interpreter) fn want(&mut self, base: &str) {
-        if self.outlives(base) && !self.wanted.contains(base) {
-            self.wanted.insert(base.to_owned());
+    /// Notes a parameter or a whole variable that is asked for without an earlier write.
+    pub(in crate::interpreter) fn want(&mut self, location: Location) {
+        if self.outlives(&location) {
+            self.wanted.insert(location);
         }
     }
 
     /// A value is written, or may be.
-    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, value: &Value) {
-        match place {
-            AssignedPlace::Parameter(Owner::Program, index) => {
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: &Value) {
+        match location {
+            Location::Parameter(Owner::Program, _) => {
                 if self.parameters == Parameters::Kept {
-                    self.written.write(&format!("P{index}"), value.clone());
+                    self.written.write(location, value.clone());
                 }
             }
-            AssignedPlace::Variable(name) => self.write_name(name, value),
-            AssignedPlace::Elements(name, cause) => {
-                self.write_name(name, &Value::Unknown(cause.clone()));
-            }
-            AssignedPlace::Parameters(_) => {
+            Location::Variable(name) | Location::Elements(name) => self.write_name(name, value),
+            Location::Parameters => {
                 self.written.anything |= self.parameters == Parameters::Kept;
             }
-            AssignedPlace::Parameter(Owner::Call, _) | AssignedPlace::Nowhere => {}
+            Location::Parameter(Owner::Call, _) => {}
         }
     }
 
     /// A variable, or an element of an array, of which no value is followed from program to program.
     pub(in crate::interpreter) fn write_name(&mut self, name: &str, value: &Value) {
         let (base, subscripts) = parts(name);
-        if !self.outlives(base) {
+        let whole = Location::named(base);
+        if !self.outlives(&whole) {
             return;
         }
-        let element: Arc<str> = base.into();
-        let is_whole = subscripts.is_empty();
-        let value = is_whole.then(|| value.clone());
+        let value = if subscripts.is_empty() {
+            value.clone()
+        } else {
+            unknown(&whole)
+        };
         if self.externals.is_own(base) {
             // What no program has written before is 0.
-            self.written.write(base, Value::Number(0.0));
+            self.written.write(&whole, Value::Number(0.0));
         }
-        self.written
-            .write(base, value.unwrap_or(Value::Unknown(element)));
+        self.written.write(&whole, value);
     }
 
-    fn outlives(&self, base: &str) -> bool {
-        let is_parameter = base.starts_with('P') && self.parameters == Parameters::Kept;
-        base.starts_with("V.S.") || is_parameter || self.externals.is_own(base)
+    fn outlives(&self, location: &Location) -> bool {
+        match location {
+            Location::Parameter(..) => self.parameters == Parameters::Kept,
+            Location::Variable(name) => match VariableFamily::of(name) {
+                VariableFamily::Parameter => self.parameters == Parameters::Kept,
+                VariableFamily::Shared => true,
+                _ => self.externals.is_own(name),
+            },
+            Location::Elements(_) | Location::Parameters => false,
+        }
     }
 }

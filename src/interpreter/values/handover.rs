@@ -3,13 +3,17 @@
 use super::carried::Carried;
 use super::memory::{Memory, is_kept};
 use super::value::Value;
+use super::variable::VariableFamily;
 use crate::machine::Parameters;
 
 impl Memory {
     /// Forgets what a restart of the control clears: `V.S.` and `V.E.` variables (R2.34, P-EXTV-00013).
     pub(in crate::interpreter) fn restart(&mut self) {
         let names = self.variables.names.keys();
-        let goes = |name: &&String| name.starts_with("V.S.") || name.starts_with("V.E.");
+        let goes = |name: &&String| {
+            let family = VariableFamily::of(name);
+            matches!(family, VariableFamily::Shared | VariableFamily::External)
+        };
         for name in names.filter(goes).cloned().collect::<Vec<_>>() {
             self.delete(&name);
         }

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use super::externals::{ExternalNames, HeldVariable, SetAt, SetVariable};
+use super::cause::Unknown;
+use super::externals::{ExternalNames, HeldVariable, SetAt};
 use super::memory::Memory;
 use super::value::Value;
+use super::variable::VariableFamily;
 
 impl Memory {
     /// Takes over what the configuration says of the writers of `V.E.` variables.
@@ -50,7 +52,8 @@ impl Memory {
             self.externals.held.remove(name);
             if let Some(known) = self.known(name) {
                 let given = self.given.get(name).cloned();
-                let unknown = || Value::Unknown(SetVariable::cause(name, &known, held.first()));
+                let unknown =
+                    || Value::Unknown(Unknown::changed(name, known.as_written(), held.first()));
                 self.variables.set(name, given.unwrap_or_else(unknown));
             }
         }
@@ -104,7 +107,8 @@ impl Memory {
     /// Sets every `V.E.` variable to 0 (PM/207988747).
     pub(in crate::interpreter) fn initialise(&mut self, at: SetAt) {
         let names = self.variables.names.keys();
-        let names: Vec<String> = names.filter(|it| it.starts_with("V.E.")).cloned().collect();
+        let names = names.filter(|it| VariableFamily::of(it) == VariableFamily::External);
+        let names: Vec<String> = names.cloned().collect();
         for name in names {
             self.delete(&name);
         }

@@ -1,20 +1,20 @@
 //! Parameters, variables and macros of a run.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::cause::Unknown;
 use super::externals::{ExternalVariables, HeldVariable};
 use super::found::FoundVariables;
+use super::location::Location;
 use super::names::{
     Array, NamedVariable, VariableNames, Weight, compare, join_value, parts, weight,
 };
 use super::parameter_values::ParameterValues;
 use super::persistent::PersistentMap;
-use super::target::RegionTarget;
 use super::value::Value;
-use super::variable::set_name;
+use super::variable::{VariableFamily, set_name};
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 
@@ -23,15 +23,15 @@ use crate::syntax::ast::Owner;
 pub(in crate::interpreter) struct Memory {
     pub(super) parameters: ParameterValues,
     /// Set when an unknown parameter was written: the value that decides which.
-    pub(super) lost: Option<Arc<str>>,
+    pub(super) lost: Option<Unknown>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     pub(super) variables: VariableNames,
     /// Values given by the user for parameters and variables that no program wrote.
     pub(super) given: PersistentMap<String, Value>,
     /// Set when any of those that programs write may have been written: the text that caused it.
-    unknown_names: Option<Arc<str>>,
-    /// The names that outlive programs, may exist, and were not certainly written since.
-    pub(super) found: BTreeSet<String>,
+    unknown_names: Option<Unknown>,
+    /// The locations that outlive programs, may exist, and were not certainly written since.
+    pub(super) found: BTreeSet<Location>,
     /// Whether a `V.S.` variable that no known program writes may still exist.
     may_find: bool,
     /// `V.E.` variables that the PLC writes, too (R2.99).
@@ -83,15 +83,14 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn set_parameter(&mut self, index: u32, value: Value) {
-        if !self.found.is_empty() {
-            self.found.remove(&format!("P{index}"));
-        }
+        self.found
+            .remove(&Location::Parameter(Owner::Program, index));
         self.parameters.set(index, value);
     }
 
     /// The value of a variable, the declared default of an array element that was never written.
     pub(in crate::interpreter) fn variable(&self, name: &str) -> Option<Value> {
-        if name.starts_with("V.L.") {
+        if VariableFamily::of(name) == VariableFamily::Local {
             return self.locals.iter().rev().find_map(|level| level.value(name));
         }
         let unknown = self.unknown_names.as_ref();
@@ -99,7 +98,7 @@ impl Memory {
         let written = self.variables.value(name);
         written.or_else(|| match unknown {
             Some(cause) => Some(Value::Unknown(cause.clone())),
-            None if self.may_find(name) => Some(Value::Unknown(parts(name).0.into())),
+            None if self.may_find(name) => Some(Value::Unknown(Unknown::text(parts(name).0))),
             None => {
                 let is_zero = self.externals.is_zero(name) && self.given.get(name).is_none();
                 is_zero.then_some(Value::Number(0.0))
@@ -109,28 +108,28 @@ impl Memory {
 
     /// Whether only programs write the variable of a name.
     fn is_written(&self, name: &str) -> bool {
-        is_written(name) || self.externals.names.is_own(name)
+        VariableFamily::of(name).is_written() || self.externals.names.is_own(name)
     }
 
     /// Whether a name that nothing is known about may exist.
     fn may_find(&self, name: &str) -> bool {
-        let is_kept = name.starts_with("V.S.") || self.externals.names.is_own(name);
+        let is_kept =
+            VariableFamily::of(name) == VariableFamily::Shared || self.externals.names.is_own(name);
         self.may_find && is_kept && self.given.get(name).is_none()
     }
 
     /// Sets what the program finds in variables that outlive programs. Values from the user take precedence.
     pub(in crate::interpreter) fn find(&mut self, found: &FoundVariables) {
         self.may_find = found.has_anything();
-        let names = found
-            .names()
-            .filter(|(name, _)| self.given.get(name.as_str()).is_none());
-        let names: Vec<(String, Value)> = names.map(|(name, it)| (name.clone(), it)).collect();
-        for (name, value) in names {
-            match name.strip_prefix('P').map(str::parse) {
-                Some(Ok(index)) => self.set_parameter(index, value),
-                _ => self.find_variable(&name, value),
+        for (location, value) in found.values() {
+            if self.given.get(location.to_string().as_str()).is_some() {
+                continue;
             }
-            self.found.insert(name);
+            match location {
+                Location::Variable(name) => self.find_variable(name, value),
+                _ => self.write(location, value),
+            }
+            self.found.insert(location.clone());
         }
     }
 
@@ -148,18 +147,21 @@ impl Memory {
         }
     }
 
-    /// Whether a name without subscripts may exist and the program has not certainly written it.
-    pub(in crate::interpreter) fn is_found(&self, base: &str) -> bool {
-        let is_new = || self.may_find(base) && self.variables.names.get(base).is_none();
-        self.found.contains(base) || is_new()
+    /// Whether a parameter or a whole variable may exist and the program has not certainly written it.
+    pub(in crate::interpreter) fn is_found(&self, location: &Location) -> bool {
+        let is_new = |name: &str| self.may_find(name) && self.variables.names.get(name).is_none();
+        self.found.contains(location)
+            || matches!(location, Location::Variable(name) if is_new(name))
     }
 
-    /// Whether a name, without its subscripts, still has the value that the program found, or none.
-    pub(in crate::interpreter) fn is_unwritten(&self, base: &str) -> bool {
-        let holds = |index| self.parameters.get(index).is_some();
-        let parameter = base.strip_prefix('P').and_then(|index| index.parse().ok());
-        self.is_found(base)
-            || !(parameter.is_some_and(holds) || self.variables.names.get(base).is_some())
+    /// Whether a parameter or a whole variable still has the value that the program found, or none.
+    pub(in crate::interpreter) fn is_unwritten(&self, location: &Location) -> bool {
+        let holds = match location {
+            Location::Parameter(_, index) => self.parameters.get(*index).is_some(),
+            _ => false,
+        };
+        let names = &self.variables.names;
+        self.is_found(location) || !(holds || names.get(&location.to_string()).is_some())
     }
 
     /// A value from the user (R2.36). Values that programs write take precedence.
@@ -177,8 +179,8 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn set_variable(&mut self, name: &str, value: Value) {
-        if !name.starts_with("V.L.") {
-            self.found.remove(name);
+        if VariableFamily::of(name) != VariableFamily::Local {
+            self.lose_found(name);
             self.externals.release(name);
             self.variables.set(name, value);
             return;
@@ -201,36 +203,45 @@ impl Memory {
 
     /// Returns the names of the kind that a declaration of the name belongs to.
     fn declared(&mut self, name: &str) -> &mut VariableNames {
-        if name.starts_with("V.L.") {
+        if VariableFamily::of(name) == VariableFamily::Local {
             self.level()
         } else {
             &mut self.variables
         }
     }
 
+    /// A variable is not any more as an earlier program left it.
+    fn lose_found(&mut self, name: &str) {
+        if !self.found.is_empty() {
+            self.found.remove(&Location::named(name));
+        }
+    }
+
     /// Declares a P parameter; one that an earlier program may have left may keep its value.
     pub(in crate::interpreter) fn declare_parameter(&mut self, index: u32, value: Value) {
-        let name = format!("P{index}");
+        let location = Location::Parameter(Owner::Program, index);
         let mut start = Some(value);
-        if self.found.contains(&name) {
-            let cause: Arc<str> = name.as_str().into();
+        if self.found.contains(&location) {
+            let cause = Unknown::text(location.to_string());
             join_value(&mut start, self.parameter(index).as_ref(), &cause);
         }
-        self.set_parameter(index, start.unwrap_or(Value::Unknown(name.into())));
+        if let Some(value) = start {
+            self.set_parameter(index, value);
+        }
     }
 
     /// Declares a scalar on the current level.
     pub(in crate::interpreter) fn declare(&mut self, name: &str, value: Value) {
-        self.found.remove(name);
+        self.lose_found(name);
         self.declared(name).set(name, value);
     }
 
     /// The variable of a declared name, if it outlives programs and exists, or may.
     pub(in crate::interpreter) fn before_declaration(&self, name: &str) -> Option<NamedVariable> {
         let held = self.variables.names.get(name);
-        let held = held.filter(|_| name.starts_with("V.S."));
+        let held = held.filter(|_| VariableFamily::of(name) == VariableFamily::Shared);
         held.cloned().or_else(|| {
-            let cause: Arc<str> = name.into();
+            let cause = Unknown::text(name);
             self.may_find(name).then(|| NamedVariable {
                 scalar: Some(Value::Unknown(cause.clone())),
                 lost: Some(cause),
@@ -242,7 +253,7 @@ impl Memory {
     /// A variable was declared that existed before. Whether the start value replaces its present value is not
     /// documented, so it is unknown where the two differ (R2.34); the user's value decides.
     pub(in crate::interpreter) fn declare_anew(&mut self, name: &str, before: &NamedVariable) {
-        self.variables.join_name(name, before, &name.into());
+        self.variables.join_name(name, before, &Unknown::text(name));
         if let Some(given) = self.given.get(name)
             && let Some(Value::Unknown(_)) = self.variables.value(name)
         {
@@ -261,7 +272,7 @@ impl Memory {
             dimensions,
             default,
         };
-        self.found.remove(name);
+        self.lose_found(name);
         self.declared(name).declare_array(name, array);
     }
 
@@ -273,8 +284,8 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn delete(&mut self, name: &str) {
-        if !name.starts_with("V.L.") {
-            self.found.remove(name);
+        if VariableFamily::of(name) != VariableFamily::Local {
+            self.lose_found(name);
             self.externals.release(name);
             self.variables.delete(name);
             return;
@@ -292,7 +303,7 @@ impl Memory {
     }
 
     /// Some element of an array was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Unknown) {
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         let holding = levels.filter(|names| names.names.get(name).is_some());
         let known = holding.map(|names| names.havoc_elements(name, cause));
@@ -302,20 +313,21 @@ impl Memory {
     }
 
     /// Some P parameter was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn havoc_parameters(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_parameters(&mut self, cause: &Unknown) {
         self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
     }
 
     /// Everything that a program can write may have been written: nothing is known any more.
     /// Values that only the machine holds are kept.
-    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Unknown) {
         self.havoc_parameters(cause);
         self.unknown_names = Some(cause.clone());
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         for names in levels {
             let externals = &self.externals.names;
-            let is_written = |name: &&String| is_written(name) || externals.is_own(name);
+            let is_written =
+                |name: &&String| VariableFamily::of(name).is_written() || externals.is_own(name);
             let written = names.names.keys().filter(is_written);
             for name in written.cloned().collect::<Vec<String>>() {
                 names.names.slot(name, NamedVariable::default).havoc(cause);
@@ -325,7 +337,7 @@ impl Memory {
     }
 
     /// A missing program may have written what the run never wrote.
-    pub(in crate::interpreter) fn miss(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn miss(&mut self, cause: &Unknown) {
         self.lost.get_or_insert_with(|| cause.clone());
         self.unknown_names.get_or_insert_with(|| cause.clone());
     }
@@ -336,16 +348,14 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn delete_parameter(&mut self, index: u32) {
-        self.found.remove(&format!("P{index}"));
+        self.found
+            .remove(&Location::Parameter(Owner::Program, index));
         self.parameters.remove(index);
     }
 
     /// The names whose numbers differ in another memory; `None` where anything else does, or more
     /// than a few.
-    pub(in crate::interpreter) fn differing_numbers(
-        &self,
-        other: &Self,
-    ) -> Option<Vec<RegionTarget>> {
+    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let same = self.lost == other.lost
             && self.externals == other.externals
             && self.unknown_names == other.unknown_names
@@ -355,7 +365,7 @@ impl Memory {
             return None;
         }
         let mut differing = Vec::new();
-        let parameter = |index| RegionTarget::Parameter(Owner::Program, index);
+        let parameter = |index| Location::Parameter(Owner::Program, index);
         for index in self.parameters.differing(&other.parameters) {
             let mine = self.parameters.get(index)?;
             compare(
@@ -374,7 +384,7 @@ impl Memory {
 
     /// Makes unknown what differs in another memory where two ways join (R14.1). Returns the number
     /// of differences.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Unknown) -> usize {
         let Self {
             parameters,
             lost,
@@ -434,25 +444,21 @@ impl Memory {
             let value = memory.variables.value(name);
             matches!(value, Some(Value::Unknown(_))) && memory.externals.names.may_change(name)
         };
-        let is_read = |name: &String| {
-            name.starts_with("V.") && !(name.starts_with("V.P.") || name.starts_with("V.CYC."))
-        };
+        let is_read = |name: &String| VariableFamily::of(name).is_read_by_others();
         let names = names.into_iter().filter(is_read);
         names
             .filter(|name| !is_lost(self, name) && !is_lost(other, name))
             .collect()
     }
 
-    /// Values of the program that are not known any more.
-    pub(in crate::interpreter) fn lose(&mut self, targets: &[RegionTarget], cause: &Arc<str>) {
-        let unknown = || Value::Unknown(cause.clone());
-        for target in targets {
-            match target {
-                RegionTarget::Parameter(_, index) => self.set_parameter(*index, unknown()),
-                RegionTarget::Variable(name) => self.set_variable(name, unknown()),
-                RegionTarget::Elements(name) => self.havoc_elements(name, cause),
-                RegionTarget::Parameters => self.havoc_parameters(cause),
-            }
+    /// Writes a value; one that may be in several locations is not known.
+    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: Value) {
+        match (location, value) {
+            (Location::Parameter(_, index), value) => self.set_parameter(*index, value),
+            (Location::Variable(name), value) => self.set_variable(name, value),
+            (Location::Elements(name), Value::Unknown(cause)) => self.havoc_elements(name, &cause),
+            (Location::Parameters, Value::Unknown(cause)) => self.havoc_parameters(&cause),
+            (Location::Elements(_) | Location::Parameters, _) => {}
         }
     }
 
@@ -485,7 +491,7 @@ impl Memory {
     }
 
     /// A macro may have been defined, or redefined (R2.51).
-    pub(in crate::interpreter) fn havoc_macro(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_macro(&mut self, name: &str, cause: &Unknown) {
         if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
@@ -495,7 +501,7 @@ impl Memory {
     /// names with their code.
     pub(in crate::interpreter) fn havoc_macros(
         &mut self,
-        cause: &Arc<str>,
+        cause: &Unknown,
         stays: impl Fn(&str, &str) -> bool,
     ) {
         let goes = |(name, code): &(&String, &Value)| match code {
@@ -539,7 +545,8 @@ impl Memory {
     /// The `V.S.` variables, which outlive programs.
     pub(in crate::interpreter) fn shared(&self) -> BTreeMap<String, Value> {
         let mut held = self.variables.held();
-        held.retain(|name, _| name.starts_with("V.S.") || self.externals.names.is_own(name));
+        let is_shared = |name: &str| VariableFamily::of(name) == VariableFamily::Shared;
+        held.retain(|name, _| is_shared(name) || self.externals.names.is_own(name));
         held
     }
 
@@ -562,14 +569,6 @@ pub(in crate::interpreter) fn unescaped(code: &str) -> String {
 
 /// Whether a program start leaves a variable or array.
 pub(super) fn is_kept(name: &str, parameters: Parameters) -> bool {
-    !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
-}
-
-/// Whether programs write the variable of a name.
-fn is_written(name: &str) -> bool {
-    is_of_run(name) || name.starts_with("V.S.") || name.starts_with("V.L.")
-}
-
-fn is_of_run(name: &str) -> bool {
-    name.starts_with("V.P.") || name.starts_with("V.CYC.") || name.starts_with('P')
+    let family = VariableFamily::of(name);
+    !family.is_of_run() || (parameters == Parameters::Kept && family == VariableFamily::Parameter)
 }

@@ -1,13 +1,13 @@
 //! Variables by name, with their arrays, and their weight.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::carried::{ArrayShape, Carried};
+use super::cause::Unknown;
+use super::location::Location;
 use super::persistent::PersistentMap;
-use super::target::RegionTarget;
 use super::value::Value;
 
 /// Number of bytes of a text or a name that count as one more value in the budget of values
@@ -43,7 +43,7 @@ pub(in crate::interpreter) struct NamedVariable {
     /// The elements that were written, by their subscripts: `[1][2]`.
     pub(in crate::interpreter) elements: PersistentMap<String, Value>,
     /// Set when some element was written, but it is not known which.
-    pub(in crate::interpreter) lost: Option<Arc<str>>,
+    pub(in crate::interpreter) lost: Option<Unknown>,
 }
 
 /// A declared array.
@@ -108,7 +108,7 @@ impl NamedVariable {
     }
 
     /// Makes its value and that of every element unknown.
-    pub(in crate::interpreter) fn havoc(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc(&mut self, cause: &Unknown) {
         if let Some(scalar) = &mut self.scalar {
             *scalar = Value::Unknown(cause.clone());
         }
@@ -121,7 +121,7 @@ impl NamedVariable {
     }
 
     /// Makes unknown what differs from another variable of the name.
-    fn join(&mut self, other: &Self, cause: &Arc<str>, weight: &mut Weight) {
+    fn join(&mut self, other: &Self, cause: &Unknown, weight: &mut Weight) {
         join_value(&mut self.scalar, other.scalar.as_ref(), cause);
         if self.array != other.array {
             // An array that may have another shape has no known contents.
@@ -229,7 +229,7 @@ impl VariableNames {
         self.names.get(name)?.array.as_ref()
     }
 
-    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Unknown) {
         self.drop_elements(name);
         let variable = self.names.slot(name.to_owned(), NamedVariable::default);
         variable.lost = Some(cause.clone());
@@ -268,7 +268,7 @@ impl VariableNames {
     pub(in crate::interpreter) fn differing(
         &self,
         other: &Self,
-        differing: &mut Vec<RegionTarget>,
+        differing: &mut Vec<Location>,
     ) -> Option<()> {
         if self.names.len() != other.names.len() {
             return None;
@@ -283,14 +283,14 @@ impl VariableNames {
             }
             match (&mine.scalar, &theirs.scalar) {
                 (Some(mine), Some(theirs)) => {
-                    let target = || RegionTarget::Variable(name.clone());
+                    let target = || Location::Variable(name.clone());
                     compare(mine, theirs, target, differing)?;
                 }
                 (None, None) => {}
                 _ => return None,
             }
             for key in mine.elements.differing(&theirs.elements) {
-                let target = || RegionTarget::Variable(format!("{name}{key}"));
+                let target = || Location::Variable(format!("{name}{key}"));
                 let pair = mine.elements.get(&key).zip(theirs.elements.get(&key))?;
                 compare(pair.0, pair.1, target, differing)?;
             }
@@ -299,7 +299,7 @@ impl VariableNames {
     }
 
     /// Makes unknown what differs in another memory; returns the number of names that do.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Unknown) -> usize {
         let differing = self.names.differing(&other.names);
         let nothing = NamedVariable::default();
         for name in &differing {
@@ -314,7 +314,7 @@ impl VariableNames {
         &mut self,
         name: &str,
         theirs: &NamedVariable,
-        cause: &Arc<str>,
+        cause: &Unknown,
     ) {
         let mine = self.names.slot(name.to_owned(), NamedVariable::default);
         self.weight.take(mine.own_weight(name));
@@ -334,7 +334,7 @@ impl VariableNames {
 pub(in crate::interpreter) fn join_value(
     mine: &mut Option<Value>,
     theirs: Option<&Value>,
-    cause: &Arc<str>,
+    cause: &Unknown,
 ) {
     let joined = match (mine.as_ref(), theirs) {
         (Some(Value::Unknown(_)), _) => return,
@@ -352,8 +352,8 @@ const MAX_DIFFERING: usize = 16;
 pub(in crate::interpreter) fn compare(
     mine: &Value,
     theirs: &Value,
-    target: impl Fn() -> RegionTarget,
-    differing: &mut Vec<RegionTarget>,
+    target: impl Fn() -> Location,
+    differing: &mut Vec<Location>,
 ) -> Option<()> {
     match (mine, theirs) {
         (mine, theirs) if mine == theirs => Some(()),

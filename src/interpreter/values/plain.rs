@@ -1,11 +1,14 @@
 //! Conclusions from plain conditions about the values that they read (R14.1).
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
+use super::cause::Unknown;
 use super::externals::ExternalNames;
-use super::target::RegionTarget;
+use super::location::Location;
 use super::value::{Value, rounded};
-use super::variable::canonical;
+use super::variable::{VariableFamily, canonical};
 use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owner};
 use crate::text::Span;
 
@@ -41,7 +44,7 @@ pub(in crate::interpreter) fn conclusions(
     text: &str,
     condition: Expression,
     truth: Truth,
-) -> Vec<(RegionTarget, Value)> {
+) -> Vec<(Location, Value)> {
     let mut found = Vec::new();
     let mut left = vec![(condition, truth)];
     while let Some((part, truth)) = left.pop() {
@@ -108,12 +111,12 @@ pub(in crate::interpreter) fn is_one_comparison(
 }
 
 /// Whether a variable can only be 0 or 1.
-fn is_switch(target: &RegionTarget) -> bool {
-    matches!(target, RegionTarget::Variable(name) if name.starts_with("V.A.") && name.contains("_COMP_ACTIVE"))
+fn is_switch(target: &Location) -> bool {
+    matches!(target, Location::Variable(name) if VariableFamily::of(name) == VariableFamily::Axis && name.contains("_COMP_ACTIVE"))
 }
 
 /// A variable and the number that it equals.
-fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(RegionTarget, Value)> {
+fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Location, Value)> {
     let [one, other] = pair;
     let known = |part| {
         let (node, _) = root(block, part)?;
@@ -135,7 +138,7 @@ pub(in crate::interpreter) fn variable(
     block: &Block,
     text: &str,
     part: Expression,
-) -> Option<RegionTarget> {
+) -> Option<Location> {
     let (start, end) = (part.start as usize, part.end as usize);
     let [node] = block.nodes.get(start..end)? else {
         return None;
@@ -143,13 +146,13 @@ pub(in crate::interpreter) fn variable(
     target(*node, block.spans.get(start)?.of(text))
 }
 
-fn target(node: Node, written: &str) -> Option<RegionTarget> {
+fn target(node: Node, written: &str) -> Option<Location> {
     match node {
-        Node::Parameter { owner, index } => Some(RegionTarget::Parameter(owner, index)),
+        Node::Parameter { owner, index } => Some(Location::Parameter(owner, index)),
         Node::Variable { subscripts: 0 } => {
             let name = canonical(written).into_owned();
-            name.starts_with("V.")
-                .then_some(RegionTarget::Variable(name))
+            let is_variable = VariableFamily::of(&name) != VariableFamily::Other;
+            is_variable.then_some(Location::Variable(name))
         }
         _ => None,
     }
@@ -212,22 +215,61 @@ pub(in crate::interpreter) enum Writer {
 
 impl Writer {
     fn of(name: &str, externals: &ExternalNames) -> Self {
-        let is_of = |families: &[&str]| families.iter().any(|family| name.starts_with(family));
-        if is_of(&["V.P.", "V.L.", "V.S."]) || externals.is_stable(name) {
-            Self::Nothing
-        } else if is_of(&["V.E."]) {
-            Self::Machine
-        } else {
-            Self::Control
+        use VariableFamily::{External, Local, Program, Shared};
+        match VariableFamily::of(name) {
+            Program | Local | Shared => Self::Nothing,
+            _ if externals.is_stable(name) => Self::Nothing,
+            External => Self::Machine,
+            _ => Self::Control,
         }
     }
 }
 
-/// Values that an expression reads and its operations on them, in a form independent of its text.
+/// What a condition is about, in a form independent of its text.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ConditionMeaning {
+    pub(in crate::interpreter) subject: ConditionSubject,
+    /// The locations that its expression reads.
+    pub(in crate::interpreter) reads: Vec<Location>,
+    /// The steps of the expression.
+    nodes: Vec<Node>,
+}
+
+/// Subject of a condition.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) enum ConditionSubject {
+    /// Whether an expression holds.
+    Truth,
+    /// Which of some cases an expression is.
+    Cases(Vec<Arc<str>>),
+    /// Whether an expression as the remedy class of an error ends the program.
+    RemedyClass,
+    /// Something that only the machine knows.
+    Unknown(Unknown),
+}
+
+/// A condition and the writer of the values that it is about.
 pub(in crate::interpreter) struct Asking {
     pub(in crate::interpreter) writer: Writer,
-    pub(in crate::interpreter) reads: Vec<RegionTarget>,
-    pub(in crate::interpreter) meaning: String,
+    pub(in crate::interpreter) meaning: Arc<ConditionMeaning>,
+}
+
+impl Asking {
+    /// A condition on something that only the machine knows.
+    pub(in crate::interpreter) fn of_unknown(writer: Writer, unknown: Unknown) -> Self {
+        let meaning = Arc::new(ConditionMeaning {
+            subject: ConditionSubject::Unknown(unknown),
+            reads: Vec::new(),
+            nodes: Vec::new(),
+        });
+        Self { writer, meaning }
+    }
+
+    /// The same expression for another subject.
+    pub(in crate::interpreter) fn about(mut self, subject: ConditionSubject) -> Self {
+        Arc::make_mut(&mut self.meaning).subject = subject;
+        self
+    }
 }
 
 /// Returns the values that an expression reads, where these are parameters and whole variables.
@@ -238,33 +280,31 @@ pub(in crate::interpreter) fn reads(
     externals: &ExternalNames,
 ) -> Option<Asking> {
     let mut found = Vec::new();
-    let mut meaning = String::new();
+    let mut nodes = Vec::new();
     let mut writer = Writer::Nothing;
     for at in expression.start..expression.end {
         let at = at as usize;
         let node = *block.nodes.get(at)?;
+        nodes.push(node);
         let read = match node {
-            Node::Number(_) | Node::Negate | Node::Binary(_) => None,
-            Node::Call { function, .. } if is_pure(function) => None,
-            node => Some(target(node, block.spans.get(at)?.of(text))?),
+            Node::Number(number) if !number.is_finite() => return None,
+            Node::Number(_) | Node::Negate | Node::Binary(_) => continue,
+            Node::Call { function, .. } if is_pure(function) => continue,
+            node => target(node, block.spans.get(at)?.of(text))?,
         };
-        let Some(read) = read else {
-            meaning = format!("{meaning} {node:?}");
-            continue;
-        };
-        meaning = format!("{meaning} {read:?}");
         writer = writer.max(match &read {
-            RegionTarget::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
-            RegionTarget::Variable(name) => Writer::of(name, externals),
-            RegionTarget::Elements(_) | RegionTarget::Parameters => return None,
+            Location::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
+            Location::Variable(name) => Writer::of(name, externals),
+            Location::Elements(_) | Location::Parameters => return None,
         });
         found.push(read);
     }
-    Some(Asking {
-        writer,
+    let meaning = Arc::new(ConditionMeaning {
+        subject: ConditionSubject::Truth,
         reads: found,
-        meaning,
-    })
+        nodes,
+    });
+    Some(Asking { writer, meaning })
 }
 
 /// Whether an expression reads, or may read, a value that the machine writes while the program waits.
@@ -280,8 +320,8 @@ pub(in crate::interpreter) fn is_written_by_machine(
     nodes.iter().zip(spans).any(|(node, span)| match node {
         Node::Variable { .. } => {
             let name = canonical(span.of(text));
-            let is_cycle = name.starts_with("V.CYC.");
-            !is_cycle && Writer::of(&name, externals) != Writer::Nothing
+            VariableFamily::of(&name) != VariableFamily::Cycle
+                && Writer::of(&name, externals) != Writer::Nothing
         }
         Node::Text | Node::Unread => true,
         _ => false,

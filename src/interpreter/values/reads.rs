@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::target::RegionTarget;
+use super::location::Location;
 
 /// Number of different values kept as read; with more, everything counts as read.
 const MAX_READS: usize = 256;
@@ -12,12 +12,12 @@ const MAX_READS: usize = 256;
 /// Values read since a loop was examined.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Reads {
-    targets: BTreeSet<RegionTarget>,
+    targets: BTreeSet<Location>,
     too_many: bool,
 }
 
 impl Reads {
-    pub(in crate::interpreter) fn note(&mut self, target: RegionTarget) {
+    pub(in crate::interpreter) fn note(&mut self, target: Location) {
         if self.targets.len() < MAX_READS {
             self.targets.insert(target);
         } else {
@@ -25,7 +25,7 @@ impl Reads {
         }
     }
 
-    pub(in crate::interpreter) fn has(&self, target: &RegionTarget) -> bool {
+    pub(in crate::interpreter) fn has(&self, target: &Location) -> bool {
         self.too_many || self.targets.contains(target)
     }
 }

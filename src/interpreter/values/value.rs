@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::cause::Unknown;
 use crate::syntax::Fault;
 
 /// A value of an expression, parameter or variable.
@@ -14,8 +15,8 @@ pub enum Value {
     Number(f64),
     /// A text.
     Text(Arc<str>),
-    /// Something that only the machine knows; the text names it (R2.50).
-    Unknown(Arc<str>),
+    /// Something that only the machine knows (R2.50).
+    Unknown(Unknown),
 }
 
 /// One operand on the stack. A failure waits until something needs its value, so that `EXIST` and
@@ -28,6 +29,15 @@ impl Value {
         match self {
             Self::Number(number) => Some(*number),
             _ => None,
+        }
+    }
+
+    /// The value as a program writes it.
+    pub(in crate::interpreter) fn as_written(&self) -> String {
+        match self {
+            Self::Number(number) => number.to_string(),
+            Self::Text(text) => format!("\"{text}\""),
+            Self::Unknown(unknown) => unknown.to_string(),
         }
     }
 

@@ -5,6 +5,63 @@
 
 use std::borrow::Cow;
 
+/// Family of a variable, from the letters before its name as the run keeps it (R2.34).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum VariableFamily {
+    /// An array of P parameters.
+    Parameter,
+    /// `V.P.`
+    Program,
+    /// `V.L.`
+    Local,
+    /// `V.CYC.`
+    Cycle,
+    /// `V.S.`
+    Shared,
+    /// `V.E.`
+    External,
+    /// `V.A.`
+    Axis,
+    /// Any other variable of the control: `V.G.`.
+    Control,
+    /// No variable.
+    Other,
+}
+
+impl VariableFamily {
+    pub(in crate::interpreter) fn of(name: &str) -> Self {
+        match name.as_bytes() {
+            [b'P', ..] => Self::Parameter,
+            [b'V', b'.', b'P', b'.', ..] => Self::Program,
+            [b'V', b'.', b'L', b'.', ..] => Self::Local,
+            [b'V', b'.', b'C', b'Y', b'C', b'.', ..] => Self::Cycle,
+            [b'V', b'.', b'S', b'.', ..] => Self::Shared,
+            [b'V', b'.', b'E', b'.', ..] => Self::External,
+            [b'V', b'.', b'A', b'.', ..] => Self::Axis,
+            [b'V', b'.', ..] => Self::Control,
+            _ => Self::Other,
+        }
+    }
+
+    /// Whether a program start clears its variables.
+    pub(in crate::interpreter) fn is_of_run(self) -> bool {
+        matches!(self, Self::Parameter | Self::Program | Self::Cycle)
+    }
+
+    /// Whether programs write its variables.
+    pub(in crate::interpreter) fn is_written(self) -> bool {
+        self.is_of_run() || matches!(self, Self::Shared | Self::Local)
+    }
+
+    /// Whether others than the program that writes its variables read them (R2.34, R2.36).
+    pub(in crate::interpreter) fn is_read_by_others(self) -> bool {
+        matches!(
+            self,
+            Self::Shared | Self::External | Self::Axis | Self::Control
+        )
+    }
+}
+
 /// The name under which a variable is kept: without blanks, its family in upper case.
 pub(in crate::interpreter) fn canonical(text: &str) -> Cow<'_, str> {
     let family = &text[..family_length(text)];
@@ -72,6 +129,20 @@ pub(in crate::interpreter) fn with_subscripts(text: &str, values: &[String]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_before_a_name_tell_its_family() {
+        // R2.34
+        for (name, family) in [
+            ("P5[1]", VariableFamily::Parameter),
+            ("V.P.A", VariableFamily::Program),
+            ("V.CYC.A", VariableFamily::Cycle),
+            ("V.CYCLE.A", VariableFamily::Control),
+            ("@P1", VariableFamily::Other),
+        ] {
+            assert_eq!(VariableFamily::of(name), family, "{name}");
+        }
+    }
 
     #[test]
     fn the_family_may_be_written_in_any_case() {

@@ -3,7 +3,7 @@
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
-use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to, unless};
+use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to};
 use crate::lint::linter::{EndNote, LeftAway, Linter};
 use crate::lint::memory::{BlockSite, KindEffect, MovedBefore, command_to};
 use crate::syntax::is_lone_end;
@@ -181,14 +181,8 @@ impl LeftAwayKind<'_> {
     fn ways_away(&self, file: &str) -> Option<String> {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let (possible, away) = self.state_away()?;
-        if let Some(ways) = possible.ways_to(away, file) {
-            return Some(ways);
-        }
-        let ways = possible.ways_to(start_up, file)?;
-        Some(match ways.strip_prefix("if not ") {
-            Some(condition) if possible.rests_on_one_condition() => format!("if {condition}"),
-            _ => unless(&ways),
-        })
+        let ways = possible.ways_to(away, file);
+        ways.or_else(|| possible.unless(start_up, file))
     }
 
     /// Returns the command that restores the state at the start of the control.

@@ -32,7 +32,7 @@ pub struct Target {
 }
 
 /// One step of an expression; operands come before their operator.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Node {
     /// A number.
     Number(f64),
@@ -83,7 +83,7 @@ pub enum Owner {
 }
 
 /// An operator between two values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BinaryOperator {
     /// `+`, also between texts.
     Add,
@@ -124,7 +124,7 @@ pub enum BinaryOperator {
 }
 
 /// A function of the language (R2.30, R2.34, R2.35).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Function {
     /// Absolute value.
     Abs,

@@ -103,6 +103,6 @@ pub(crate) fn json(text: &str) -> Value {
 /// A state as a file of schema 2, which has no checksum and can be edited.
 pub(crate) fn of_schema_2(state: &str) -> String {
     let (content, _) = state.split_once(",\n  \"checksum\"").expect("a checksum");
-    let content = content.replacen("\"schema\": 3", "\"schema\": 2", 1);
+    let content = content.replacen("\"schema\": 4", "\"schema\": 2", 1);
     format!("{content}\n}}\n")
 }

@@ -30,7 +30,7 @@ fn left_off() -> Session {
 fn it_says_who_made_a_state() {
     // R9.32
     let saved = serde_json::to_value(left_off().save()).unwrap();
-    assert_eq!(saved["schema"], 3);
+    assert_eq!(saved["schema"], 4);
     let away = &saved["axes"][0]["away"];
     let expected = r#"[{"kind":"FRICT","by":{"program":"FRICTION","file":"friction.nc","line":2,"text":"N10 X[COMP OFF FRICT] ; known"}}]"#;
     assert_eq!(*away, json(expected));
@@ -141,7 +141,7 @@ fn a_file_of_schema_1_is_read_with_nobody_known() {
     let text = bench.stdout(&["run", "--width", "200", "--state", "s.json", "b.nc"]);
     assert!(text.contains("info[FC403]"), "{text}");
     assert!(text.contains("a program that is not known"), "{text}");
-    assert_eq!(json(&bench.read("s.json"))["schema"], 3);
+    assert_eq!(json(&bench.read("s.json"))["schema"], 4);
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn a_state_of_another_time_or_machine_is_refused_and_left_alone() {
     let (bench, good) = bench_with_state();
     let editable = of_schema_2(&good);
     let wrongs = [
-        ("\"schema\": 2", "\"schema\": 4", "schema 4"),
+        ("\"schema\": 2", "\"schema\": 5", "schema 5"),
         ("\"schema\": 2", "\"schema\": 0", "schema 0"),
         ("\"schema\": 2", "\"schema\": -1", "damaged"),
         ("axis Z number", "axis C number", "another machine"),

@@ -220,6 +220,16 @@ impl SelectError {
         }
     }
 
+    /// Returns its words about a trace with a path.
+    pub fn of_trace(&self, path: &str) -> String {
+        match self {
+            Self::Lacks { lacks, found, .. } => {
+                format!("the trace `{path}` has {lacks}, only {}", listed(found))
+            }
+            _ => format!("the trace `{path}`: {self}"),
+        }
+    }
+
     /// Returns the advice.
     pub fn help(&self) -> Option<String> {
         match self {

@@ -1,0 +1,126 @@
+//! Locations of memory: parameters, variables, and elements of arrays.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::cause::Unknown;
+use super::functions::numeric;
+use super::value::{Slot, Value, rounded};
+use crate::syntax::Fault;
+use crate::syntax::ast::Owner;
+use crate::text::Span;
+
+/// A location of memory, or several of which one is meant.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub(in crate::interpreter) enum Location {
+    Parameter(Owner, u32),
+    /// A variable, or an element of an array with its subscripts.
+    Variable(String),
+    /// Some element of an array.
+    Elements(String),
+    /// Some P parameter.
+    Parameters,
+}
+
+impl Location {
+    /// The parameter or variable of a name.
+    pub(in crate::interpreter) fn named(name: &str) -> Self {
+        let number = name.strip_prefix('P').and_then(|index| index.parse().ok());
+        number.map_or_else(
+            || Self::Variable(name.to_owned()),
+            |index| Self::Parameter(Owner::Program, index),
+        )
+    }
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Parameter(Owner::Program, index) => write!(f, "P{index}"),
+            Self::Parameter(Owner::Call, index) => write!(f, "@P{index}"),
+            Self::Variable(name) | Self::Elements(name) => f.write_str(name),
+            Self::Parameters => f.write_str("P"),
+        }
+    }
+}
+
+/// The location that an expression denotes.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::interpreter) struct Denoted {
+    pub(in crate::interpreter) location: Location,
+    /// The value that decides which of several locations it is.
+    pub(in crate::interpreter) decided_by: Option<Unknown>,
+}
+
+impl Denoted {
+    /// One of several locations.
+    pub(in crate::interpreter) fn any_of(location: Location, decided_by: Unknown) -> Self {
+        Self {
+            location,
+            decided_by: Some(decided_by),
+        }
+    }
+
+    /// The name of the variable, where it is one that is known.
+    pub(in crate::interpreter) fn variable(&self) -> Option<&str> {
+        match &self.location {
+            Location::Variable(name) => Some(name),
+            _ => None,
+        }
+    }
+
+    /// The location with the value that it has after an assignment.
+    pub(in crate::interpreter) fn assigned(self, value: Value) -> (Location, Value) {
+        let value = self.decided_by.map_or(value, Value::Unknown);
+        (self.location, value)
+    }
+
+    /// Pops the number and the subscripts of a parameter (R2.72).
+    pub(super) fn pop_parameter(
+        owner: Owner,
+        subscripts: usize,
+        span: Span,
+        stack: &mut Vec<Slot>,
+    ) -> Result<Self, Box<Fault>> {
+        let from = stack.len().saturating_sub(subscripts + 1);
+        let mut numbers = Vec::with_capacity(subscripts + 1);
+        let mut unknown = None;
+        for slot in stack.drain(from..) {
+            let value = slot?;
+            let number = numeric(&value, span)?.map(|it| rounded(it).unwrap_or(i64::MAX));
+            numbers.push(number);
+            if let Value::Unknown(cause) = value {
+                unknown = unknown.or(Some(cause));
+            }
+        }
+        let index = numbers.first().copied().flatten();
+        let index = index.map(|index| u32::try_from(index).unwrap_or(u32::MAX));
+        Ok(match (index, unknown) {
+            (Some(index), Some(cause)) => {
+                Self::any_of(Location::Elements(format!("P{index}")), cause)
+            }
+            (None, cause) => {
+                let cause = cause.unwrap_or_else(|| Unknown::text("P"));
+                Self::any_of(Location::Parameters, cause)
+            }
+            (Some(index), None) if subscripts == 0 => Location::Parameter(owner, index).into(),
+            (Some(index), None) => {
+                let mut name = format!("P{index}");
+                for number in numbers[1..].iter().flatten() {
+                    name.extend(["[", &number.to_string(), "]"]);
+                }
+                Location::Variable(name).into()
+            }
+        })
+    }
+}
+
+impl From<Location> for Denoted {
+    fn from(location: Location) -> Self {
+        Self {
+            location,
+            decided_by: None,
+        }
+    }
+}

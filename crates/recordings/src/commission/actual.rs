@@ -201,6 +201,7 @@ pub fn recorded_otherwise(
     let outcomes = off.iter().chain(on);
     let largest_mm = outcomes.fold(0.0_f64, |most, it| most.max(it.largest_glitch())) / 1000.0;
     let step_mm = STEP_MM.max(LASTING * largest_mm);
+    let unit = on.first().map_or("µm", |it| it.unit());
     let mut against = Vec::new();
     for (at, name) in names.iter().enumerate().take(2) {
         let of = |recorded: &[&RecordingOutcome]| -> Vec<FollowedPosition> {
@@ -254,8 +255,8 @@ pub fn recorded_otherwise(
             both(|it| it.step_mm).filter(|(off, on)| (on - off).abs() > step_mm)
         {
             against.push(format!(
-                "the positions of {name} step by {:.1} µm where it reverses in the recordings off and by {:.1} µm in \
-                 those on: backlash in one of them, or its compensation was changed; record both alike",
+                "the positions of {name} step by {:.1} {unit} where it reverses in the recordings off and by {:.1} \
+                 {unit} in those on: backlash in one of them, or its compensation was changed; record both alike",
                 off * 1000.0,
                 on * 1000.0
             ));

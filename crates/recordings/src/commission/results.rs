@@ -122,6 +122,14 @@ impl RecordingOutcome {
         }
     }
 
+    /// The unit of its glitches.
+    pub(super) fn unit(&self) -> &str {
+        match self {
+            Self::Strokes(found) => &found.unit,
+            _ => "µm",
+        }
+    }
+
     /// The largest glitch in µm or 0.001° that it shows; 0 if none.
     pub(super) fn largest_glitch(&self) -> f64 {
         let reversals = self.reversals();

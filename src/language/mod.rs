@@ -3,6 +3,8 @@
 //! `hash` has a row for each `#` command, `g` for each G function, `bracket` for each command in the bracket of an axis.
 //! Everything else asks the columns of a row: a command or function is described in one place.
 
+#![cfg_attr(not(feature = "unstable"), allow(unreachable_pub))]
+
 /// Columns of a table: each sets the value of a row, with the arguments that a row gives it.
 macro_rules! columns {
     ($($column:ident($($argument:ident: $type:ty),+) = $value:expr;)+) => {

@@ -9,7 +9,9 @@ mod call;
 mod expression;
 mod flow;
 
-pub use crate::language::{AxisCommand, BlockSharing};
+#[cfg_attr(not(feature = "unstable"), allow(unused_imports))]
+pub use crate::language::AxisCommand;
+pub use crate::language::BlockSharing;
 pub use arguments::{Argument, BracketArguments};
 pub use block::{
     Address, Assignment, Block, BlockNumber, Declaration, Effect, Hash, Item, SpindleWord, Word,

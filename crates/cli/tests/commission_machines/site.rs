@@ -336,7 +336,9 @@ impl Columns {
     pub(crate) fn hold(&mut self, column: usize, rows: usize) {
         for held in self.rows.chunks_mut(rows) {
             let value = held[0][column];
-            held.iter_mut().for_each(|it| it[column] = value);
+            for row in held {
+                row[column] = value;
+            }
         }
     }
 

@@ -105,9 +105,9 @@ fn take_of(feed: f64, take: u64) -> String {
 #[test]
 fn recordings_that_are_no_round_are_refused() {
     // R16.4, R16.17: a missing second recording, too few feeds, no positions, another axis, another list, two machines, no
-    // times, a copy.
+    // times, coarse samples, a copy.
     type Wrong = (&'static str, fn(&Bench), &'static [&'static str]);
-    let wrong: [Wrong; 9] = [
+    let wrong: [Wrong; 10] = [
         (
             "one recording",
             |bench| std::fs::remove_file(bench.path(&take_of(2100.0, 1))).expect("removed"),
@@ -171,6 +171,17 @@ fn recordings_that_are_no_round_are_refused() {
                 bench.put(&take_of(1600.0, 1), &rows.join("\n"));
             },
             &["has no times, so its feed is not known"],
+        ),
+        (
+            "a row every 4 ms",
+            |bench| {
+                let rows: Vec<Row> = circle(1600.0, 5.0, (0.0, 9))
+                    .into_iter()
+                    .step_by(4)
+                    .collect();
+                bench.put(&take_of(1600.0, 1), &plain(&rows));
+            },
+            &["a sample every 4.0 ms does not show", "with every cycle"],
         ),
         (
             "a copy",

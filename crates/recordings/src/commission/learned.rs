@@ -46,11 +46,11 @@ pub enum LearnError {
     #[error("`{0}` has no times, so its feed is not known")]
     NoTimes(String),
     /// Samples that are too far apart to show a reversal.
-    #[error("`{file}` has {coarse}")]
+    #[error("`{file}`: {coarse}")]
     Coarse {
         /// Name of the file.
         file: String,
-        /// How far apart they are, in words.
+        /// How far apart they are, and what to record, in words.
         coarse: String,
     },
     /// A feed that was recorded once, or more than twice.
@@ -127,7 +127,7 @@ impl LearnError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoTimes(_) => "record the time in s as well, or name its channel",
-            Self::Coarse { .. } => "a position every ms shows what a list leaves",
+            Self::Coarse { .. } => "export it with every cycle of the control",
             Self::Count { count: 1, .. } => {
                 "record it a second time: without a second recording the spread is not known"
             }

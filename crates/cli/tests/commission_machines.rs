@@ -75,7 +75,7 @@ fn averages_are_recognised_without_commands(site: &Site) {
     site.record((1, "circle"), [None, None], (&site.machine, &averaged));
     let (_, said) = site.run_without_commands();
     Site::put_back(&kept);
-    let words = "averages over 20 ms in the recordings off and not in those on";
+    let words = "averages over 20 ms in the recordings off, which hides";
     assert!(said.contains(words), "{said}");
 }
 

@@ -38,14 +38,6 @@ impl ReadingArgs {
         if let [(x, of_x), (y, of_y)] = followed[..] {
             found.notes.extend(recorded_apart([x, y], [of_x, of_y]));
         }
-        let is_named = found.averaged_s.is_some();
-        let averaged = followed.iter().filter_map(|(axis, it)| {
-            let over_ms = it.averaged_s.filter(|_| !is_named)? * 1000.0;
-            Some(format!(
-                "the positions of {axis} are averages over {over_ms:.0} ms, which hides what a reversal leaves"
-            ))
-        });
-        found.notes.extend(averaged);
     }
 
     /// Takes the share of the list of each round in the torque of its recordings, and in that of stage 1.

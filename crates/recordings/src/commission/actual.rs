@@ -186,6 +186,21 @@ pub(super) fn averaged_samples(values: &[f64]) -> Option<usize> {
     (beside(lag) < limit && beside(other) > ALONE * beside(lag)).then_some(lag)
 }
 
+/// The time in s over which the positions of an axis are averages in a stage: a recorder averages in all of its
+/// recordings, and what one of them shows alone is chance.
+fn averaged_in(recorded: &[&RecordingOutcome], axis: usize) -> Option<f64> {
+    const SAME: f64 = 0.1;
+    let times: Vec<f64> = recorded
+        .iter()
+        .filter_map(|it| it.averaged_s(axis))
+        .collect();
+    let middle_s = median(&times)?;
+    let agree = times
+        .iter()
+        .filter(|it| (*it / middle_s - 1.0).abs() <= SAME);
+    (2 * agree.count() > recorded.len()).then_some(middle_s)
+}
+
 /// States how the circles or strokes of a round were recorded otherwise than those off, for each axis: averaged, later,
 /// in another scale, or with a step at each reversal (R16.14, R16.18). They are not compared then.
 pub fn recorded_otherwise(
@@ -214,20 +229,19 @@ pub fn recorded_otherwise(
         let both = |value: fn(&FollowedPosition) -> Option<f64>| {
             middle(&before, value).zip(middle(&after, value))
         };
-        let averaged = [off, on].map(|all| all.iter().find_map(|it| it.averaged_s(at)));
-        if let [Some(over_s), None] | [None, Some(over_s)] = averaged
-            && !off.is_empty()
-            && !on.is_empty()
-        {
-            let (which, other) = if averaged[0].is_some() {
-                ("off", "on")
-            } else {
-                ("on", "off")
-            };
+        let averaged = [("off", off), ("on", on)].map(|(state, all)| {
+            averaged_in(all, at)
+                .map(|over_s| format!("over {:.0} ms in the recordings {state}", over_s * 1000.0))
+        });
+        let averages = averaged
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(" and ");
+        if !averages.is_empty() {
             against.push(format!(
-                "the positions of {name} are averages over {:.0} ms in the recordings {which} and not in those {other}, \
-                 which hides what a reversal leaves: record both alike, every sample as it is",
-                over_s * 1000.0
+                "the positions of {name} are averages {averages}, which hides what a reversal leaves: record every \
+                 sample as it is"
             ));
         }
         if let Some((off_s, on_s)) =

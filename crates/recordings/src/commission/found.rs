@@ -349,12 +349,6 @@ impl CirclesFound {
         let mut notes = Vec::new();
         let mut against = Vec::new();
         let averaged_s = recording.circles.iter().find_map(averaged_over);
-        notes.extend(averaged_s.map(|over_s| {
-            format!(
-                "its positions are averages over {:.0} ms, which hides what a reversal leaves",
-                over_s * 1000.0
-            )
-        }));
         match measured_feed {
             Some(measured) if (measured / feed - 1.0).abs() > ON_FEED => notes.push(format!(
                 "driven at {measured:.0} mm/min in place of {feed:.0}: {:.2} mm/s² count",

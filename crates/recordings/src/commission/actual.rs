@@ -229,11 +229,11 @@ pub fn recorded_otherwise(
         let both = |value: fn(&FollowedPosition) -> Option<f64>| {
             middle(&before, value).zip(middle(&after, value))
         };
-        let averaged = [("off", off), ("on", on)].map(|(state, all)| {
+        let stages = [("off", off), ("on", on)].map(|(state, all)| {
             averaged_in(all, at)
                 .map(|over_s| format!("over {:.0} ms in the recordings {state}", over_s * 1000.0))
         });
-        let averages = averaged
+        let averages = stages
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()

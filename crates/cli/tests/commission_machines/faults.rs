@@ -239,7 +239,7 @@ fn of_circles_on() -> Vec<Fault> {
             ..Fault::on("the same with 0.8 µm of noise", &["commanded ones"])
         },
         Fault {
-            rows: Some(|it| it.keep(|at| at % 1000 != 0)),
+            rows: Some(|it| it.keep(|at, _| at % 1000 != 0)),
             ..Fault::on("every thousandth row missing", ROWS)
         },
         Fault {
@@ -343,7 +343,7 @@ fn of_friction() -> Vec<Fault> {
             ..Fault::friction("a cold machine, 20 % more friction", &["differ by"])
         },
         Fault {
-            rows: Some(|it| it.keep_rows(|row| row[2] >= 0.0)),
+            rows: Some(|it| it.keep(|_, row| row[2] >= 0.0)),
             ..Fault::friction("the way back missing", &["direction", "missing"])
         },
         Fault {

@@ -152,7 +152,7 @@ impl Site {
         lists.collect()
     }
 
-    /// The tuned lists, and the provisional one of an axis without; `None` if there is none.
+    /// The tuned lists, with the provisional one of an axis that was not tuned; `None` if neither was.
     pub(crate) fn tuned(&self) -> Option<[PathBuf; 2]> {
         let tuned = AXES.map(|axis| self.lists_of(axis, "tuned").pop());
         let is_any = tuned.iter().any(Option::is_some);
@@ -353,17 +353,12 @@ impl Columns {
         self.rows.iter_mut().for_each(|it| it[to] = it[from]);
     }
 
-    /// Keeps rows by what they hold.
-    pub(crate) fn keep_rows(&mut self, is_kept: fn(&[f64]) -> bool) {
-        self.rows.retain(|it| is_kept(it));
-    }
-
-    /// Keeps rows by their number.
-    pub(crate) fn keep(&mut self, is_kept: fn(usize) -> bool) {
+    /// Keeps rows by their number, from 1, and their values.
+    pub(crate) fn keep(&mut self, is_kept: fn(usize, &[f64]) -> bool) {
         let mut at = 0;
-        self.rows.retain(|_| {
+        self.rows.retain(|row| {
             at += 1;
-            is_kept(at)
+            is_kept(at, row)
         });
     }
 }

@@ -16,7 +16,10 @@ const ROOMS: [(&str, &[&str]); 28] = [
         "syntax",
         &["text", "diagnostic", "comp", "readings", "language"],
     ),
-    ("lists", &["text", "diagnostic", "comp", "syntax"]),
+    (
+        "lists",
+        &["text", "diagnostic", "comp", "language", "syntax"],
+    ),
     ("drive_interface", &["text", "diagnostic", "lists"]),
     (
         "config",

@@ -44,6 +44,8 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// Number of executed blocks of a program to which it applied, as given in the message.
     pub times: u64,
+    /// The message without the number of times, where it has one.
+    uncounted: Option<String>,
     /// The main programs that reach its place, if that is in a called program.
     pub reached_from: ReachedFrom,
     /// The program ends that it is about (R1.58).
@@ -63,6 +65,7 @@ impl Diagnostic {
             fixes: Vec::new(),
             labels: Vec::new(),
             times: 1,
+            uncounted: None,
             reached_from: ReachedFrom::default(),
             ends: Vec::new(),
         }
@@ -126,17 +129,14 @@ impl Diagnostic {
 
     /// Adds to the message how often it applied.
     pub(crate) fn count(&mut self, times: u64) {
-        self.message = format!("{} ({times} times)", self.message);
+        let counted = format!("{} ({times} times)", self.message);
+        self.uncounted = Some(std::mem::replace(&mut self.message, counted));
         self.times = times;
     }
 
     /// Returns the message without its count, by which equal messages are recognised (R17.3).
     pub fn uncounted(&self) -> &str {
-        if self.times == 1 {
-            return &self.message;
-        }
-        let count = format!(" ({} times)", self.times);
-        self.message.strip_suffix(&count).unwrap_or(&self.message)
+        self.uncounted.as_ref().unwrap_or(&self.message)
     }
 
     /// Returns the message with the main programs that reach its place, for one-line formats

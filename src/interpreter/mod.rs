@@ -51,4 +51,3 @@ pub(crate) use values::found::VariableUse;
 pub use values::value::Value;
 
 pub use crate::language::{Certainty, Group, MotionKind, Simplification, Simplifications};
-pub(crate) use values::variable::set_name;

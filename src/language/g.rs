@@ -36,6 +36,8 @@ pub(crate) struct GFunction {
     pub(crate) simplifies: Option<(Simplification, Holds)>,
     /// Effect on coordinates that is not in the other columns.
     pub(crate) coordinates: CoordinateEffect,
+    /// Number of the group of a channel list in which it may be the default at program start (P-CHAN-00063).
+    default_of: Option<u32>,
 }
 
 /// Execution of a G function in a dry run.
@@ -126,6 +128,7 @@ impl GFunction {
             unmodelled: None,
             simplifies: None,
             coordinates: CoordinateEffect::None,
+            default_of: None,
         }
     }
 
@@ -139,6 +142,7 @@ impl GFunction {
         unmodelled(reason: &'static str) = Some(reason);
         simplifies(what: Simplification, holds: Holds) = Some((what, holds));
         coordinates(coordinates: CoordinateEffect) = coordinates;
+        default_of(group: u32) = Some(group);
     }
 }
 
@@ -178,8 +182,8 @@ static FUNCTIONS: &[GFunction] = {
         ToolFeed, VelocityWeight,
     };
     functions! {
-        0..=3 ("R2.45") group(Group::Motion);
-        4 (MANUAL) action(Dwell) axis_words(Other);
+        0..=3 ("R2.45") group(Group::Motion) default_of(0);
+        4 (MANUAL) action(Dwell) axis_words(Other) default_of(0);
         5 (MANUAL);
         8 (MANUAL);
         9 (MANUAL) one_of(One::Deceleration);
@@ -187,15 +191,15 @@ static FUNCTIONS: &[GFunction] = {
         11 ("PM/206473227") simplifies(ToolFeed, Holds::On);
         12 (MANUAL) simplifies(CornerDeceleration, Holds::Off);
         13 (MANUAL) simplifies(CornerDeceleration, Holds::On);
-        17..=19 ("R2.45") group(Group::Plane);
+        17..=19 ("R2.45") group(Group::Plane) default_of(4);
         20 ("PM/206266379") action(Mirror) chain(Coordinates, "G21", Off);
         21..=23 ("PM/206266379") action(Mirror) chain(Coordinates, "G21", On);
-        25..=26 (MANUAL) one_of(One::Transition);
+        25..=26 (MANUAL) one_of(One::Transition) default_of(6);
         28 (MANUAL);
         33 (MANUAL) motion(Feed, Words, Certain) unmodelled("G33 follows a spindle");
         40..=42 ("R2.45") group(Group::CutterRadius);
         43..=44 (EDITOR) coordinates(Unfollowed);
-        51..=52 (EDITOR) one_of(One::Diameter) coordinates(Unfollowed);
+        51..=52 (EDITOR) one_of(One::Diameter) coordinates(Unfollowed) default_of(8);
         53..=59 ("R2.45") group(Group::Offset);
         60 (MANUAL) action(RestAtEnd) one_of(One::ExactStop);
         61 ("PM/206307595") simplifies(Contouring, Holds::Once) one_of(One::ExactStop);
@@ -203,10 +207,10 @@ static FUNCTIONS: &[GFunction] = {
         66 (EDITOR) coordinates(Unfollowed);
         68 ("PM/969743115") action(Rotate) chain(Coordinates, "#ROTATION", On) axis_words(Other);
         69 ("PM/969743115") action(Rotate) chain(Coordinates, "#ROTATION", Off);
-        70..=71 ("R2.45") group(Group::Unit);
+        70..=71 ("R2.45") group(Group::Unit) default_of(12);
         74 ("PM/206138635") motion(Homing, Words, Certain) axis_words(AxisWords::Homing);
         80..=89 ("PM/206278923") action(Call);
-        90..=91 ("R2.45") group(Group::Distance);
+        90..=91 ("R2.45") group(Group::Distance) default_of(14);
         92 ("PM/206145291") action(SetReference) axis_words(Reference);
         93..=95 ("R2.45") group(Group::Feed);
         96 (MANUAL) action(SetCuttingSpeed);
@@ -226,16 +230,18 @@ static FUNCTIONS: &[GFunction] = {
         129 ("PM/206578955") action(WeighRapid);
         130..=131 ("PM/206590731") axis_words(Other) simplifies(AccelerationWeight, Holds::On);
         132..=134 ("PM/206596619") axis_words(Other) simplifies(RampWeight, Holds::On);
-        135..=137 (MANUAL) axis_words(Other);
-        138..=139 (MANUAL) one_of(One::RadiusSelection);
-        140..=141 (MANUAL);
+        135 (MANUAL) axis_words(Other) default_of(21);
+        136 (MANUAL) axis_words(Other);
+        137 (MANUAL) axis_words(Other) default_of(21);
+        138..=139 (MANUAL) one_of(One::RadiusSelection) default_of(22);
+        140..=141 (MANUAL) default_of(32);
         150 ("PM/207263627") action(SwitchSpline) chain(Path, "#SPLINE", Off);
         151 ("PM/207256971") action(SwitchSpline) chain(Path, "#SPLINE", On);
         159 ("R2.45") group(Group::Offset);
         160 (MANUAL);
-        161..=162 ("R2.45") group(Group::CircleCentre);
+        161..=162 ("R2.45") group(Group::CircleCentre) default_of(23);
         163 (MANUAL) action(SetRadius);
-        164..=165 (MANUAL) one_of(One::CentreCorrection);
+        164..=165 (MANUAL) one_of(One::CentreCorrection) default_of(25);
         166 ("PM/206744331") action(RunAtFullSpeed);
         167 (MANUAL);
         180 (MANUAL);
@@ -248,7 +254,7 @@ static FUNCTIONS: &[GFunction] = {
         230..=231 ("PM/206590731") axis_words(Other) simplifies(AccelerationWeight, Holds::On);
         233 ("PM/206596619") axis_words(Other) simplifies(RampWeight, Holds::On);
         234 (EDITOR) coordinates(Unfollowed);
-        236..=239 (MANUAL);
+        236..=239 (MANUAL) default_of(22);
         260 ("PM/206307595") simplifies(Contouring, Holds::Off) one_of(One::ExactStop);
         261 ("PM/206307595") simplifies(Contouring, Holds::On) one_of(One::ExactStop);
         270..=271 (EDITOR) coordinates(Unfollowed);
@@ -323,6 +329,18 @@ impl GFunction {
         FUNCTIONS.get(place.checked_sub(1)?)
     }
 
+    /// Whether a function is an interpolation at the path feed: G01, G02, G03.
+    #[inline]
+    pub(crate) const fn is_feed_move(number: u32) -> bool {
+        matches!(number, 1..=3)
+    }
+
+    /// Whether a function is a circular interpolation: G02, G03.
+    #[inline]
+    pub(crate) const fn is_arc(number: u32) -> bool {
+        matches!(number, 2 | 3)
+    }
+
     /// The row of a number after G, which may be a fraction.
     pub(crate) fn of_value(number: f64) -> Option<&'static Self> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
@@ -334,6 +352,13 @@ impl GFunction {
     /// The row of a number whose function is known, and not only its group.
     pub(crate) fn known(number: u32) -> Option<&'static Self> {
         Self::of(number).filter(|row| row.coordinates != CoordinateEffect::NotKnown)
+    }
+
+    /// The functions that may be the default of a group of a channel list (P-CHAN-00063).
+    pub(crate) fn defaults_of(group: u32) -> impl Iterator<Item = u32> {
+        let rows = FUNCTIONS.iter();
+        let rows = rows.filter(move |row| row.default_of == Some(group));
+        rows.flat_map(|row| row.first..=row.last)
     }
 
     /// Whether an axis word in its block is a number, so that an axis cannot only be named: the groups, block ends,

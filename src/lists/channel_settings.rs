@@ -10,6 +10,7 @@ use super::line::Entries;
 use super::parameter::Parameter;
 use super::value::{Given, Number};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::language::GFunction;
 
 /// The unit of the F word with G94, P-CHAN-00108.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -83,22 +84,6 @@ impl SlopeProfile {
             .map(|(_, profile)| profile)
     }
 }
-
-/// The groups of G functions that have a default at the start of a program, each with its permitted functions
-/// (P-CHAN-00063).
-const GROUPS: [(u32, &[u32]); 11] = [
-    (0, &[0, 1, 2, 3, 4]),
-    (4, &[17, 18, 19]),
-    (6, &[25, 26]),
-    (8, &[51, 52]),
-    (12, &[70, 71]),
-    (14, &[90, 91]),
-    (21, &[135, 137]),
-    (22, &[138, 139, 236, 237, 238, 239]),
-    (23, &[161, 162]),
-    (25, &[164, 165]),
-    (32, &[140, 141]),
-];
 
 /// Kinds of synchronisation without an acknowledgement by the PLC: no output, or output only.
 const UNACKNOWLEDGED: [&str; 5] = ["NO_SYNCH", "MOS", "MOS_TS", "MEP_MOS", "MET_MOS"];
@@ -195,8 +180,7 @@ impl ChannelDraft {
             self.functions.remove(&group);
             return;
         }
-        let allowed = GROUPS.iter().find(|(known, _)| *known == group);
-        let allowed = allowed.map_or(&[][..], |(_, allowed)| *allowed);
+        let allowed: Vec<u32> = GFunction::defaults_of(group).collect();
         let number = whole(given.value).filter(|number| allowed.contains(number));
         if let Some(number) = number {
             self.functions.insert(group, given.with(number));

@@ -31,10 +31,11 @@ pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoSearchedBlock, NoteKind, Notes, Options,
     SearchedBlock, StopPolicy,
 };
-use crate::interpreter::{Interpreter, RunOutcome, Value, set_name};
+use crate::interpreter::{Interpreter, RunOutcome, Value};
 pub use crate::lint::Maker;
 use crate::lint::{History, LeftAwayNotice, Linter};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
+use crate::syntax::VariableName;
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
 use message_dedup::MessageDedup;
@@ -160,7 +161,7 @@ pub struct Session {
     start: Compensation,
     history: History,
     /// The variables that the user gave.
-    given: BTreeMap<String, Value>,
+    given: BTreeMap<VariableName, Value>,
     remark: Option<String>,
     wording: Option<Wording>,
     programs: u32,
@@ -179,7 +180,7 @@ impl Session {
         let mut given = BTreeMap::new();
         for (name, setting) in &options.settings {
             interpreter.set(name, setting);
-            given.insert(set_name(name), setting.into());
+            given.insert(VariableName::read(name), setting.into());
         }
         for (name, position) in &options.start {
             interpreter.place(name, *position);
@@ -428,8 +429,9 @@ impl Session {
         let mut carried = self.interpreter.carried();
         // What the user gave is given again; what the programs wrote is not.
         carried.variables.retain(|name, value| {
-            let given = self.given.get(name);
-            self.interpreter.only_programs_write(name) || given != Some(value)
+            let name = VariableName::read(name);
+            let given = self.given.get(&name);
+            self.interpreter.only_programs_write(&name) || given != Some(value)
         });
         SavedState {
             schema: STATE_SCHEMA,

@@ -39,6 +39,7 @@ mod skip_levels;
 mod texts;
 mod unread;
 mod upper_case;
+mod variable_name;
 
 pub use axes::{AxisUse, axis_uses};
 pub(crate) use axes::{MAX_MACROS, is_axis_name, with_macros};
@@ -90,6 +91,9 @@ pub(crate) use scan::may_call_file;
 pub use scan::{NamedAxes, Scan, ScanQuestion, SwitchedAxes};
 pub use skip_levels::{NoSkipLevels, SkipLevels};
 pub(crate) use unread::not_known;
+pub(crate) use variable_name::{
+    AxisOfVariable, Subscript, Subscripts, VariableFamily, VariableName, compact,
+};
 
 #[cfg(test)]
 mod reference;

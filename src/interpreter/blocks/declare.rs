@@ -8,9 +8,8 @@ use crate::interpreter::run::state::State;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::VariableFamily;
-use crate::syntax::Fault;
 use crate::syntax::ast::{Declaration, Hash, Operand};
+use crate::syntax::{Fault, Subscript, VariableFamily, VariableName};
 
 impl Interpreter {
     pub(in crate::interpreter) fn delete(
@@ -72,12 +71,12 @@ impl Interpreter {
             let before = memory.before_declaration(&name);
             if is_scalar {
                 let value = values.into_iter().next().unwrap_or(default);
-                match Location::named(&name) {
+                match Location::named(name.clone()) {
                     Location::Parameter(_, index) => memory.declare_parameter(index, value),
                     _ => memory.declare(&name, value),
                 }
             } else {
-                let elements: Vec<Option<String>> = (0..values.len())
+                let elements: Vec<Option<VariableName>> = (0..values.len())
                     .map(|at| element(&name, &dimensions, at))
                     .collect();
                 let unknown = dimensions.iter().find_map(|size| size.as_ref().err());
@@ -98,10 +97,10 @@ impl Interpreter {
     }
 
     /// Notes the start value of a variable, or an array, that may be there before.
-    fn note_declaration(&self, name: &str, start: Option<&Value>) {
-        let location = Location::named(name);
+    fn note_declaration(&self, name: &VariableName, start: Option<&Value>) {
+        let location = Location::named(name.clone());
         let is_unwritten = self.state.control.memory.is_unwritten(&location);
-        let array = Value::Unknown(Unknown::text(name));
+        let array = Value::Unknown(Unknown::text(name.array()));
         self.note_use(|used| {
             if is_unwritten {
                 used.want(location);
@@ -123,7 +122,11 @@ impl State {
 
 /// The name of the element at a place in row order; `None` where an unknown dimension decides which it
 /// is. The first dimension does not.
-fn element(name: &str, dimensions: &[Result<u32, Value>], place: usize) -> Option<String> {
+fn element(
+    name: &VariableName,
+    dimensions: &[Result<u32, Value>],
+    place: usize,
+) -> Option<VariableName> {
     let mut subscripts = Vec::with_capacity(dimensions.len());
     let mut rest = place;
     for (at, size) in dimensions.iter().enumerate().rev() {
@@ -132,22 +135,17 @@ fn element(name: &str, dimensions: &[Result<u32, Value>], place: usize) -> Optio
             Err(_) if at == 0 => usize::MAX,
             Err(_) => return None,
         };
-        subscripts.push(rest % size);
+        let subscript = i64::try_from(rest % size).unwrap_or(i64::MAX);
+        subscripts.push(Subscript::Number(subscript));
         rest /= size;
     }
-    let mut element = name.to_owned();
-    for subscript in subscripts.iter().rev() {
-        element.push('[');
-        element.push_str(&subscript.to_string());
-        element.push(']');
-    }
-    Some(element)
+    Some(name.at(subscripts.into_iter().rev().collect()))
 }
 
 /// Only the program's own variables can be declared (TF5200 Diagnosis, error 20908).
 fn refuse_declaration(declaration: &Declaration, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
     let name = declared_name(declaration, at);
-    let family = VariableFamily::of(&name);
+    let family = name.family();
     if family.is_written() || family == VariableFamily::Other {
         return Ok(());
     }

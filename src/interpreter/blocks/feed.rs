@@ -10,7 +10,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::rounded;
-use crate::language::AxisWords;
+use crate::language::{AxisWords, GFunction};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, Item, Operand, Word};
 use crate::text::Span;
@@ -139,6 +139,7 @@ impl Interpreter {
             return false;
         }
         let moves = self.state.control.modal.functions.motion != 0;
+        let is_feed_move = |it: i64| u32::try_from(it).is_ok_and(GFunction::is_feed_move);
         let is_call = |item: &Item| {
             matches!(item, Item::Call(_) | Item::Sequence(_) | Item::GCall(_))
                 || moves && matches!(item, Item::Hash(_))
@@ -151,7 +152,7 @@ impl Interpreter {
                     _ => None,
                 };
                 match word.address {
-                    Address::Letter(b'G') if number.is_none_or(|it| (1..=3).contains(&it)) => true,
+                    Address::Letter(b'G') if number.is_none_or(is_feed_move) => true,
                     Address::Letter(letter @ (b'G' | b'M' | b'T' | b'D')) => {
                         let word = FunctionWord { letter, number };
                         self.calls_by_words() && !matches!(self.configured(word), Configured::None)

@@ -10,11 +10,10 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::VariableFamily;
 use crate::language::{AxisWords, HashAction, PathFlow, Touches};
 use crate::readings::{Alternative, Question};
-use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
+use crate::syntax::{Fault, VariableFamily};
 use crate::text::Span;
 
 /// Number of axes that a message names.
@@ -106,7 +105,7 @@ impl Interpreter {
             match place.variable() {
                 Some(whole)
                     if command.action == HashAction::Initialise
-                        && VariableFamily::of(whole) == VariableFamily::External =>
+                        && whole.family() == VariableFamily::External =>
                 {
                     self.write(&place.location, 0.0.into());
                     self.state.control.memory.zero(whole, &at.as_setter());

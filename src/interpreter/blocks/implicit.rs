@@ -14,8 +14,8 @@ use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::language::{CoordinateEffect, GFunction};
-use crate::syntax::Fault;
 use crate::syntax::ast::{CallScope, GCall, Hash};
+use crate::syntax::{Fault, VariableName};
 use crate::text::Span;
 
 impl Interpreter {
@@ -186,7 +186,7 @@ impl Interpreter {
 impl ControlState {
     /// The text of a variable, or the cause why it is unknown.
     fn named_elsewhere(&mut self, name: &str) -> Value {
-        match self.memory.variable(name) {
+        match self.memory.variable(&VariableName::read(name)) {
             Some(value @ Value::Text(_)) => value,
             _ => Value::Unknown(Unknown::text(name)),
         }

@@ -23,10 +23,9 @@ use crate::interpreter::values::plain::{
     variable,
 };
 use crate::interpreter::values::value::{Value, same_case};
-use crate::interpreter::values::variable::VariableFamily;
 use crate::readings::Question as Open;
-use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
+use crate::syntax::{Fault, VariableFamily};
 use crate::text::{Place, Span};
 
 impl Interpreter {
@@ -117,7 +116,7 @@ impl Interpreter {
     fn may_conclude(&self, target: &Location) -> bool {
         match target {
             Location::Variable(name) => {
-                VariableFamily::of(name) != VariableFamily::Local && !self.is_own(name)
+                name.family() != VariableFamily::Local && !self.is_own(name)
             }
             Location::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
             Location::Elements(_) | Location::Parameters => false,

@@ -39,7 +39,7 @@ impl Interpreter {
     /// (R2.46). Axes without a word end where they start.
     #[inline]
     pub(in crate::interpreter) fn move_around(&mut self, words: AxisWords) {
-        let turns = matches!(self.state.control.modal.functions.motion, 2 | 3);
+        let turns = self.state.control.modal.functions.is_arc();
         if (turns || self.scratch.geometry.is_some()) && words == AxisWords::Motion {
             self.move_around_in_plane(turns);
         }
@@ -128,7 +128,7 @@ impl Interpreter {
             let by_axis = self.scratch.moved.first().map(|word| word.value);
             return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
         }
-        let circular = matches!(self.state.control.modal.functions.motion, 2 | 3);
+        let circular = self.state.control.modal.functions.is_arc();
         let centred = geometry.centre.iter().any(Option::is_some);
         let moves = !self.scratch.moved.is_empty() || (circular && centred);
         let form = match words {

@@ -473,7 +473,7 @@ impl Interpreter {
             return;
         }
         // The lint for switches during motion looks at arcs (R1.57).
-        let is_arc = matches!(self.state.control.modal.functions.motion, 2 | 3);
+        let is_arc = self.state.control.modal.functions.is_arc();
         let start =
             (is_arc || self.options.motions == Motions::Taken).then(|| self.state.control.stand());
         let before = outcome.radius.map(|_| self.ends());
@@ -510,7 +510,7 @@ impl Interpreter {
 
     /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
-        let circular = matches!(self.state.control.modal.functions.motion, 2 | 3);
+        let circular = self.state.control.modal.functions.is_arc();
         let ends = self.ends();
         let stays = !ends.is_empty() && ends.iter().all(Option::is_some) && ends == before;
         if circular && stays {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::lacking_feed::LackingFeeds;
 use super::motion::BlockEnd;
 use super::pace::ProgrammedFeed;
-use crate::language::{Group, GroupSet};
+use crate::language::{GFunction, Group, GroupSet};
 
 /// Places of the feeds of G94 and G95.
 pub(super) const PER_MINUTE: usize = 1;
@@ -96,8 +96,14 @@ impl GFunctions {
 
     /// Whether G01, G02 or G03 is in force.
     #[inline]
-    pub(in crate::interpreter) fn is_feed_move(&self) -> bool {
-        matches!(self.motion, 1..=3) && !self.unknown.contains(Group::Motion)
+    pub(crate) fn is_feed_move(&self) -> bool {
+        GFunction::is_feed_move(self.motion) && !self.unknown.contains(Group::Motion)
+    }
+
+    /// Whether G02 or G03 was programmed last.
+    #[inline]
+    pub(in crate::interpreter) fn is_arc(&self) -> bool {
+        GFunction::is_arc(self.motion)
     }
 
     /// Whether the program has certainly given no feed so far, and G94 is in force.

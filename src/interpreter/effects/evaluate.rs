@@ -14,9 +14,8 @@ use crate::interpreter::values::expression::{Evaluator, ExpressionScope, Macros,
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::{VariableFamily, canonical};
-use crate::syntax::Fault;
 use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
+use crate::syntax::{AxisOfVariable, Fault, Subscript, VariableFamily, VariableName};
 use crate::text::Span;
 
 /// Different words that are counted as passed over, one by one.
@@ -150,14 +149,14 @@ impl Interpreter {
     }
 
     /// Returns the value of a variable of the machine itself that is known to the dry run (R1.35, R2.36).
-    fn system_variable(&self, name: &str) -> Option<Value> {
+    fn system_variable(&self, name: &VariableName) -> Option<Value> {
         if let Some(index) = given_parameter(name) {
             return self.state.control.is_given(index);
         }
         let own = self.own_variable(name)?;
         let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
         if is_state && self.state.control.modal.transformed.contains("G41") {
-            self.scratch.flushing.replace(Some(name.to_owned()));
+            self.scratch.flushing.replace(Some(name.to_string()));
         }
         match own {
             OwnVariable::Active(axis, kind) => {
@@ -186,12 +185,15 @@ impl Interpreter {
     }
 
     /// Whether the value of a variable follows from the state of the run.
-    pub(in crate::interpreter) fn is_own(&self, name: &str) -> bool {
+    pub(in crate::interpreter) fn is_own(&self, name: &VariableName) -> bool {
         self.own_variable(name).is_some()
     }
 
     /// The kind of an axis whose state a variable shows.
-    pub(in crate::interpreter) fn active_variable(&self, name: &str) -> Option<(AxisIndex, Kind)> {
+    pub(in crate::interpreter) fn active_variable(
+        &self,
+        name: &VariableName,
+    ) -> Option<(AxisIndex, Kind)> {
         match self.own_variable(name)? {
             OwnVariable::Active(axis, kind) => Some((axis, kind)),
             _ => None,
@@ -199,16 +201,15 @@ impl Interpreter {
     }
 
     /// The variable of an axis whose value follows from the state of the run.
-    fn own_variable(&self, name: &str) -> Option<OwnVariable> {
-        let rest = name.strip_prefix("V.A.")?;
-        let (variable, axis) = if let Some((variable, index)) = rest.split_once('[') {
-            let position = index.trim_end_matches(']').parse().ok()?;
-            let are_own = self.state.control.channel_axes.are_own();
-            let is_there = are_own && position < self.machine.axes.len();
-            (variable, is_there.then(|| AxisIndex::new(position))?)
-        } else {
-            let (variable, axis) = rest.rsplit_once('.')?;
-            (variable, self.axis_now(axis)?)
+    fn own_variable(&self, name: &VariableName) -> Option<OwnVariable> {
+        let (variable, axis) = name.of_axis()?;
+        let axis = match axis {
+            AxisOfVariable::Name(name) => self.axis_now(name)?,
+            AxisOfVariable::Index(position) => {
+                let are_own = self.state.control.channel_axes.are_own();
+                let is_there = are_own && position < self.machine.axes.len();
+                is_there.then(|| AxisIndex::new(position))?
+            }
         };
         let kind = |end: &str| variable.strip_suffix(end).and_then(compensation_kind);
         if let Some(kind) = kind("_COMP_ACTIVE") {
@@ -347,7 +348,7 @@ impl Interpreter {
         };
         self.write(&location, value);
         if let Location::Variable(name) = &location
-            && VariableFamily::of(name) == VariableFamily::External
+            && name.family() == VariableFamily::External
         {
             self.state.control.memory.hold(name, at.as_setter());
         }
@@ -360,11 +361,11 @@ impl Interpreter {
         assignment: Assignment,
         place: Option<&Denoted>,
         at: &BlockContext<'_>,
-    ) -> Option<String> {
+    ) -> Option<VariableName> {
         let name = place?.variable()?;
-        let is_given = VariableFamily::of(name) == VariableFamily::External
+        let is_given = name.family() == VariableFamily::External
             && self.state.control.memory.given(name).is_some();
-        (is_given && reads_itself(assignment, name, at)).then(|| name.to_owned())
+        (is_given && reads_itself(assignment, name, at)).then(|| name.clone())
     }
 
     /// The number that an operand is, if it is known; FC312 for a string (R2.37).
@@ -421,17 +422,22 @@ impl ControlState {
     /// Whether the call gave an own parameter (R2.79).
     fn is_given(&self, index: u32) -> Option<Value> {
         let frame = self.frames.running()?;
-        let name = format!("@P{index}");
+        let name = VariableName::own_parameter(index);
         let given = frame.own.contains_key(&index) || self.memory.variable(&name).is_some();
         (given || frame.level > 0).then(|| given.into())
     }
 }
 
 /// The number in `V.G.@P[1].VALID`.
-fn given_parameter(name: &str) -> Option<u32> {
-    let rest = name.strip_prefix("V.G.@P")?;
-    let index = rest.strip_suffix(".VALID")?;
-    index.trim_matches(['[', ']']).parse().ok()
+fn given_parameter(name: &VariableName) -> Option<u32> {
+    match name.subscripts().as_slice() {
+        [Subscript::Number(index), Subscript::Field(field)]
+            if name.array() == "V.G.@P" && &**field == "VALID" =>
+        {
+            u32::try_from(*index).ok()
+        }
+        _ => None,
+    }
 }
 
 fn compensation_kind(name: &str) -> Option<Kind> {
@@ -439,14 +445,14 @@ fn compensation_kind(name: &str) -> Option<Kind> {
 }
 
 /// Whether the value of an assignment is computed from the variable that it writes.
-fn reads_itself(assignment: Assignment, name: &str, at: &BlockContext<'_>) -> bool {
+fn reads_itself(assignment: Assignment, name: &VariableName, at: &BlockContext<'_>) -> bool {
     let Operand::Expression(value) = assignment.value else {
         return false;
     };
     let range = value.start as usize..value.end as usize;
     let spans = at.block.spans.get(range).unwrap_or_default();
     let mut texts = spans.iter().map(|span| span.of(at.text));
-    texts.any(|text| canonical(text) == name)
+    texts.any(|text| VariableName::read(text) == *name)
 }
 
 /// Whether an assignment counts: `P1 = P1 + 1`.
@@ -480,7 +486,7 @@ pub(in crate::interpreter) fn only_counts(
             owner == to && index == number
         }
         (Some((Node::Variable { subscripts: 0 }, Some(span))), Location::Variable(name)) => {
-            span.of(at.text) == name
+            VariableName::read(span.of(at.text)) == *name
         }
         _ => false,
     }

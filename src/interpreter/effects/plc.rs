@@ -14,14 +14,14 @@ use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::{HeldValues, SetAt};
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
-use crate::syntax::Fault;
 use crate::syntax::ast::Operand;
+use crate::syntax::{Fault, VariableName};
 
 /// A value that the program set and that decides a condition.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct KeptValue {
     /// The variables.
-    pub(in crate::interpreter) names: Arc<[String]>,
+    pub(in crate::interpreter) names: Arc<[VariableName]>,
     /// The block that set it.
     pub(in crate::interpreter) set: SetAt,
     /// The value of the condition.
@@ -50,7 +50,10 @@ impl Doubt {
     pub(in crate::interpreter) fn cause(&self) -> Unknown {
         match self {
             Self::Unknown(cause) => cause.clone(),
-            Self::Kept(kept) => Unknown::text(kept.names.first().map_or("", String::as_str)),
+            Self::Kept(kept) => {
+                let name = kept.names.first().map(ToString::to_string);
+                Unknown::text(name.unwrap_or_default())
+            }
         }
     }
 
@@ -82,6 +85,7 @@ impl Interpreter {
         let is_silent = silent.contains(&(letter, number)) && !(letter == b'M' && number < 2);
         // A program may set the kind of synchronisation (tf5200_m_and_h_func/285949579).
         let set = format!("V.G.{}_FCT[{number}].SYNCH", char::from(letter));
+        let set = VariableName::read(&set);
         !is_silent || self.state.control.memory.variable(&set).is_some()
     }
 
@@ -107,7 +111,7 @@ impl Interpreter {
 
     /// The PLC may write variables.
     #[cold]
-    pub(in crate::interpreter) fn let_plc_write(&mut self, is_it: impl Fn(&str) -> bool) {
+    pub(in crate::interpreter) fn let_plc_write(&mut self, is_it: impl Fn(&VariableName) -> bool) {
         let State { control, track, .. } = &mut self.state;
         track.assumed.undo_external(&is_it, &mut control.memory);
         let changed = control.memory.let_change(is_it);
@@ -171,7 +175,7 @@ impl Interpreter {
         &mut self,
         operand: Operand,
         at: &BlockContext<'_>,
-    ) -> Result<(Value, Vec<String>), Box<Fault>> {
+    ) -> Result<(Value, Vec<VariableName>), Box<Fault>> {
         self.scratch.relied.get_mut().clear();
         let value = self.value(operand, at)?;
         Ok((value, self.scratch.relied.take()))

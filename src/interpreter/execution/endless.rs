@@ -24,6 +24,7 @@ use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::value::Value;
+use crate::syntax::VariableName;
 
 /// Greatest number of passes after which a repeated state is recognised.
 const LONGEST_PERIOD: u64 = 8;
@@ -82,7 +83,7 @@ impl Interpreter {
                 self.state.forget_passes();
             } else if is_left {
                 let names = self.state.names_of_exits();
-                self.let_plc_write(|name| names.iter().any(|it| it == name));
+                self.let_plc_write(|name| names.contains(name));
             }
         }
         if is_left {
@@ -342,7 +343,7 @@ impl State {
     }
 
     /// The variables that must change on ways that have left the innermost loop.
-    fn names_of_exits(&self) -> Vec<String> {
+    fn names_of_exits(&self) -> Vec<VariableName> {
         let conditions = self
             .left_meanwhile()
             .flat_map(|path| path.track.reach.conditions());

@@ -17,8 +17,8 @@ use crate::interpreter::values::cause::{MissingProgram, Unknown};
 use crate::interpreter::values::externals::HeldValues;
 use crate::interpreter::values::value::Value;
 use crate::language::MotionEffect;
-use crate::syntax::Fault;
 use crate::syntax::ast::Block;
+use crate::syntax::{Fault, VariableName};
 use crate::text::{Place, Span};
 
 /// The block that ends the program.
@@ -115,7 +115,7 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) motion: Option<Motion>,
     pub(in crate::interpreter) notes: RefCell<Vec<Note>>,
     /// The variables that its expressions read and that the PLC may write, where their value is known (R2.99).
-    pub(in crate::interpreter) relied: RefCell<Vec<String>>,
+    pub(in crate::interpreter) relied: RefCell<Vec<VariableName>>,
     pub(in crate::interpreter) held: HeldValues,
     /// Whether the PLC acts by design in the block.
     pub(in crate::interpreter) plc_acts: bool,

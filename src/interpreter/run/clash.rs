@@ -114,7 +114,7 @@ impl RememberedCondition {
 
 fn name_of(target: &Location) -> Option<String> {
     match target {
-        Location::Variable(name) => Some(name.clone()),
+        Location::Variable(name) => Some(name.to_string()),
         Location::Parameter(..) | Location::Elements(_) | Location::Parameters => None,
     }
 }

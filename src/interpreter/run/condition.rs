@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::comp::Kind;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::SetAt;
+use crate::syntax::VariableName;
 use crate::text::Place;
 
 /// Answers of one condition, which have a bit each.
@@ -52,25 +53,36 @@ pub(in crate::interpreter) struct Clash {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct KeptAnswer {
     /// The variables; states before schema 4 have them in words.
-    #[serde(alias = "name", deserialize_with = "one_or_more")]
-    pub(in crate::interpreter) names: Arc<[String]>,
+    #[serde(
+        alias = "name",
+        serialize_with = "in_words",
+        deserialize_with = "one_or_more"
+    )]
+    pub(in crate::interpreter) names: Arc<[VariableName]>,
     /// The block that set it.
     pub(in crate::interpreter) set: SetAt,
     /// The answers, a bit each.
     pub(in crate::interpreter) sides: u64,
 }
 
-fn one_or_more<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<[String]>, D::Error> {
+fn in_words<S: Serializer>(names: &[VariableName], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(names.iter().map(ToString::to_string))
+}
+
+fn one_or_more<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Arc<[VariableName]>, D::Error> {
     #[derive(Deserialize)]
     #[serde(untagged)]
     enum Names {
         One(String),
-        More(Arc<[String]>),
+        More(Vec<String>),
     }
-    Ok(match Names::deserialize(deserializer)? {
-        Names::One(name) => [name].into(),
+    let names = match Names::deserialize(deserializer)? {
+        Names::One(name) => vec![name],
         Names::More(names) => names,
-    })
+    };
+    Ok(names.iter().map(|name| VariableName::read(name)).collect())
 }
 
 /// A condition that only the machine knows.
@@ -158,7 +170,7 @@ mod tests {
         for names in ["\"name\":\"V.E.A\"", "\"names\":[\"V.E.A\"]"] {
             let saved = format!("{{{names},\"set\":{{\"file\":\"a.nc\",\"line\":3}},\"sides\":1}}");
             let kept: KeptAnswer = serde_json::from_str(&saved).expect("an answer");
-            assert_eq!(*kept.names, ["V.E.A".to_owned()]);
+            assert_eq!(*kept.names, [VariableName::read("V.E.A")]);
         }
     }
 }

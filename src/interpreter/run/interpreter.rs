@@ -25,12 +25,11 @@ use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::found::{FoundVariables, VariableUse};
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::VariableFamily;
 use crate::interpreter::values::work_budget::{PER_REGION_UNIT, WorkBudget};
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::readings::QuestionSet;
-use crate::syntax::SkipLevels;
 use crate::syntax::ast::Block;
+use crate::syntax::{SkipLevels, VariableFamily, VariableName};
 
 /// Runs programs on a machine.
 ///
@@ -239,7 +238,10 @@ impl Interpreter {
 
     /// Gives a variable the value that only the machine knows (R2.36).
     pub fn set(&mut self, name: &str, setting: &Setting) {
-        self.state.control.memory.give(name, setting.into());
+        self.state
+            .control
+            .memory
+            .give(VariableName::read(name), setting.into());
         self.journal.begin_anew();
     }
 
@@ -330,8 +332,8 @@ impl Interpreter {
     }
 
     /// Whether a variable outlives programs, and only they write it.
-    pub(crate) fn only_programs_write(&self, name: &str) -> bool {
-        VariableFamily::of(name) == VariableFamily::Shared || self.externals.is_own(name)
+    pub(crate) fn only_programs_write(&self, name: &VariableName) -> bool {
+        name.family() == VariableFamily::Shared || self.externals.is_own(name)
     }
 
     /// The values that the running program sees, by name: the own parameters of its call, the

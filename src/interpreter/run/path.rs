@@ -23,8 +23,8 @@ use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::plain::ConditionMeaning;
 use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::VariableFamily;
 use crate::syntax::ast::Owner;
+use crate::syntax::{VariableFamily, VariableName};
 use crate::text::{Place, Span};
 
 /// The way of the run to its current block.
@@ -148,7 +148,7 @@ impl AssumedValues {
     /// Withdraws those about variables that the PLC may write.
     pub(in crate::interpreter) fn undo_external(
         &mut self,
-        is_it: impl Fn(&str) -> bool,
+        is_it: impl Fn(&VariableName) -> bool,
         memory: &mut Memory,
     ) {
         let stays = |target: &&Location| !matches!(target, Location::Variable(name) if is_it(name) && memory.may_change(name));
@@ -224,7 +224,7 @@ impl RunTrack {
     pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
         let is_own = |target: &Location| match target {
             Location::Parameter(owner, _) => *owner == Owner::Call,
-            Location::Variable(name) => VariableFamily::of(name) == VariableFamily::Local,
+            Location::Variable(name) => name.family() == VariableFamily::Local,
             Location::Elements(_) | Location::Parameters => true,
         };
         self.asked

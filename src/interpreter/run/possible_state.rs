@@ -288,8 +288,9 @@ pub(in crate::interpreter) fn ways_of(
 
 /// The change without which a condition has only the answer that the program set.
 pub(in crate::interpreter) fn change_since(kept: &KeptAnswer) -> WayChange {
+    let names: Vec<String> = kept.names.iter().map(ToString::to_string).collect();
     WayChange {
-        name: kept.names.join(" or ").into(),
+        name: names.join(" or ").into(),
         file: kept.set.file.clone(),
         line: kept.set.line,
     }

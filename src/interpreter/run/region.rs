@@ -8,9 +8,9 @@ use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::values::location::Location;
-use crate::interpreter::values::names::parts;
 use crate::language::{HashWords, Simplification};
 use crate::syntax::ast::Owner;
+use crate::syntax::{Subscripts, VariableName};
 use crate::text::Span;
 
 /// Something that a region could change.
@@ -43,7 +43,7 @@ pub(in crate::interpreter) enum RegionEffect {
     /// A coupling group is defined with these axes.
     Coupling(Vec<AxisIndex>),
     /// A declaration.
-    Declaration(String),
+    Declaration(VariableName),
     /// A G, M, T or D word, which may call a program.
     Function(FunctionWord),
     /// A macro is defined.
@@ -132,10 +132,10 @@ impl Region {
     pub(in crate::interpreter) fn writes(&self, written: &Location) -> bool {
         let whole = match written {
             Location::Parameter(Owner::Program, _) => self.written.contains(&Location::Parameters),
-            Location::Variable(name) => match parts(name) {
-                (_, "") => false,
-                (array, _) => self.written.contains(&Location::Elements(array.to_owned())),
-            },
+            Location::Variable(name) if name.is_element() => {
+                let array = name.at(Subscripts::default());
+                self.written.contains(&Location::Elements(array))
+            }
             _ => false,
         };
         whole || self.written.contains(written)

@@ -23,7 +23,6 @@ use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::subscript;
 use crate::interpreter::values::value::{Value, rounded};
-use crate::interpreter::values::variable::{canonical, with_subscripts};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::language::{
     AxisAction, AxisCommand, GAction, GFunction, HashAction, Moves, Plc, Touches,
@@ -32,7 +31,7 @@ use crate::syntax::ast::{
     Address, Block, BlockReference, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, Node, Operand, Owner, ReturnLevels, Word,
 };
-use crate::syntax::{Stretch, is_letter, is_program_number};
+use crate::syntax::{Stretch, VariableName, is_letter, is_program_number};
 use crate::text::Span;
 
 /// A region that is being analysed.
@@ -365,7 +364,7 @@ impl MayEffects<'_> {
         match &target {
             Some(Location::Variable(name)) => self.writes(Location::Elements(name.clone())),
             Some(Location::Parameter(Owner::Program, index)) => {
-                self.writes(Location::Elements(format!("P{index}")));
+                self.writes(Location::Elements(VariableName::parameter(*index)));
             }
             _ => {}
         }
@@ -383,19 +382,15 @@ impl MayEffects<'_> {
         let is_plain = operands.iter().all(|node| matches!(node, Node::Number(_)));
         let root = root as usize;
         let (node, span) = (at.block.nodes.get(root)?, at.block.spans.get(root)?);
-        let name = || {
-            let name = span.of(at.text).split('[').next().unwrap_or_default();
-            canonical(name).into_owned()
-        };
+        let array = || VariableName::array_of(span.of(at.text));
         Some(match node {
             Node::Parameter { owner, index } => Location::Parameter(*owner, *index),
-            Node::Variable { subscripts: 0 } => Location::Variable(name()),
+            Node::Variable { subscripts: 0 } => Location::Variable(array()),
             Node::Variable { .. } if is_plain => {
-                let values: Vec<String> = operands.iter().map(subscript).collect();
-                let name = with_subscripts(span.of(at.text), &values);
-                Location::Variable(name)
+                let values = operands.iter().map(subscript).collect();
+                Location::Variable(VariableName::with_values(span.of(at.text), values))
             }
-            Node::Variable { .. } => Location::Elements(name()),
+            Node::Variable { .. } => Location::Elements(array()),
             Node::IndexedParameter { owner, subscripts } => {
                 let index = match operands.first() {
                     Some(Node::Number(number)) if is_plain || *subscripts > 0 => rounded(*number),
@@ -405,13 +400,10 @@ impl MayEffects<'_> {
                 match (index, *subscripts) {
                     (Some(index), 0) => Location::Parameter(*owner, index),
                     (Some(index), _) if is_plain => {
-                        let mut element = format!("P{index}");
-                        for node in &operands[1..] {
-                            element.extend(["[", &subscript(node), "]"]);
-                        }
-                        Location::Variable(element)
+                        let subscripts = operands[1..].iter().map(subscript).collect();
+                        Location::Variable(VariableName::parameter(index).at(subscripts))
                     }
-                    (Some(index), _) => Location::Elements(format!("P{index}")),
+                    (Some(index), _) => Location::Elements(VariableName::parameter(index)),
                     (None, _) => Location::Parameters,
                 }
             }

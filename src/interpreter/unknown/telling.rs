@@ -16,7 +16,6 @@ use crate::interpreter::run::undecided::{Differing, Undecided};
 use crate::interpreter::run::ways::JumpTarget;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
-use crate::interpreter::values::variable::VariableFamily;
 use crate::language::{GAction, GFunction, Group, HashAction, HashWords};
 use crate::machine::Parameters;
 use crate::syntax::Fault;
@@ -159,7 +158,7 @@ impl Interpreter {
         }
         for target in &region.targets {
             if let Location::Variable(name) | Location::Elements(name) = target
-                && outlives(name)
+                && name.family().is_read_by_others()
             {
                 undecided.differing.name(format!("`{name}`"));
             }
@@ -179,7 +178,7 @@ impl Interpreter {
             RegionEffect::All => differing.name("everything that a program can change"),
             RegionEffect::Coupling(_) => differing.name("axis couplings"),
             RegionEffect::Hash(command) => weigh_command(*command, differing),
-            RegionEffect::Declaration(name) if outlives(name) => {
+            RegionEffect::Declaration(name) if name.family().is_read_by_others() => {
                 differing.name(format!("`{name}`"));
             }
             RegionEffect::Position(axis) if !self.machine.axis(*axis).required.is_empty() => {
@@ -240,7 +239,9 @@ impl Interpreter {
             self.weigh(effect, false, &mut differing);
         }
         let outlives = |target: &Location| match target {
-            Location::Variable(name) | Location::Elements(name) => outlives(name),
+            Location::Variable(name) | Location::Elements(name) => {
+                name.family().is_read_by_others()
+            }
             Location::Parameter(..) | Location::Parameters => {
                 self.machine.parameters == Parameters::Kept
             }
@@ -304,9 +305,4 @@ fn weigh_command(command: HashWords, differing: &mut Differing) {
         HashAction::ReportError => differing.decides = true,
         _ => {}
     }
-}
-
-/// Whether a variable is read by others than the program that writes it (R2.34, R2.36).
-fn outlives(name: &str) -> bool {
-    VariableFamily::of(name).is_read_by_others()
 }

@@ -12,14 +12,14 @@ use super::found::VariableUse;
 use super::functions::{binary, call, fault, numeric, wrong_type};
 use super::location::{Denoted, Location};
 use super::memory::Memory;
-use super::names::parts;
 use super::reads::Reads;
 use super::value::{Slot, Value, rounded};
-use super::variable::{VariableFamily, as_written, canonical, set_name, with_subscripts};
 use super::work_budget::{ITEM, WorkBudget};
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
-use crate::syntax::{Fault, MAX_LINE};
+use crate::syntax::{
+    Fault, MAX_LINE, Subscript, Subscripts, VariableFamily, VariableName, compact,
+};
 use crate::text::Span;
 
 /// Number of macros that one block may expand, whatever their depth: each may use others several times.
@@ -38,7 +38,7 @@ pub(in crate::interpreter) struct ExpressionScope<'a> {
     /// Source of the values that it does not hold.
     pub(in crate::interpreter) given: ParameterSource,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
-    pub(in crate::interpreter) system: &'a dyn Fn(&str) -> Option<Value>,
+    pub(in crate::interpreter) system: &'a dyn Fn(&VariableName) -> Option<Value>,
     /// Called for every value that only the machine knows.
     pub(in crate::interpreter) unknown: &'a dyn Fn(&str, Span),
     /// Set where a text had no known meaning, which the block's faults report.
@@ -46,7 +46,7 @@ pub(in crate::interpreter) struct ExpressionScope<'a> {
     /// Set where a variable is read for which the control waits until the axes rest.
     pub(in crate::interpreter) waits: &'a Cell<bool>,
     /// The variables read whose value is known and which the PLC may write.
-    pub(in crate::interpreter) relied: &'a RefCell<Vec<String>>,
+    pub(in crate::interpreter) relied: &'a RefCell<Vec<VariableName>>,
     pub(in crate::interpreter) held: HeldValues,
 }
 
@@ -154,7 +154,7 @@ impl Evaluator<'_> {
                         .and_then(|place| self.denoted(place, span))
                 }
                 Node::Variable { subscripts: 0 } => {
-                    self.variable(&canonical(span.of(self.text)), span)
+                    self.variable(&VariableName::read(span.of(self.text)), span)
                 }
                 Node::Variable { subscripts } => self
                     .computed_variable(at, usize::from(subscripts), stack)
@@ -212,7 +212,7 @@ impl Evaluator<'_> {
         let location = match self.block.nodes[argument] {
             Node::Variable { subscripts: 0 } => {
                 let text = self.block.spans[argument].of(self.text);
-                Location::Variable(canonical(text).into_owned())
+                Location::Variable(VariableName::read(text))
             }
             Node::Parameter {
                 owner: Owner::Program,
@@ -257,21 +257,25 @@ impl Evaluator<'_> {
             Owner::Program => self.scope.memory.parameter(index),
             Owner::Call => match (self.scope.own.get(&index), self.scope.given) {
                 (None, ParameterSource::FromOutside) => {
-                    return Ok(self.outside(&format!("@P{index}"), span));
+                    return Ok(self.outside(&VariableName::own_parameter(index), span));
                 }
                 (found, _) => found.cloned(),
             },
         };
-        let given = || self.scope.memory.given(&format!("P{index}")).cloned();
+        let given = || {
+            let name = VariableName::parameter(index);
+            self.scope.memory.given(&name).cloned()
+        };
         found
             .or_else(given)
             .ok_or_else(|| never_written(span, self.text))
     }
 
     /// Returns a value that only a call or the machine gives, unless the user has given it.
-    fn outside(&self, name: &str, span: Span) -> Value {
+    fn outside(&self, name: &VariableName, span: Span) -> Value {
         self.scope.memory.variable(name).unwrap_or_else(|| {
-            (self.scope.unknown)(name, self.shown.unwrap_or(span));
+            let name = name.to_string();
+            (self.scope.unknown)(&name, self.shown.unwrap_or(span));
             Value::Unknown(Unknown::text(name))
         })
     }
@@ -331,38 +335,39 @@ impl Evaluator<'_> {
         for slot in stack.drain(from..) {
             match slot? {
                 Value::Number(number) => {
-                    values.push(rounded(number).unwrap_or(i64::MAX).to_string());
+                    values.push(Subscript::Number(rounded(number).unwrap_or(i64::MAX)));
                 }
-                Value::Text(text) => values.push(text.to_string()),
+                Value::Text(text) => values.push(Subscript::read(&text)),
                 Value::Unknown(cause) => unknown = unknown.or(Some(cause)),
             }
         }
         let text = self.block.spans[at].of(self.text);
         if let Some(cause) = unknown {
-            let array = text.split('[').next().unwrap_or_default();
-            let elements = Location::Elements(canonical(array).into_owned());
+            let elements = Location::Elements(VariableName::array_of(text));
             return Ok(Denoted::any_of(elements, cause));
         }
-        Ok(Location::Variable(with_subscripts(text, &values)).into())
+        Ok(Location::Variable(VariableName::with_values(text, values)).into())
     }
 
     /// The value that the user gave an element as the program writes it.
     fn as_set(&self, span: Span) -> Option<Value> {
-        let text = span.of(self.text);
-        let name = text.contains('[').then(|| set_name(text))?;
+        let name = VariableName::read(span.of(self.text));
+        if !name.is_element() {
+            return None;
+        }
         let given = || self.scope.memory.given(&name).cloned();
         self.scope.memory.variable(&name).or_else(given)
     }
 
-    fn note_read(&self, name: &str) {
-        self.note_found(|| Location::named(parts(name).0));
+    fn note_read(&self, name: &VariableName) {
+        self.note_found(|| Location::named(name.at(Subscripts::default())));
         if let Some(reads) = self.scope.reads {
-            reads.borrow_mut().note(Location::Variable(name.to_owned()));
+            reads.borrow_mut().note(Location::Variable(name.clone()));
         }
     }
 
-    fn variable(&self, name: &str, span: Span) -> Slot {
-        let family = VariableFamily::of(name);
+    fn variable(&self, name: &VariableName, span: Span) -> Slot {
+        let family = name.family();
         if matches!(family, VariableFamily::Axis | VariableFamily::External) {
             self.scope.waits.set(true);
         }
@@ -376,22 +381,22 @@ impl Evaluator<'_> {
         if let Some(value) = self.as_set(span) {
             return Ok(value);
         }
-        if is_program_variable(family) {
+        if family.is_of_programs() {
             return Err(never_written(span, self.text));
         }
         Ok((self.scope.system)(name).unwrap_or_else(|| {
-            let written = as_written(span.of(self.text));
+            let written = compact(span.of(self.text));
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
             Value::Unknown(Unknown::text(written))
         }))
     }
 
     /// A value of a variable that the PLC may write, too (R2.99).
-    fn relied_on(&self, name: &str, value: Value, span: Span) -> Value {
+    fn relied_on(&self, name: &VariableName, value: Value, span: Span) -> Value {
         let memory = self.scope.memory;
         let is_known = !matches!(value, Value::Unknown(_));
         if let Value::Unknown(Unknown::Changed(_)) = &value {
-            let written = as_written(span.of(self.text));
+            let written = compact(span.of(self.text));
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
         }
         if !memory.may_change(name) {
@@ -399,28 +404,27 @@ impl Evaluator<'_> {
         }
         let is_held = memory.set_at(name).is_some();
         if is_known || is_held {
-            self.scope.relied.borrow_mut().push(name.to_owned());
+            self.scope.relied.borrow_mut().push(name.clone());
         }
         match self.scope.held {
-            HeldValues::Doubted if is_known && is_held => Value::Unknown(Unknown::text(name)),
+            HeldValues::Doubted if is_known && is_held => {
+                Value::Unknown(Unknown::text(name.to_string()))
+            }
             HeldValues::Taken | HeldValues::Doubted => value,
         }
     }
 
     /// The number of elements of an array: of its first dimension, or of the requested one.
     fn sizeof(&self, span: Span, dimension: Option<Slot>) -> Slot {
-        let text = span.of(self.text);
-        let argument = text.split_once('[').map_or("", |(_, argument)| argument);
-        let name = argument.split(['[', ']', ',']).next().unwrap_or_default();
-        let name = name.trim();
-        self.note_found(|| Location::named(name));
+        let name = VariableName::first_argument(span.of(self.text));
+        self.note_found(|| Location::named(name.clone()));
         let place = match dimension.transpose()? {
             Some(Value::Unknown(cause)) => return Ok(Value::Unknown(cause)),
             Some(value) => numeric(&value, span)?.and_then(rounded).unwrap_or(1),
             None => 1,
         };
         let place = usize::try_from(place.max(1) - 1).unwrap_or(usize::MAX);
-        match self.scope.memory.array(name) {
+        match self.scope.memory.array(name.array()) {
             Some(array) => match array.dimensions.get(place) {
                 Some(Some(size)) => Ok(Value::Number(f64::from(*size))),
                 Some(None) => Ok(array.default.clone()),
@@ -429,15 +433,13 @@ impl Evaluator<'_> {
                     "the array does not have that many dimensions",
                 )),
             },
-            None if self.scope.memory.is_found(&Location::named(name)) => {
-                Ok(Value::Unknown(Unknown::text(name)))
+            None if self.scope.memory.is_found(&Location::named(name.clone())) => {
+                Ok(Value::Unknown(Unknown::text(name.array())))
             }
-            None if is_program_variable(VariableFamily::of(name)) => {
-                Err(never_written(span, self.text))
-            }
+            None if name.family().is_of_programs() => Err(never_written(span, self.text)),
             None => {
-                (self.scope.unknown)(name, self.shown.unwrap_or(span));
-                Ok(Value::Unknown(Unknown::text(name)))
+                (self.scope.unknown)(name.array(), self.shown.unwrap_or(span));
+                Ok(Value::Unknown(Unknown::text(name.array())))
             }
         }
     }
@@ -472,7 +474,7 @@ impl Evaluator<'_> {
                 Denoted::pop_parameter(owner, usize::from(subscripts), span, stack)
             }
             Node::Variable { subscripts: 0 } => {
-                Ok(Location::Variable(canonical(span.of(self.text)).into_owned()).into())
+                Ok(Location::Variable(VariableName::read(span.of(self.text))).into())
             }
             Node::Variable { subscripts } => {
                 self.computed_variable(root, usize::from(subscripts), stack)
@@ -542,9 +544,4 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
 pub(in crate::interpreter) fn unquoted(text: &str) -> &str {
     let inner = text.strip_prefix('"').unwrap_or(text);
     inner.strip_suffix('"').unwrap_or(inner)
-}
-
-/// Whether only programs write a variable: `V.P.`, `V.L.`, `V.S.`.
-fn is_program_variable(family: VariableFamily) -> bool {
-    family.is_written() && family != VariableFamily::Cycle
 }

@@ -10,20 +10,20 @@ use serde::{Deserialize, Serialize};
 
 use super::persistent::PersistentMap;
 use super::value::Value;
-use super::variable::{VariableFamily, set_name};
+use crate::syntax::{VariableFamily, VariableName};
 
 /// The variables of the machine of which the configuration says who writes them, with all elements and fields.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ExternalNames {
     /// Variables that keep their values while a program runs (R14.1).
-    stable: BTreeSet<String>,
+    stable: BTreeSet<VariableName>,
     /// Variables that only programs write (R2.99).
-    own: BTreeSet<String>,
+    own: BTreeSet<VariableName>,
 }
 
 impl ExternalNames {
     pub(in crate::interpreter) fn new(stable: &[String], own: &[String]) -> Self {
-        let names = |given: &[String]| given.iter().map(|name| set_name(name)).collect();
+        let names = |given: &[String]| given.iter().map(|name| VariableName::read(name)).collect();
         Self {
             stable: names(stable),
             own: names(own),
@@ -31,22 +31,27 @@ impl ExternalNames {
     }
 
     /// Whether only programs write a variable.
-    pub(in crate::interpreter) fn is_own(&self, name: &str) -> bool {
+    pub(in crate::interpreter) fn is_own(&self, name: &VariableName) -> bool {
         is_named(&self.own, name)
     }
 
+    /// Whether only programs write a variable or an array.
+    pub(in crate::interpreter) fn is_own_array(&self, array: &str) -> bool {
+        !self.own.is_empty() && self.is_own(&VariableName::whole(array.to_owned()))
+    }
+
     /// Whether a variable keeps its value while a program runs, unless the program writes it.
-    pub(in crate::interpreter) fn is_stable(&self, name: &str) -> bool {
+    pub(in crate::interpreter) fn is_stable(&self, name: &VariableName) -> bool {
         is_named(&self.stable, name) || self.is_own(name)
     }
 
     /// Whether the PLC may write a variable while a program runs.
-    pub(in crate::interpreter) fn may_change(&self, name: &str) -> bool {
-        VariableFamily::of(name) == VariableFamily::External && !self.is_stable(name)
+    pub(in crate::interpreter) fn may_change(&self, name: &VariableName) -> bool {
+        name.family() == VariableFamily::External && !self.is_stable(name)
     }
 
     /// The variables that only programs write.
-    pub(in crate::interpreter) fn own(&self) -> impl Iterator<Item = &String> {
+    pub(in crate::interpreter) fn own(&self) -> impl Iterator<Item = &VariableName> {
         self.own.iter()
     }
 }
@@ -66,7 +71,7 @@ pub(in crate::interpreter) enum HeldValues {
 pub(in crate::interpreter) struct ExternalVariables {
     pub(in crate::interpreter) names: Arc<ExternalNames>,
     /// The values of the program that variables may still have.
-    pub(super) held: PersistentMap<String, HeldVariable>,
+    pub(super) held: PersistentMap<VariableName, HeldVariable>,
     /// The block that set every other one to 0.
     pub(super) initialised: Option<SetAt>,
 }
@@ -80,7 +85,7 @@ impl ExternalVariables {
 
     /// Another value takes the place of those that the program set, which are returned.
     #[inline]
-    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<HeldVariable> {
+    pub(in crate::interpreter) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
         if self.held.is_empty() {
             return None;
         }
@@ -89,7 +94,7 @@ impl ExternalVariables {
 
     /// Whether a variable without a value is 0: only programs write it and none has since the start of the
     /// control, or `#INIT V.E.` has set it.
-    pub(super) fn is_zero(&self, name: &str) -> bool {
+    pub(super) fn is_zero(&self, name: &VariableName) -> bool {
         self.names.is_own(name) || self.initialised.is_some() && self.names.may_change(name)
     }
 
@@ -106,7 +111,7 @@ impl ExternalVariables {
         }
     }
 
-    fn held_or_initial(&self, name: &str) -> Option<HeldVariable> {
+    fn held_or_initial(&self, name: &VariableName) -> Option<HeldVariable> {
         let initial = || {
             let at = self.initialised.clone()?;
             Some(HeldVariable::of(Value::Number(0.0), at))
@@ -173,13 +178,8 @@ impl HeldVariable {
 }
 
 /// Whether names hold a variable, or the array or structure that it belongs to.
-fn is_named(names: &BTreeSet<String>, name: &str) -> bool {
-    if names.is_empty() {
-        return false;
-    }
-    let ends = name.match_indices(['.', '[']).map(|(end, _)| end);
-    ends.chain([name.len()])
-        .any(|end| names.contains(&name[..end]))
+fn is_named(names: &BTreeSet<VariableName>, name: &VariableName) -> bool {
+    !names.is_empty() && name.is_any(|it| names.contains(it))
 }
 
 /// The block that set a variable.
@@ -198,11 +198,13 @@ mod tests {
     fn a_name_stands_for_its_elements_and_fields() {
         // R2.99
         let names = ExternalNames::new(&["v.e.MATERIAL".to_owned()], &["V.E.LIST".to_owned()]);
-        for own in ["V.E.LIST", "V.E.LIST[2]", "V.E.LIST[2].X", "V.E.LIST.N"] {
-            assert!(names.is_own(own) && !names.may_change(own), "{own}");
+        let name = VariableName::read;
+        for own in ["V.E.LIST", "V.E.LIST[2]", "V.E.LIST[2].X", "V.E.LIST.N"].map(name) {
+            assert!(names.is_own(&own) && !names.may_change(&own), "{own}");
         }
-        assert!(!names.is_own("V.E.LISTS") && names.may_change("V.E.LISTS"));
-        assert!(names.is_stable("V.E.MATERIAL") && !names.is_own("V.E.MATERIAL"));
-        assert!(!names.may_change("V.P.A"));
+        let (lists, material) = (name("V.E.LISTS"), name("V.E.MATERIAL"));
+        assert!(!names.is_own(&lists) && names.may_change(&lists));
+        assert!(names.is_stable(&material) && !names.is_own(&material));
+        assert!(!names.may_change(&name("V.P.A")));
     }
 }

@@ -6,11 +6,10 @@ use std::sync::Arc;
 use super::cause::Unknown;
 use super::externals::ExternalNames;
 use super::location::Location;
-use super::names::parts;
 use super::value::Value;
-use super::variable::VariableFamily;
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
+use crate::syntax::{Subscripts, VariableFamily, VariableName};
 
 /// Values in the variables that outlive programs, if it is known which programs write them: `V.S.`, and P
 /// parameters where a program start keeps them.
@@ -130,18 +129,17 @@ impl VariableUse {
     }
 
     /// A variable, or an element of an array, of which no value is followed from program to program.
-    pub(in crate::interpreter) fn write_name(&mut self, name: &str, value: &Value) {
-        let (base, subscripts) = parts(name);
-        let whole = Location::named(base);
+    pub(in crate::interpreter) fn write_name(&mut self, name: &VariableName, value: &Value) {
+        let whole = Location::named(name.at(Subscripts::default()));
         if !self.outlives(&whole) {
             return;
         }
-        let value = if subscripts.is_empty() {
-            value.clone()
-        } else {
+        let value = if name.is_element() {
             unknown(&whole)
+        } else {
+            value.clone()
         };
-        if self.externals.is_own(base) {
+        if self.externals.is_own_array(name.array()) {
             // What no program has written before is 0.
             self.written.write(&whole, Value::Number(0.0));
         }
@@ -151,7 +149,7 @@ impl VariableUse {
     fn outlives(&self, location: &Location) -> bool {
         match location {
             Location::Parameter(..) => self.parameters == Parameters::Kept,
-            Location::Variable(name) => match VariableFamily::of(name) {
+            Location::Variable(name) => match name.family() {
                 VariableFamily::Parameter => self.parameters == Parameters::Kept,
                 VariableFamily::Shared => true,
                 _ => self.externals.is_own(name),

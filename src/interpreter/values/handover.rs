@@ -3,18 +3,19 @@
 use super::carried::Carried;
 use super::memory::{Memory, is_kept};
 use super::value::Value;
-use super::variable::VariableFamily;
 use crate::machine::Parameters;
+use crate::syntax::{VariableFamily, VariableName};
 
 impl Memory {
     /// Forgets what a restart of the control clears: `V.S.` and `V.E.` variables (R2.34, P-EXTV-00013).
     pub(in crate::interpreter) fn restart(&mut self) {
-        let names = self.variables.names.keys();
-        let goes = |name: &&String| {
-            let family = VariableFamily::of(name);
+        let arrays = self.variables.names.keys().cloned();
+        let names = arrays.map(VariableName::whole);
+        let goes = |name: &VariableName| {
+            let family = name.family();
             matches!(family, VariableFamily::Shared | VariableFamily::External)
         };
-        for name in names.filter(goes).cloned().collect::<Vec<_>>() {
+        for name in names.filter(goes).collect::<Vec<_>>() {
             self.delete(&name);
         }
         let given = self
@@ -56,13 +57,13 @@ impl Memory {
     /// Takes over what an earlier session left.
     pub(in crate::interpreter) fn take_over(&mut self, carried: Carried) {
         for (name, shape) in carried.arrays {
-            self.declare_array(&name, shape.dimensions, shape.default);
+            self.declare_array(&VariableName::read(&name), shape.dimensions, shape.default);
         }
         for (name, cause) in &carried.lost {
             self.variables.havoc_elements(name, cause);
         }
         for (name, value) in carried.variables {
-            self.set_variable(&name, value);
+            self.set_variable(&VariableName::read(&name), value);
         }
         self.lost = carried.lost_parameters;
         for (index, value) in carried.parameters {

@@ -6,7 +6,7 @@ use super::cause::Unknown;
 use super::externals::{ExternalNames, HeldVariable, SetAt};
 use super::memory::Memory;
 use super::value::Value;
-use super::variable::VariableFamily;
+use crate::syntax::{VariableFamily, VariableName};
 
 impl Memory {
     /// Takes over what the configuration says of the writers of `V.E.` variables.
@@ -15,22 +15,22 @@ impl Memory {
     }
 
     /// Whether the PLC may write a variable, and no value from the user says what it writes.
-    pub(in crate::interpreter) fn may_change(&self, name: &str) -> bool {
+    pub(in crate::interpreter) fn may_change(&self, name: &VariableName) -> bool {
         self.externals.names.may_change(name) && self.given.get(name).is_none()
     }
 
     /// The program has set a variable, which keeps its value until the PLC acts.
-    pub(in crate::interpreter) fn hold(&mut self, name: &str, at: SetAt) {
+    pub(in crate::interpreter) fn hold(&mut self, name: &VariableName, at: SetAt) {
         if let Some(known) = self.known(name)
             && self.externals.names.may_change(name)
         {
             let held = HeldVariable::of(known, at);
-            self.externals.held.insert(name.to_owned(), held);
+            self.externals.held.insert(name.clone(), held);
         }
     }
 
     /// Returns the block that set a variable, while it has that value.
-    pub(in crate::interpreter) fn set_at(&self, name: &str) -> Option<&SetAt> {
+    pub(in crate::interpreter) fn set_at(&self, name: &VariableName) -> Option<&SetAt> {
         let externals = &self.externals;
         let is_initial = || self.variables.value(name).is_none();
         let initialised = externals.initialised.as_ref();
@@ -42,18 +42,23 @@ impl Memory {
     /// The PLC may write variables. Returns those of them that were held.
     pub(in crate::interpreter) fn let_change(
         &mut self,
-        is_it: impl Fn(&str) -> bool,
-    ) -> Vec<String> {
+        is_it: impl Fn(&VariableName) -> bool,
+    ) -> Vec<VariableName> {
         let held = self.externals.held.iter().filter(|(name, _)| is_it(name));
-        let held: Vec<(String, HeldVariable)> = held
+        let held: Vec<(VariableName, HeldVariable)> = held
             .map(|(name, held)| (name.clone(), held.clone()))
             .collect();
         for (name, held) in &held {
             self.externals.held.remove(name);
             if let Some(known) = self.known(name) {
                 let given = self.given.get(name).cloned();
-                let unknown =
-                    || Value::Unknown(Unknown::changed(name, known.as_written(), held.first()));
+                let unknown = || {
+                    Value::Unknown(Unknown::changed(
+                        &name.to_string(),
+                        known.as_written(),
+                        held.first(),
+                    ))
+                };
                 self.variables.set(name, given.unwrap_or_else(unknown));
             }
         }
@@ -67,14 +72,18 @@ impl Memory {
     }
 
     /// Values that the program set are held again.
-    pub(in crate::interpreter) fn hold_again(&mut self, name: &str, held: Option<HeldVariable>) {
+    pub(in crate::interpreter) fn hold_again(
+        &mut self,
+        name: &VariableName,
+        held: Option<HeldVariable>,
+    ) {
         if let Some(held) = held {
-            self.externals.held.insert(name.to_owned(), held);
+            self.externals.held.insert(name.clone(), held);
         }
     }
 
     /// Variables that `#INIT V.E.` set are held one by one.
-    pub(in crate::interpreter) fn hold_initial(&mut self, names: &[String]) {
+    pub(in crate::interpreter) fn hold_initial(&mut self, names: &[VariableName]) {
         for name in names {
             if let Some(at) = self.externals.initialised.clone()
                 && self.variables.value(name).is_none()
@@ -91,14 +100,10 @@ impl Memory {
     }
 
     /// Sets a variable, with its elements and fields, to 0.
-    pub(in crate::interpreter) fn zero(&mut self, whole: &str, at: &SetAt) {
-        let is_part = |name: &str| {
-            let rest = name.strip_prefix(whole);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-        };
+    pub(in crate::interpreter) fn zero(&mut self, whole: &VariableName, at: &SetAt) {
         let names = self.variables.held().into_keys();
-        let parts = names.filter(|name| is_part(name) && name != whole);
-        for name in parts.chain([whole.to_owned()]).collect::<Vec<_>>() {
+        let parts = names.filter(|name| name.is_in(whole) && name != whole);
+        for name in parts.chain([whole.clone()]).collect::<Vec<_>>() {
             self.set_variable(&name, Value::Number(0.0));
             self.hold(&name, at.clone());
         }
@@ -106,20 +111,20 @@ impl Memory {
 
     /// Sets every `V.E.` variable to 0 (PM/207988747).
     pub(in crate::interpreter) fn initialise(&mut self, at: SetAt) {
-        let names = self.variables.names.keys();
-        let names = names.filter(|it| VariableFamily::of(it) == VariableFamily::External);
-        let names: Vec<String> = names.cloned().collect();
-        for name in names {
+        let arrays = self.variables.names.keys().cloned();
+        let names = arrays.map(VariableName::whole);
+        let names = names.filter(|it| it.family() == VariableFamily::External);
+        for name in names.collect::<Vec<_>>() {
             self.delete(&name);
         }
-        let own: Vec<String> = self.externals.names.own().cloned().collect();
+        let own: Vec<VariableName> = self.externals.names.own().cloned().collect();
         for name in own {
             self.set_variable(&name, Value::Number(0.0));
         }
         self.externals.initialised = Some(at);
     }
 
-    fn known(&self, name: &str) -> Option<Value> {
+    fn known(&self, name: &VariableName) -> Option<Value> {
         let value = self.variables.value(name);
         value.filter(|it| !matches!(it, Value::Unknown(_)))
     }

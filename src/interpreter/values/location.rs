@@ -7,30 +7,39 @@ use serde::{Deserialize, Serialize};
 use super::cause::Unknown;
 use super::functions::numeric;
 use super::value::{Slot, Value, rounded};
-use crate::syntax::Fault;
 use crate::syntax::ast::Owner;
+use crate::syntax::{Fault, Subscript, VariableName};
 use crate::text::Span;
 
 /// A location of memory, or several of which one is meant.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub(in crate::interpreter) enum Location {
     Parameter(Owner, u32),
-    /// A variable, or an element of an array with its subscripts.
-    Variable(String),
+    /// A variable, or an element of an array.
+    Variable(VariableName),
     /// Some element of an array.
-    Elements(String),
+    Elements(VariableName),
     /// Some P parameter.
     Parameters,
 }
 
 impl Location {
     /// The parameter or variable of a name.
-    pub(in crate::interpreter) fn named(name: &str) -> Self {
-        let number = name.strip_prefix('P').and_then(|index| index.parse().ok());
-        number.map_or_else(
-            || Self::Variable(name.to_owned()),
-            |index| Self::Parameter(Owner::Program, index),
-        )
+    pub(in crate::interpreter) fn named(name: VariableName) -> Self {
+        match name.parameter_index() {
+            Some(index) => Self::Parameter(Owner::Program, index),
+            None => Self::Variable(name),
+        }
+    }
+
+    /// The name under which the user gives its value.
+    pub(in crate::interpreter) fn name(&self) -> VariableName {
+        match self {
+            Self::Parameter(Owner::Program, index) => VariableName::parameter(*index),
+            Self::Parameter(Owner::Call, index) => VariableName::own_parameter(*index),
+            Self::Variable(name) | Self::Elements(name) => name.clone(),
+            Self::Parameters => VariableName::read("P"),
+        }
     }
 }
 
@@ -39,7 +48,7 @@ impl fmt::Display for Location {
         match self {
             Self::Parameter(Owner::Program, index) => write!(f, "P{index}"),
             Self::Parameter(Owner::Call, index) => write!(f, "@P{index}"),
-            Self::Variable(name) | Self::Elements(name) => f.write_str(name),
+            Self::Variable(name) | Self::Elements(name) => write!(f, "{name}"),
             Self::Parameters => f.write_str("P"),
         }
     }
@@ -63,7 +72,7 @@ impl Denoted {
     }
 
     /// The name of the variable, where it is one that is known.
-    pub(in crate::interpreter) fn variable(&self) -> Option<&str> {
+    pub(in crate::interpreter) fn variable(&self) -> Option<&VariableName> {
         match &self.location {
             Location::Variable(name) => Some(name),
             _ => None,
@@ -98,7 +107,7 @@ impl Denoted {
         let index = index.map(|index| u32::try_from(index).unwrap_or(u32::MAX));
         Ok(match (index, unknown) {
             (Some(index), Some(cause)) => {
-                Self::any_of(Location::Elements(format!("P{index}")), cause)
+                Self::any_of(Location::Elements(VariableName::parameter(index)), cause)
             }
             (None, cause) => {
                 let cause = cause.unwrap_or_else(|| Unknown::text("P"));
@@ -106,11 +115,9 @@ impl Denoted {
             }
             (Some(index), None) if subscripts == 0 => Location::Parameter(owner, index).into(),
             (Some(index), None) => {
-                let mut name = format!("P{index}");
-                for number in numbers[1..].iter().flatten() {
-                    name.extend(["[", &number.to_string(), "]"]);
-                }
-                Location::Variable(name).into()
+                let numbers = numbers[1..].iter().flatten();
+                let subscripts = numbers.map(|number| Subscript::Number(*number)).collect();
+                Location::Variable(VariableName::parameter(index).at(subscripts)).into()
             }
         })
     }

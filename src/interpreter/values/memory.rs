@@ -8,15 +8,13 @@ use super::cause::Unknown;
 use super::externals::{ExternalVariables, HeldVariable};
 use super::found::FoundVariables;
 use super::location::Location;
-use super::names::{
-    Array, NamedVariable, VariableNames, Weight, compare, join_value, parts, weight,
-};
+use super::names::{Array, NamedVariable, VariableNames, Weight, compare, join_value, weight};
 use super::parameter_values::ParameterValues;
 use super::persistent::PersistentMap;
 use super::value::Value;
-use super::variable::{VariableFamily, set_name};
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
+use crate::syntax::{VariableFamily, VariableName};
 
 /// Everything a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -27,7 +25,7 @@ pub(in crate::interpreter) struct Memory {
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     pub(super) variables: VariableNames,
     /// Values given by the user for parameters and variables that no program wrote.
-    pub(super) given: PersistentMap<String, Value>,
+    pub(super) given: PersistentMap<VariableName, Value>,
     /// Set when any of those that programs write may have been written: the text that caused it.
     unknown_names: Option<Unknown>,
     /// The locations that outlive programs, may exist, and were not certainly written since.
@@ -51,7 +49,6 @@ impl Memory {
     /// (R2.33, R2.34). `V.S.`, macros (PM/206014219: valid across programs) and what the machine
     /// holds stay.
     pub(in crate::interpreter) fn start_program(&mut self, parameters: Parameters) {
-        let kept = |name: &str| is_kept(name, parameters);
         if parameters == Parameters::Cleared {
             self.parameters = ParameterValues::default();
             self.lost = None;
@@ -59,7 +56,7 @@ impl Memory {
         self.unknown_names = None;
         self.locals.clear();
         let names = self.variables.names.iter();
-        let names = names.filter(|(name, _)| kept(name));
+        let names = names.filter(|(array, _)| is_kept(array, parameters));
         let names = names.map(|(name, variable)| (name.clone(), variable.clone()));
         self.variables.names = names.collect();
         self.variables.weight = Weight(self.variables.weigh());
@@ -89,8 +86,8 @@ impl Memory {
     }
 
     /// The value of a variable, the declared default of an array element that was never written.
-    pub(in crate::interpreter) fn variable(&self, name: &str) -> Option<Value> {
-        if VariableFamily::of(name) == VariableFamily::Local {
+    pub(in crate::interpreter) fn variable(&self, name: &VariableName) -> Option<Value> {
+        if name.family() == VariableFamily::Local {
             return self.locals.iter().rev().find_map(|level| level.value(name));
         }
         let unknown = self.unknown_names.as_ref();
@@ -98,7 +95,7 @@ impl Memory {
         let written = self.variables.value(name);
         written.or_else(|| match unknown {
             Some(cause) => Some(Value::Unknown(cause.clone())),
-            None if self.may_find(name) => Some(Value::Unknown(Unknown::text(parts(name).0))),
+            None if self.may_find(name) => Some(Value::Unknown(Unknown::text(name.array()))),
             None => {
                 let is_zero = self.externals.is_zero(name) && self.given.get(name).is_none();
                 is_zero.then_some(Value::Number(0.0))
@@ -107,14 +104,13 @@ impl Memory {
     }
 
     /// Whether only programs write the variable of a name.
-    fn is_written(&self, name: &str) -> bool {
-        VariableFamily::of(name).is_written() || self.externals.names.is_own(name)
+    fn is_written(&self, name: &VariableName) -> bool {
+        name.family().is_written() || self.externals.names.is_own(name)
     }
 
     /// Whether a name that nothing is known about may exist.
-    fn may_find(&self, name: &str) -> bool {
-        let is_kept =
-            VariableFamily::of(name) == VariableFamily::Shared || self.externals.names.is_own(name);
+    fn may_find(&self, name: &VariableName) -> bool {
+        let is_kept = name.family() == VariableFamily::Shared || self.externals.names.is_own(name);
         self.may_find && is_kept && self.given.get(name).is_none()
     }
 
@@ -122,7 +118,7 @@ impl Memory {
     pub(in crate::interpreter) fn find(&mut self, found: &FoundVariables) {
         self.may_find = found.has_anything();
         for (location, value) in found.values() {
-            if self.given.get(location.to_string().as_str()).is_some() {
+            if self.given.get(&location.name()).is_some() {
                 continue;
             }
             match location {
@@ -134,22 +130,23 @@ impl Memory {
     }
 
     /// A variable or an array is found: of an array no element is known but those that the user gave.
-    fn find_variable(&mut self, name: &str, value: Value) {
+    fn find_variable(&mut self, name: &VariableName, value: Value) {
         if let Value::Unknown(cause) = &value {
-            self.variables.havoc_elements(name, cause);
+            self.variables.havoc_elements(name.array(), cause);
         }
         self.variables.set(name, value);
-        let element = format!("{name}[");
-        let given = self.given.from(&element);
-        let given = given.take_while(|(key, _)| key.starts_with(&element));
-        for (key, value) in given {
+        let given = self.given.from(name);
+        let given = given.take_while(|(key, _)| key.array() == name.array());
+        for (key, value) in given.filter(|(key, _)| key.is_element()) {
             self.variables.set(key, value.clone());
         }
     }
 
     /// Whether a parameter or a whole variable may exist and the program has not certainly written it.
     pub(in crate::interpreter) fn is_found(&self, location: &Location) -> bool {
-        let is_new = |name: &str| self.may_find(name) && self.variables.names.get(name).is_none();
+        let is_new = |name: &VariableName| {
+            self.may_find(name) && self.variables.names.get(name.array()).is_none()
+        };
         self.found.contains(location)
             || matches!(location, Location::Variable(name) if is_new(name))
     }
@@ -161,12 +158,11 @@ impl Memory {
             _ => false,
         };
         let names = &self.variables.names;
-        self.is_found(location) || !(holds || names.get(&location.to_string()).is_some())
+        self.is_found(location) || !(holds || names.get(location.name().array()).is_some())
     }
 
     /// A value from the user (R2.36). Values that programs write take precedence.
-    pub(in crate::interpreter) fn give(&mut self, name: &str, value: Value) {
-        let name = set_name(name);
+    pub(in crate::interpreter) fn give(&mut self, name: VariableName, value: Value) {
         if !self.is_written(&name) {
             self.set_variable(&name, value.clone());
         }
@@ -174,12 +170,12 @@ impl Memory {
     }
 
     /// The value that the user gave.
-    pub(in crate::interpreter) fn given(&self, name: &str) -> Option<&Value> {
+    pub(in crate::interpreter) fn given(&self, name: &VariableName) -> Option<&Value> {
         self.given.get(name)
     }
 
-    pub(in crate::interpreter) fn set_variable(&mut self, name: &str, value: Value) {
-        if VariableFamily::of(name) != VariableFamily::Local {
+    pub(in crate::interpreter) fn set_variable(&mut self, name: &VariableName, value: Value) {
+        if name.family() != VariableFamily::Local {
             self.lose_found(name);
             self.externals.release(name);
             self.variables.set(name, value);
@@ -202,8 +198,8 @@ impl Memory {
     }
 
     /// Returns the names of the kind that a declaration of the name belongs to.
-    fn declared(&mut self, name: &str) -> &mut VariableNames {
-        if VariableFamily::of(name) == VariableFamily::Local {
+    fn declared(&mut self, name: &VariableName) -> &mut VariableNames {
+        if name.family() == VariableFamily::Local {
             self.level()
         } else {
             &mut self.variables
@@ -211,9 +207,9 @@ impl Memory {
     }
 
     /// A variable is not any more as an earlier program left it.
-    fn lose_found(&mut self, name: &str) {
+    fn lose_found(&mut self, name: &VariableName) {
         if !self.found.is_empty() {
-            self.found.remove(&Location::named(name));
+            self.found.remove(&Location::named(name.clone()));
         }
     }
 
@@ -231,17 +227,20 @@ impl Memory {
     }
 
     /// Declares a scalar on the current level.
-    pub(in crate::interpreter) fn declare(&mut self, name: &str, value: Value) {
+    pub(in crate::interpreter) fn declare(&mut self, name: &VariableName, value: Value) {
         self.lose_found(name);
         self.declared(name).set(name, value);
     }
 
     /// The variable of a declared name, if it outlives programs and exists, or may.
-    pub(in crate::interpreter) fn before_declaration(&self, name: &str) -> Option<NamedVariable> {
-        let held = self.variables.names.get(name);
-        let held = held.filter(|_| VariableFamily::of(name) == VariableFamily::Shared);
+    pub(in crate::interpreter) fn before_declaration(
+        &self,
+        name: &VariableName,
+    ) -> Option<NamedVariable> {
+        let held = self.variables.names.get(name.array());
+        let held = held.filter(|_| name.family() == VariableFamily::Shared);
         held.cloned().or_else(|| {
-            let cause = Unknown::text(name);
+            let cause = Unknown::text(name.array());
             self.may_find(name).then(|| NamedVariable {
                 scalar: Some(Value::Unknown(cause.clone())),
                 lost: Some(cause),
@@ -252,8 +251,13 @@ impl Memory {
 
     /// A variable was declared that existed before. Whether the start value replaces its present value is not
     /// documented, so it is unknown where the two differ (R2.34); the user's value decides.
-    pub(in crate::interpreter) fn declare_anew(&mut self, name: &str, before: &NamedVariable) {
-        self.variables.join_name(name, before, &Unknown::text(name));
+    pub(in crate::interpreter) fn declare_anew(
+        &mut self,
+        name: &VariableName,
+        before: &NamedVariable,
+    ) {
+        let cause = Unknown::text(name.array());
+        self.variables.join_name(name.array(), before, &cause);
         if let Some(given) = self.given.get(name)
             && let Some(Value::Unknown(_)) = self.variables.value(name)
         {
@@ -264,7 +268,7 @@ impl Memory {
     /// Declares an array on the current level; its elements have a default value.
     pub(in crate::interpreter) fn declare_array(
         &mut self,
-        name: &str,
+        name: &VariableName,
         dimensions: Vec<Option<u32>>,
         default: Value,
     ) {
@@ -273,7 +277,7 @@ impl Memory {
             default,
         };
         self.lose_found(name);
-        self.declared(name).declare_array(name, array);
+        self.declared(name).declare_array(name.array(), array);
     }
 
     /// A declared array.
@@ -283,18 +287,17 @@ impl Memory {
         local.or_else(|| self.variables.array(name))
     }
 
-    pub(in crate::interpreter) fn delete(&mut self, name: &str) {
-        if VariableFamily::of(name) != VariableFamily::Local {
+    pub(in crate::interpreter) fn delete(&mut self, name: &VariableName) {
+        if name.family() != VariableFamily::Local {
             self.lose_found(name);
             self.externals.release(name);
             self.variables.delete(name);
             return;
         }
-        let (base, subscripts) = parts(name);
         let holds = |level: &&mut VariableNames| {
-            let variable = level.names.get(base);
+            let variable = level.names.get(name.array());
             variable.is_some_and(|variable| {
-                subscripts.is_empty() || variable.element(subscripts).is_some()
+                !name.is_element() || variable.element(name.subscripts()).is_some()
             })
         };
         if let Some(level) = self.locals.iter_mut().rev().find(holds) {
@@ -303,12 +306,13 @@ impl Memory {
     }
 
     /// Some element of an array was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Unknown) {
+    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &VariableName, cause: &Unknown) {
+        let array = name.array();
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
-        let holding = levels.filter(|names| names.names.get(name).is_some());
-        let known = holding.map(|names| names.havoc_elements(name, cause));
+        let holding = levels.filter(|names| names.names.get(array).is_some());
+        let known = holding.map(|names| names.havoc_elements(array, cause));
         if known.count() == 0 {
-            self.declared(name).havoc_elements(name, cause);
+            self.declared(name).havoc_elements(array, cause);
         }
     }
 
@@ -326,8 +330,9 @@ impl Memory {
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         for names in levels {
             let externals = &self.externals.names;
-            let is_written =
-                |name: &&String| VariableFamily::of(name).is_written() || externals.is_own(name);
+            let is_written = |array: &&String| {
+                VariableFamily::of(array).is_written() || externals.is_own_array(array)
+            };
             let written = names.names.keys().filter(is_written);
             for name in written.cloned().collect::<Vec<String>>() {
                 names.names.slot(name, NamedVariable::default).havoc(cause);
@@ -343,7 +348,7 @@ impl Memory {
     }
 
     /// Releases a variable that is held. Returns what the program had set.
-    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<HeldVariable> {
+    pub(in crate::interpreter) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
         self.externals.release(name)
     }
 
@@ -440,14 +445,15 @@ impl Memory {
     /// may have changed.
     pub(in crate::interpreter) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
         let names = self.variables.names.differing(&other.variables.names);
-        let is_lost = |memory: &Self, name: &str| {
+        let is_lost = |memory: &Self, name: &VariableName| {
             let value = memory.variables.value(name);
             matches!(value, Some(Value::Unknown(_))) && memory.externals.names.may_change(name)
         };
-        let is_read = |name: &String| VariableFamily::of(name).is_read_by_others();
-        let names = names.into_iter().filter(is_read);
+        let names = names.into_iter().map(VariableName::whole);
         names
+            .filter(|name| name.family().is_read_by_others())
             .filter(|name| !is_lost(self, name) && !is_lost(other, name))
+            .map(|name| name.to_string())
             .collect()
     }
 
@@ -484,9 +490,9 @@ impl Memory {
 
     pub(super) fn hold_macro(&mut self, name: &str, code: Value) {
         self.macro_version = self.macro_version.wrapping_add(1);
-        self.weight.add(weight(name, &code));
+        self.weight.add(weight(name.len(), &code));
         if let Some(before) = self.macros.insert(name.to_owned(), code) {
-            self.weight.take(weight(name, &before));
+            self.weight.take(weight(name.len(), &before));
         }
     }
 
@@ -521,7 +527,10 @@ impl Memory {
     /// `#INIT MACRO TAB`
     pub(in crate::interpreter) fn clear_macros(&mut self) {
         self.macro_version = self.macro_version.wrapping_add(1);
-        let weights = self.macros.iter().map(|(name, code)| weight(name, code));
+        let weights = self
+            .macros
+            .iter()
+            .map(|(name, code)| weight(name.len(), code));
         self.weight.take(weights.sum::<usize>());
         self.macros.clear();
     }
@@ -544,10 +553,13 @@ impl Memory {
 
     /// The `V.S.` variables, which outlive programs.
     pub(in crate::interpreter) fn shared(&self) -> BTreeMap<String, Value> {
-        let mut held = self.variables.held();
-        let is_shared = |name: &str| VariableFamily::of(name) == VariableFamily::Shared;
-        held.retain(|name, _| is_shared(name) || self.externals.names.is_own(name));
-        held
+        let held = self.variables.held().into_iter();
+        let shared = held.filter(|(name, _)| {
+            name.family() == VariableFamily::Shared || self.externals.names.is_own(name)
+        });
+        shared
+            .map(|(name, value)| (name.to_string(), value))
+            .collect()
     }
 
     /// The parameters, and the variables that the running program sees.
@@ -558,6 +570,8 @@ impl Memory {
         for level in &self.locals {
             variables.append(&mut level.held());
         }
+        let variables = variables.into_iter();
+        let variables = variables.map(|(name, value)| (name.to_string(), value));
         parameters.chain(variables).collect()
     }
 }
@@ -568,7 +582,7 @@ pub(in crate::interpreter) fn unescaped(code: &str) -> String {
 }
 
 /// Whether a program start leaves a variable or array.
-pub(super) fn is_kept(name: &str, parameters: Parameters) -> bool {
-    let family = VariableFamily::of(name);
+pub(super) fn is_kept(array: &str, parameters: Parameters) -> bool {
+    let family = VariableFamily::of(array);
     !family.is_of_run() || (parameters == Parameters::Kept && family == VariableFamily::Parameter)
 }

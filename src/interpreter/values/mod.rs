@@ -18,5 +18,4 @@ pub(super) mod reads;
 pub(super) mod rows;
 pub(super) mod shared;
 pub(super) mod value;
-pub(super) mod variable;
 pub(super) mod work_budget;

@@ -9,6 +9,7 @@ use super::cause::Unknown;
 use super::location::Location;
 use super::persistent::PersistentMap;
 use super::value::Value;
+use crate::syntax::{Subscripts, VariableName};
 
 /// Number of bytes of a text or a name that count as one more value in the budget of values
 /// (R2.60).
@@ -40,8 +41,8 @@ pub(in crate::interpreter) struct VariableNames {
 pub(in crate::interpreter) struct NamedVariable {
     pub(in crate::interpreter) scalar: Option<Value>,
     pub(in crate::interpreter) array: Option<Array>,
-    /// The elements that were written, by their subscripts: `[1][2]`.
-    pub(in crate::interpreter) elements: PersistentMap<String, Value>,
+    /// The elements that were written.
+    pub(in crate::interpreter) elements: PersistentMap<Subscripts, Value>,
     /// Set when some element was written, but it is not known which.
     pub(in crate::interpreter) lost: Option<Unknown>,
 }
@@ -57,22 +58,19 @@ pub(in crate::interpreter) struct Array {
 
 impl Array {
     /// Whether the subscripts are, or may be, those of an element.
-    pub(in crate::interpreter) fn has(&self, subscripts: &str) -> bool {
-        let mut sizes = self.dimensions.iter();
-        for part in subscripts.split(['[', ']']).filter(|part| !part.is_empty()) {
-            let (Ok(at), Some(size)) = (part.parse::<u32>(), sizes.next()) else {
-                return false;
-            };
-            if size.is_some_and(|size| at >= size) {
-                return false;
-            }
-        }
-        sizes.next().is_none()
+    pub(in crate::interpreter) fn has(&self, subscripts: &Subscripts) -> bool {
+        let is_inside = |(number, size): (&i64, &Option<u32>)| {
+            u32::try_from(*number).is_ok_and(|at| size.is_none_or(|size| at < size))
+        };
+        subscripts.numbers().is_some_and(|numbers| {
+            numbers.len() == self.dimensions.len()
+                && numbers.iter().zip(&self.dimensions).all(is_inside)
+        })
     }
 }
 
 impl NamedVariable {
-    pub(in crate::interpreter) fn element(&self, subscripts: &str) -> Option<Value> {
+    pub(in crate::interpreter) fn element(&self, subscripts: &Subscripts) -> Option<Value> {
         if let Some(value) = self.elements.get(subscripts) {
             return Some(value.clone());
         }
@@ -102,8 +100,8 @@ impl NamedVariable {
             carried.lost.insert(name.to_owned(), cause.clone());
         }
         for (subscripts, value) in self.elements.iter() {
-            let element = format!("{name}{subscripts}");
-            carried.variables.insert(element, value.clone());
+            let element = VariableName::whole(name.to_owned()).at(subscripts.clone());
+            carried.variables.insert(element.to_string(), value.clone());
         }
     }
 
@@ -135,9 +133,10 @@ impl NamedVariable {
             let mut mine = self.element(&key);
             join_value(&mut mine, other.element(&key).as_ref(), cause);
             if let Some(value) = mine {
-                weight.add(self::weight(&key, &value));
-                if let Some(before) = self.elements.insert(key.clone(), value) {
-                    weight.take(self::weight(&key, &before));
+                weight.add(self::weight(key.len(), &value));
+                let length = key.len();
+                if let Some(before) = self.elements.insert(key, value) {
+                    weight.take(self::weight(length, &before));
                 }
             }
         }
@@ -150,11 +149,11 @@ impl NamedVariable {
     fn own_weight(&self, name: &str) -> usize {
         let array = self.array.as_ref().map(|array| &array.default);
         let values = self.scalar.iter().chain(array);
-        values.map(|value| weight(name, value)).sum()
+        values.map(|value| weight(name.len(), value)).sum()
     }
 
     pub(in crate::interpreter) fn elements_weight(&self) -> usize {
-        let weight = |(key, value): (&String, &Value)| weight(key, value);
+        let weight = |(key, value): (&Subscripts, &Value)| weight(key.len(), value);
         self.elements.iter().map(weight).sum()
     }
 
@@ -168,52 +167,53 @@ impl NamedVariable {
 
 impl VariableNames {
     /// All values by name, those of an array element by element.
-    pub(in crate::interpreter) fn held(&self) -> BTreeMap<String, Value> {
+    pub(in crate::interpreter) fn held(&self) -> BTreeMap<VariableName, Value> {
         let mut held = BTreeMap::new();
-        for (name, variable) in self.names.iter() {
-            if let Some(value) = &variable.scalar {
-                held.insert(name.clone(), value.clone());
-            }
+        for (array, variable) in self.names.iter() {
+            let whole = VariableName::whole(array.clone());
             for (subscripts, value) in variable.elements.iter() {
-                held.insert(format!("{name}{subscripts}"), value.clone());
+                held.insert(whole.at(subscripts.clone()), value.clone());
+            }
+            if let Some(value) = &variable.scalar {
+                held.insert(whole, value.clone());
             }
         }
         held
     }
 
-    pub(in crate::interpreter) fn value(&self, name: &str) -> Option<Value> {
-        let (base, subscripts) = parts(name);
-        let variable = self.names.get(base)?;
-        match subscripts {
-            "" => variable.scalar.clone(),
-            subscripts => variable.element(subscripts),
+    pub(in crate::interpreter) fn value(&self, name: &VariableName) -> Option<Value> {
+        let variable = self.names.get(name.array())?;
+        if name.is_element() {
+            variable.element(name.subscripts())
+        } else {
+            variable.scalar.clone()
         }
     }
 
-    pub(in crate::interpreter) fn set(&mut self, name: &str, value: Value) {
-        let (base, subscripts) = parts(name);
-        let variable = self.names.slot(base.to_owned(), NamedVariable::default);
-        let key = if subscripts.is_empty() {
-            base
+    pub(in crate::interpreter) fn set(&mut self, name: &VariableName, value: Value) {
+        let array = name.array().to_owned();
+        let variable = self.names.slot(array, NamedVariable::default);
+        let length = if name.is_element() {
+            name.subscripts().len()
         } else {
-            subscripts
+            name.array().len()
         };
-        self.weight.add(weight(key, &value));
-        let before = if subscripts.is_empty() {
-            variable.scalar.replace(value)
+        self.weight.add(weight(length, &value));
+        let before = if name.is_element() {
+            variable.elements.insert(name.subscripts().clone(), value)
         } else {
-            variable.elements.insert(subscripts.to_owned(), value)
+            variable.scalar.replace(value)
         };
         self.weight
-            .take(before.map_or(0, |before| weight(key, &before)));
+            .take(before.map_or(0, |before| weight(length, &before)));
     }
 
     pub(in crate::interpreter) fn declare_array(&mut self, name: &str, array: Array) {
-        self.weight.add(weight(name, &array.default));
+        self.weight.add(weight(name.len(), &array.default));
         let variable = self.names.slot(name.to_owned(), NamedVariable::default);
         let before = variable.array.replace(array);
         self.weight
-            .take(before.map_or(0, |before| weight(name, &before.default)));
+            .take(before.map_or(0, |before| weight(name.len(), &before.default)));
         variable.lost = None;
         self.drop_elements(name);
     }
@@ -235,33 +235,28 @@ impl VariableNames {
         variable.lost = Some(cause.clone());
     }
 
-    pub(in crate::interpreter) fn delete(&mut self, name: &str) {
-        let (base, subscripts) = parts(name);
-        if subscripts.is_empty() {
-            self.drop_elements(base);
-            if let Some(variable) = self.names.remove(base) {
-                self.weight.take(variable.own_weight(base));
+    pub(in crate::interpreter) fn delete(&mut self, name: &VariableName) {
+        let array = name.array();
+        if !name.is_element() {
+            self.drop_elements(array);
+            if let Some(variable) = self.names.remove(array) {
+                self.weight.take(variable.own_weight(array));
             }
             return;
         }
-        let Some(variable) = self.names.get_mut(base) else {
+        let Some(variable) = self.names.get_mut(array) else {
             return;
         };
-        let inner = format!("{subscripts}[");
-        let mut gone: Vec<String> = variable
-            .elements
-            .from(&inner)
-            .take_while(|(key, _)| key.starts_with(&inner))
-            .map(|(key, _)| key.clone())
-            .collect();
-        gone.push(subscripts.to_owned());
+        let from = variable.elements.from(name.subscripts());
+        let parts = from.take_while(|(key, _)| key.starts_with(name.subscripts()));
+        let gone: Vec<Subscripts> = parts.map(|(key, _)| key.clone()).collect();
         for key in gone {
             if let Some(value) = variable.elements.remove(&key) {
-                self.weight.take(weight(&key, &value));
+                self.weight.take(weight(key.len(), &value));
             }
         }
         if variable.is_empty() {
-            self.names.remove(base);
+            self.names.remove(array);
         }
     }
 
@@ -283,14 +278,15 @@ impl VariableNames {
             }
             match (&mine.scalar, &theirs.scalar) {
                 (Some(mine), Some(theirs)) => {
-                    let target = || Location::Variable(name.clone());
+                    let target = || Location::Variable(VariableName::whole(name.clone()));
                     compare(mine, theirs, target, differing)?;
                 }
                 (None, None) => {}
                 _ => return None,
             }
             for key in mine.elements.differing(&theirs.elements) {
-                let target = || Location::Variable(format!("{name}{key}"));
+                let element = || VariableName::whole(name.clone()).at(key.clone());
+                let target = || Location::Variable(element());
                 let pair = mine.elements.get(&key).zip(theirs.elements.get(&key))?;
                 compare(pair.0, pair.1, target, differing)?;
             }
@@ -365,17 +361,12 @@ pub(in crate::interpreter) fn compare(
     }
 }
 
-/// Returns the weight of a value under a name.
-pub(in crate::interpreter) fn weight(name: &str, value: &Value) -> usize {
+/// Returns the weight of a value under a name of so many bytes.
+pub(in crate::interpreter) fn weight(name: usize, value: &Value) -> usize {
     let text = match value {
         Value::Text(text) => text.len(),
         // The name of an unknown value is shared.
         Value::Number(_) | Value::Unknown(_) => 0,
     };
-    1 + name.len() / WEIGHT + text / WEIGHT
-}
-
-/// The name of a variable and the subscripts after it.
-pub(in crate::interpreter) fn parts(name: &str) -> (&str, &str) {
-    name.split_at(name.find('[').unwrap_or(name.len()))
+    1 + name / WEIGHT + text / WEIGHT
 }

@@ -35,9 +35,9 @@ impl ParameterValues {
 
     pub(in crate::interpreter) fn set(&mut self, index: u32, value: Value) {
         if index >= DIRECT {
-            self.texts.add(weight("", &value) - 1);
+            self.texts.add(weight(0, &value) - 1);
             if let Some(before) = self.further.insert(index, value) {
-                self.texts.take(weight("", &before) - 1);
+                self.texts.take(weight(0, &before) - 1);
             }
             return;
         }
@@ -50,7 +50,7 @@ impl ParameterValues {
 
     pub(in crate::interpreter) fn remove(&mut self, index: u32) {
         if let Some(before) = self.further.remove(&index) {
-            self.texts.take(weight("", &before) - 1);
+            self.texts.take(weight(0, &before) - 1);
         }
         let (page, place) = page_of(index);
         if let Some(page) = self.pages.get_mut(page) {

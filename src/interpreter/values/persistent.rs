@@ -7,11 +7,10 @@
 
 use std::borrow::Borrow;
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 use std::hash::{BuildHasher as _, Hash, RandomState};
 use std::sync::{Arc, LazyLock};
 
-use serde::ser::SerializeMap as _;
+use serde::ser::SerializeSeq as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// No program can choose names whose ranks make the tree deep.
@@ -223,11 +222,11 @@ impl<K: Ord + Hash + Clone, V: Clone> FromIterator<(K, V)> for PersistentMap<K, 
 
 impl<K: Serialize, V: Serialize> Serialize for PersistentMap<K, V> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.len))?;
-        for (key, value) in self.iter() {
-            map.serialize_entry(key, value)?;
+        let mut entries = serializer.serialize_seq(Some(self.len))?;
+        for entry in self.iter() {
+            entries.serialize_element(&entry)?;
         }
-        map.end()
+        entries.end()
     }
 }
 
@@ -237,7 +236,7 @@ where
     V: Deserialize<'de> + Clone,
 {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        BTreeMap::deserialize(deserializer).map(|entries| entries.into_iter().collect())
+        Vec::deserialize(deserializer).map(|entries: Vec<(K, V)>| entries.into_iter().collect())
     }
 }
 
@@ -359,7 +358,7 @@ mod tests {
     fn it_is_an_ordered_map() {
         let mut next = numbers(7);
         let mut map = PersistentMap::default();
-        let mut expected = BTreeMap::new();
+        let mut expected = std::collections::BTreeMap::new();
         for _ in 0..4000 {
             let (key, value) = (next(300), next(9));
             match next(3) {
@@ -371,7 +370,8 @@ mod tests {
         assert!(map.iter().eq(expected.iter()));
         assert!(map.from(&120).eq(expected.range(120..)));
         let text = serde_json::to_string(&map).expect("text");
-        assert_eq!(text, serde_json::to_string(&expected).expect("text"));
+        let entries: Vec<_> = expected.iter().collect();
+        assert_eq!(text, serde_json::to_string(&entries).expect("text"));
         let read: PersistentMap<u64, u64> = serde_json::from_str(&text).expect("the same");
         assert!(read == map);
     }

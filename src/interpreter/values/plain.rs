@@ -8,8 +8,8 @@ use super::cause::Unknown;
 use super::externals::ExternalNames;
 use super::location::Location;
 use super::value::{Value, rounded};
-use super::variable::{VariableFamily, canonical};
 use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owner};
+use crate::syntax::{Subscript, VariableFamily, VariableName};
 use crate::text::Span;
 
 /// Whether a condition holds.
@@ -112,7 +112,11 @@ pub(in crate::interpreter) fn is_one_comparison(
 
 /// Whether a variable can only be 0 or 1.
 fn is_switch(target: &Location) -> bool {
-    matches!(target, Location::Variable(name) if VariableFamily::of(name) == VariableFamily::Axis && name.contains("_COMP_ACTIVE"))
+    let of_axis = match target {
+        Location::Variable(name) => name.of_axis(),
+        _ => None,
+    };
+    of_axis.is_some_and(|(variable, _)| variable.ends_with("_COMP_ACTIVE"))
 }
 
 /// A variable and the number that it equals.
@@ -150,8 +154,8 @@ fn target(node: Node, written: &str) -> Option<Location> {
     match node {
         Node::Parameter { owner, index } => Some(Location::Parameter(owner, index)),
         Node::Variable { subscripts: 0 } => {
-            let name = canonical(written).into_owned();
-            let is_variable = VariableFamily::of(&name) != VariableFamily::Other;
+            let name = VariableName::read(written);
+            let is_variable = name.family() != VariableFamily::Other;
             is_variable.then_some(Location::Variable(name))
         }
         _ => None,
@@ -214,9 +218,9 @@ pub(in crate::interpreter) enum Writer {
 }
 
 impl Writer {
-    fn of(name: &str, externals: &ExternalNames) -> Self {
+    fn of(name: &VariableName, externals: &ExternalNames) -> Self {
         use VariableFamily::{External, Local, Program, Shared};
-        match VariableFamily::of(name) {
+        match name.family() {
             Program | Local | Shared => Self::Nothing,
             _ if externals.is_stable(name) => Self::Nothing,
             External => Self::Machine,
@@ -319,8 +323,8 @@ pub(in crate::interpreter) fn is_written_by_machine(
     let spans = block.spans.get(range).unwrap_or_default();
     nodes.iter().zip(spans).any(|(node, span)| match node {
         Node::Variable { .. } => {
-            let name = canonical(span.of(text));
-            VariableFamily::of(&name) != VariableFamily::Cycle
+            let name = VariableName::read(span.of(text));
+            name.family() != VariableFamily::Cycle
                 && Writer::of(&name, externals) != Writer::Nothing
         }
         Node::Text | Node::Unread => true,
@@ -329,12 +333,12 @@ pub(in crate::interpreter) fn is_written_by_machine(
 }
 
 /// A subscript that is a plain number.
-pub(in crate::interpreter) fn subscript(node: &Node) -> String {
+pub(in crate::interpreter) fn subscript(node: &Node) -> Subscript {
     let number = match node {
         Node::Number(number) => rounded(*number),
         _ => None,
     };
-    number.unwrap_or(i64::MAX).to_string()
+    Subscript::Number(number.unwrap_or(i64::MAX))
 }
 
 /// Whether a function of numbers always gives equal results for equal numbers.

@@ -2,7 +2,7 @@
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::{AxisWord, BlockEnd, Executed, Group, PathForm, PositionFrame, Travel};
+use crate::interpreter::{AxisWord, BlockEnd, Executed, PathForm, PositionFrame, Travel};
 use crate::lint::linter::Linter;
 use crate::lint::memory::{SwitchAfterMove, place};
 use crate::readings::Question;
@@ -98,8 +98,7 @@ fn matters(from: State, to: State) -> bool {
 
 /// Whether feed moves are modal.
 fn is_feed(executed: &Executed<'_>) -> bool {
-    let modal = executed.modal;
-    modal.is_known(Group::Motion) && matches!(modal.functions.motion, 1..=3)
+    executed.modal.functions.is_feed_move()
 }
 
 /// An end of an arc.

@@ -47,7 +47,7 @@ pub(super) struct Observed {
     /// The selection at every motion.
     pub(super) motions: SelectionAtMotions,
     /// The selection after the last block that may have changed it.
-    standing: Option<Selected>,
+    selected: Option<Selected>,
 }
 
 /// Effects of one run of a program.
@@ -195,7 +195,7 @@ impl Observation {
 
     fn stand(&mut self, scope: &Scope, compensation: &Compensation) {
         for (observed, subject) in self.observed.iter_mut().zip(scope.subjects()) {
-            observed.standing = Some(Selected::of(compensation, *subject));
+            observed.selected = Some(Selected::of(compensation, *subject));
         }
     }
 
@@ -301,7 +301,7 @@ impl Observation {
             let is_at_start_up = (selected == Selected::On) == scope.is_on_at_start_up(subject)
                 && selected != Selected::Unknown;
             let observed = &mut self.observed[at];
-            if !is_certain && let Some(before) = observed.standing {
+            if !is_certain && let Some(before) = observed.selected {
                 // The motion may come before whatever the block may switch.
                 observed.motions.note(Stood::new(before, None));
             }

@@ -45,7 +45,7 @@ pub struct Diagnostic {
     /// Number of executed blocks of a program to which it applied, as given in the message.
     pub times: u64,
     /// The message without the number of times, where it has one.
-    uncounted: Option<String>,
+    pub uncounted: Option<String>,
     /// The main programs that reach its place, if that is in a called program.
     pub reached_from: ReachedFrom,
     /// The program ends that it is about (R1.58).

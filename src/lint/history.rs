@@ -52,7 +52,7 @@ pub(crate) enum LeftAwayNotice {
 #[derive(Debug, Clone, Default)]
 struct Away {
     maker: Option<Maker>,
-    told: LeftAwayNotice,
+    notice: LeftAwayNotice,
 }
 
 /// States left by the programs of a session, and the states at the start of the control.
@@ -83,12 +83,12 @@ impl History {
         self.axes[axis.get()][kind as usize].maker.as_ref()
     }
 
-    pub(crate) fn told(&self, axis: AxisIndex, kind: Kind) -> LeftAwayNotice {
-        self.axes[axis.get()][kind as usize].told
+    pub(crate) fn notice(&self, axis: AxisIndex, kind: Kind) -> LeftAwayNotice {
+        self.axes[axis.get()][kind as usize].notice
     }
 
-    pub(crate) fn set_told(&mut self, axis: AxisIndex, kind: Kind, told: LeftAwayNotice) {
-        self.axes[axis.get()][kind as usize].told = told;
+    pub(crate) fn set_notice(&mut self, axis: AxisIndex, kind: Kind, notice: LeftAwayNotice) {
+        self.axes[axis.get()][kind as usize].notice = notice;
     }
 
     /// Returns the kinds of an axis that nothing has switched since the start of the control.
@@ -120,7 +120,7 @@ impl History {
                 } else if let Some(site) = did.made(ended, (axis, kind), &self.start_up) {
                     *away = Away {
                         maker: Some(Maker::new(program, &site)),
-                        told: LeftAwayNotice::No,
+                        notice: LeftAwayNotice::No,
                     };
                 }
             }

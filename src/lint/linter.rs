@@ -131,8 +131,8 @@ impl<'m> Linter<'m> {
     }
 
     /// Records the outcome of a note of [`end`](Self::end).
-    pub(crate) fn settle(&mut self, left: &LeftAway, told: LeftAwayNotice) {
-        self.history.set_told(left.axis, left.kind, told);
+    pub(crate) fn settle(&mut self, left: &LeftAway, notice: LeftAwayNotice) {
+        self.history.set_notice(left.axis, left.kind, notice);
     }
 
     pub(super) fn name(&self, axis: AxisIndex) -> &str {

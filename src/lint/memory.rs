@@ -228,15 +228,15 @@ impl AxisMemory {
         &self.kinds[kind as usize]
     }
 
-    fn note(&mut self, kinds: KindSet, deed: KindEffect, site: &Arc<BlockSite>) {
+    fn note(&mut self, kinds: KindSet, effect: KindEffect, site: &Arc<BlockSite>) {
         for kind in kinds.iter() {
             let memory = &mut self.kinds[kind as usize];
-            match deed {
+            match effect {
                 KindEffect::Off => memory.switched[0] = Some(Arc::clone(site)),
                 KindEffect::On => memory.switched[1] = Some(Arc::clone(site)),
                 KindEffect::Unknown | KindEffect::Lost => {}
             }
-            memory.last = Some((deed, Arc::clone(site)));
+            memory.last = Some((effect, Arc::clone(site)));
         }
     }
 }

@@ -166,7 +166,7 @@ pub struct Session {
     wording: Option<Wording>,
     programs: u32,
     stopped: bool,
-    tally: SessionTotals,
+    totals: SessionTotals,
     notes: NoteBook,
 }
 
@@ -198,7 +198,7 @@ impl Session {
             start,
             programs: 0,
             stopped: false,
-            tally: SessionTotals::of(&machine),
+            totals: SessionTotals::of(&machine),
             machine,
             notes: NoteBook::default(),
         }
@@ -256,7 +256,7 @@ impl Session {
             }
             if away.allowed {
                 self.history
-                    .set_told(axis, away.kind, LeftAwayNotice::Silenced);
+                    .set_notice(axis, away.kind, LeftAwayNotice::Silenced);
             }
         }
         if saved.occurred || saved.position.is_some() {
@@ -311,7 +311,7 @@ impl Session {
             remark: self.remark.as_deref(),
         })?;
         for diagnostic in lists {
-            self.tally.count(diagnostic);
+            self.totals.count(diagnostic);
             let mut diagnostic = diagnostic.clone();
             diagnostic.reword(self.wording);
             sink.record(&Record::Machine(&diagnostic))?;
@@ -336,7 +336,7 @@ impl Session {
             levels: &self.levels,
             wording: self.wording,
             linter: Linter::new(&machine, &mut self.history, file),
-            tally: &mut self.tally,
+            totals: &mut self.totals,
             notes: &mut self.notes,
             sink,
             program: self.programs,
@@ -382,13 +382,13 @@ impl Session {
 
     /// Returns the number of diagnostics by severity.
     pub fn counts(&self) -> &BTreeMap<Severity, u64> {
-        &self.tally.counts
+        &self.totals.counts
     }
 
     /// The configured kinds of each axis that were not known at a program's end or where the axis
     /// moved (R2.98), and friction compensation that a program switches on an axis that nothing describes (R18.2).
     pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
-        let unknown = self.tally.unknown.iter();
+        let unknown = self.totals.unknown.iter();
         unknown.map(|(axis, kind)| (self.machine.axis(*axis).name.as_str(), *kind))
     }
 
@@ -405,20 +405,20 @@ impl Session {
             start: self.start.state(axis, Kind::Frict),
             end: state.state(axis, Kind::Frict),
             start_up: self.history.start_up(axis, Kind::Frict),
-            told: self.history.told(axis, Kind::Frict) != LeftAwayNotice::No,
-            changed_by: self.tally.changed_by[axis.get()].clone(),
-            changes: self.tally.changes[axis.get()],
-            feed_moves: self.tally.feed_moves.of(axis),
-            is_undescribed: self.tally.undescribed.contains_key(&axis),
+            told: self.history.notice(axis, Kind::Frict) != LeftAwayNotice::No,
+            changed_by: self.totals.changed_by[axis.get()].clone(),
+            changes: self.totals.changes[axis.get()],
+            feed_moves: self.totals.feed_moves.of(axis),
+            is_undescribed: self.totals.undescribed.contains_key(&axis),
         });
         sink.record(&Record::Summary(&Summary {
             programs: self.programs,
-            blocks: self.tally.blocks,
-            counts: self.tally.counts.clone(),
+            blocks: self.totals.blocks,
+            counts: self.totals.counts.clone(),
             opaque: self.interpreter.opaque(),
             axes: axes.collect(),
-            assumed: self.tally.assumed.clone(),
-            rests_on: self.tally.rests_on.union(self.interpreter.rests_on()),
+            assumed: self.totals.assumed.clone(),
+            rests_on: self.totals.rests_on.union(self.interpreter.rests_on()),
             state,
         }))
     }
@@ -471,7 +471,7 @@ impl Session {
                 .map(|kind| SavedAway {
                     kind,
                     by: self.history.maker(index, kind).cloned(),
-                    allowed: self.history.told(index, kind) == LeftAwayNotice::Silenced,
+                    allowed: self.history.notice(index, kind) == LeftAwayNotice::Silenced,
                 })
                 .collect(),
             occurred: self.machine.axis_set == AxisSet::AsTheyOccur

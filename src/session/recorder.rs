@@ -49,7 +49,7 @@ pub(super) struct Recorder<'a> {
     pub(super) levels: &'a Levels,
     pub(super) wording: Option<Wording>,
     pub(super) linter: Linter<'a>,
-    pub(super) tally: &'a mut SessionTotals,
+    pub(super) totals: &'a mut SessionTotals,
     pub(super) notes: &'a mut NoteBook,
     pub(super) sink: &'a mut dyn Sink,
     pub(super) program: u32,
@@ -130,8 +130,8 @@ impl Recorder<'_> {
             self.linter.block(executed, &mut Vec::new());
             return ControlFlow::Continue(());
         }
-        self.tally.blocks += 1;
-        self.tally.feed_moves.block(executed);
+        self.totals.blocks += 1;
+        self.totals.feed_moves.block(executed);
         if !executed.notes.is_empty() {
             self.take_notes(executed.notes);
         }
@@ -198,7 +198,7 @@ impl Recorder<'_> {
         for axis in executed.motions().map(|motion| motion.axis) {
             let kinds = self.unknown_of(executed.compensation, axis);
             let kinds = kinds.iter().map(|kind| (axis, kind));
-            self.tally.unknown.extend(kinds);
+            self.totals.unknown.extend(kinds);
         }
     }
 
@@ -226,10 +226,10 @@ impl Recorder<'_> {
     fn judge(&mut self, executed: &Executed<'_>) {
         self.said.extend(self.foreign.take());
         self.said.extend_from_slice(executed.diagnostics);
-        self.tally.note_footing(executed.diagnostics);
+        self.totals.note_footing(executed.diagnostics);
         let before = self.said.len();
         self.linter.block(executed, &mut self.said);
-        self.tally.note_footing(self.said.iter().skip(before));
+        self.totals.note_footing(self.said.iter().skip(before));
         if let Some(ways) = executed.branch {
             // FC403 names the ways itself.
             let lints = self.said.iter_mut().skip(before);
@@ -240,8 +240,8 @@ impl Recorder<'_> {
             let said = self.said.iter_mut();
             said.for_each(|said| failed.mark(said, executed.seq));
         }
-        if self.tally.has_undescribed {
-            self.tally.note_undescribed(self.machine, executed);
+        if self.totals.has_undescribed {
+            self.totals.note_undescribed(self.machine, executed);
         }
         self.note_allows(executed);
         for withheld in &executed.aside.withheld {
@@ -260,14 +260,14 @@ impl Recorder<'_> {
             }
         }
         for diagnostic in &self.said {
-            self.tally.count(diagnostic);
+            self.totals.count(diagnostic);
         }
     }
 
     /// Sorts, applies the user's severities and `allow` comments, and keeps each message once per place.
     fn filter(&mut self, line: u32) {
         let (levels, allows, here) = (self.levels, &mut self.allows, &self.here);
-        let (before, tally, wording) = (&mut self.before, &mut *self.tally, self.wording);
+        let (before, totals, wording) = (&mut self.before, &mut *self.totals, self.wording);
         let (machine, program) = (self.machine, self.program);
         self.said.sort_by(|one, other| {
             let order = one.place.cmp_start(&other.place);
@@ -291,7 +291,7 @@ impl Recorder<'_> {
             if is_silenced || allowed {
                 return false;
             }
-            if tally.knows_undescribed(machine, (program, diagnostic)) {
+            if totals.knows_undescribed(machine, (program, diagnostic)) {
                 return false;
             }
             match before.take(diagnostic) {
@@ -302,7 +302,7 @@ impl Recorder<'_> {
                 }
                 DedupVerdict::Repeated => false,
                 DedupVerdict::TooMany => {
-                    tally.count(diagnostic);
+                    totals.count(diagnostic);
                     false
                 }
             }
@@ -355,10 +355,10 @@ impl Recorder<'_> {
     }
 
     fn note_change(&mut self, executed: &Executed<'_>, axis: AxisIndex, to: State) {
-        let named = &mut self.tally.changed_by[axis.get()];
-        let changes = &mut self.tally.changes[axis.get()];
+        let named = &mut self.totals.changed_by[axis.get()];
+        let changes = &mut self.totals.changes[axis.get()];
         let block = Some((self.program, executed.seq));
-        if std::mem::replace(&mut self.tally.last_changed[axis.get()], block) == block {
+        if std::mem::replace(&mut self.totals.last_changed[axis.get()], block) == block {
             if let Some(last) = named.last_mut().filter(|_| *changes <= MAX_NAMED as u64) {
                 last.to = to;
             }
@@ -378,12 +378,12 @@ impl Recorder<'_> {
 
     #[inline(never)]
     fn ended(&mut self, ended: &Ended<'_>) -> ControlFlow<()> {
-        self.tally.note_footing(ended.diagnostics);
-        self.tally.rests_on = self.tally.rests_on.union(self.linter.rests_on());
+        self.totals.note_footing(ended.diagnostics);
+        self.totals.rests_on = self.totals.rests_on.union(self.linter.rests_on());
         for axis in (0..ended.compensation.len()).map(AxisIndex::new) {
             let kinds = self.unknown_of(ended.compensation, axis);
             let kinds = kinds.iter().map(|kind| (axis, kind));
-            self.tally.unknown.extend(kinds);
+            self.totals.unknown.extend(kinds);
         }
         let foreign = self.foreign.take();
         let said = foreign.iter().chain(ended.diagnostics);
@@ -401,7 +401,7 @@ impl Recorder<'_> {
             said.for_each(|note| failed.mark(&mut note.diagnostic, note.seq));
         }
         let lints = left.iter().map(|left| &left.note.diagnostic);
-        self.tally.note_footing(lints);
+        self.totals.note_footing(lints);
         let (levels, allows) = (self.levels, &mut self.allows);
         let mut judge = |note: &mut EndNote| {
             if !levels.weigh(&mut note.diagnostic) {
@@ -412,13 +412,13 @@ impl Recorder<'_> {
         };
         notes.retain_mut(&mut judge);
         for mut left in left {
-            let told = if judge(&mut left.note) {
+            let notice = if judge(&mut left.note) {
                 LeftAwayNotice::Said
             } else {
                 LeftAwayNotice::Silenced
             };
-            self.linter.settle(&left, told);
-            if told == LeftAwayNotice::Said {
+            self.linter.settle(&left, notice);
+            if notice == LeftAwayNotice::Said {
                 notes.push(left.note);
             }
         }
@@ -437,17 +437,17 @@ impl Recorder<'_> {
         for (code, times) in ended.unsaid {
             if let Some(severity) = levels.severity(*code) {
                 unsaid += times;
-                *self.tally.counts.entry(severity).or_default() += times;
+                *self.totals.counts.entry(severity).or_default() += times;
             }
         }
         for note in &notes {
-            self.tally.count(&note.diagnostic);
+            self.totals.count(&note.diagnostic);
         }
         notes.retain(|note| self.before.take_last(&note.diagnostic) == DedupVerdict::Say);
         let mut rest = self.before.rest(unsaid, ended.seq);
         rest.retain_mut(|note| levels.weigh(&mut note.diagnostic));
         for note in &rest {
-            self.tally.count(&note.diagnostic);
+            self.totals.count(&note.diagnostic);
         }
         notes.append(&mut rest);
         for note in &mut notes {

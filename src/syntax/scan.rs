@@ -134,7 +134,7 @@ impl ScanQuestion for SwitchedAxes {
 /// The requested axes that a program names, and whether it calls a file (R2.74).
 #[derive(Debug, Default)]
 pub struct NamedAxes {
-    sought: Vec<PendingLabel>,
+    pending: Vec<PendingLabel>,
     found: BTreeSet<String>,
     /// Axes whose state of compensation the program reads.
     read: BTreeSet<String>,
@@ -162,12 +162,12 @@ struct Calls {
 impl NamedAxes {
     /// Asks for these names.
     pub fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
-        let sought = |name: &str| PendingLabel {
+        let label = |name: &str| PendingLabel {
             name: name.to_owned(),
             next: None,
         };
         Self {
-            sought: names.into_iter().map(sought).collect(),
+            pending: names.into_iter().map(label).collect(),
             ..Self::default()
         }
     }
@@ -192,9 +192,9 @@ impl ScanQuestion for NamedAxes {
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize> {
         // Each place is looked for once, not again for each line before it.
         let is_known = |next: &Option<usize>| from > 0 && next.is_none_or(|at| at >= from);
-        for sought in &mut self.sought {
-            if !is_known(&sought.next) {
-                sought.next = axis_place(text, from, sought.name.as_bytes());
+        for label in &mut self.pending {
+            if !is_known(&label.next) {
+                label.next = axis_place(text, from, label.name.as_bytes());
             }
         }
         if !is_known(&self.calls.next) {
@@ -205,15 +205,15 @@ impl ScanQuestion for NamedAxes {
             let found = memchr::memmem::find(&text[from..], STATE.as_bytes());
             self.next_read = found.map(|at| from + at);
         }
-        let places = self.sought.iter().filter_map(|sought| sought.next);
+        let places = self.pending.iter().filter_map(|label| label.next);
         places.chain(self.calls.next).chain(self.next_read).min()
     }
 
     fn look(&mut self, block: &Block, text: &str) {
         with_macros(block, text, MAX_MACROS, &mut |block, text| {
             for (name, _) in own_uses(block, text) {
-                if let Some(at) = self.sought.iter().position(|sought| sought.name == name) {
-                    self.sought.swap_remove(at);
+                if let Some(at) = self.pending.iter().position(|label| label.name == name) {
+                    self.pending.swap_remove(at);
                     self.found.insert(name);
                 }
             }

@@ -233,7 +233,7 @@ impl Interpreter {
         let own = moving.clone();
         let links = self.state.control.couplings.links();
         // R2.60: groups may be many.
-        self.state.effort.charge(ITEM * links.len());
+        self.state.work.charge(ITEM * links.len());
         // Each round settles an axis more, or is the last.
         for _ in 0..=self.machine.axes.len() {
             let mut grew = false;

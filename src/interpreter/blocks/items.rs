@@ -282,7 +282,7 @@ impl Interpreter {
             }
         };
         let depth = self.with_evaluator(at, |evaluator| {
-            let macros = evaluator.macros.expand(&code, evaluator.effort, span);
+            let macros = evaluator.macros.expand(&code, evaluator.work, span);
             macros.map(|macros| macros.depth)
         })?;
         let mut block = Block::default();

@@ -70,14 +70,14 @@ impl Interpreter {
         let found = match here.map_or_else(
             || {
                 self.programs
-                    .find(&wanted, caller, finder, &self.state.effort)
+                    .find(&wanted, caller, finder, &self.state.work)
             },
             |here| Ok(Some(here)),
         ) {
             Ok(found) => found?,
             Err(fault) => {
                 let cause = Unknown::Program(wanted.missing());
-                self.state.told.enter_root(&cause, wanted.span, at);
+                self.state.mentioned.enter_root(&cause, wanted.span, at);
                 self.state.control.memory.miss(&cause);
                 self.note_use(VariableUse::write_anything);
                 self.scratch.diagnostics.push(at.diagnostic(*fault));
@@ -285,13 +285,11 @@ impl Interpreter {
         let here = self.state.control.frames.program() == Some(found);
         let call = self.state.control.frames.entry();
         let end = self.programs.section(found).end;
-        let first = self
-            .programs
-            .block_of(found, &part.first, &self.state.effort);
+        let first = self.programs.block_of(found, &part.first, &self.state.work);
         let last = match &part.last {
             Some(last) => self
                 .programs
-                .block_of(found, last, &self.state.effort)
+                .block_of(found, last, &self.state.work)
                 .map(Some),
             None => Some(None),
         };

@@ -210,7 +210,7 @@ impl Interpreter {
                 };
                 let frame = self.state.control.frames.at_level(level);
                 let program = frame.map_or(ProgramId::FIRST, CallFrame::program);
-                let found = self.programs.block_of(program, &name, &self.state.effort);
+                let found = self.programs.block_of(program, &name, &self.state.work);
                 if found.is_none() {
                     let missing = Fault::new(
                         Code::Fc209,
@@ -223,7 +223,7 @@ impl Interpreter {
                     if !arrives || level > 0 {
                         return Err(Box::new(missing));
                     }
-                    self.sought = Some(AwaitedBlock {
+                    self.awaited = Some(AwaitedBlock {
                         label: name,
                         missing: at.diagnostic(missing),
                     });

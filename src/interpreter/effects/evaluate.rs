@@ -79,7 +79,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn with_evaluator<T>(
         &self,
         at: &BlockContext<'_>,
-        work: impl FnOnce(&Evaluator<'_>) -> T,
+        evaluate: impl FnOnce(&Evaluator<'_>) -> T,
     ) -> T {
         static NONE: BTreeMap<u32, Value> = BTreeMap::new();
         let frame = self.state.control.frames.running();
@@ -88,7 +88,7 @@ impl Interpreter {
             _ => ParameterSource::FromOutside,
         };
         let taken = self.options.notes == Notes::Taken;
-        work(&Evaluator {
+        evaluate(&Evaluator {
             block: at.block,
             text: at.text,
             shown: None,
@@ -98,7 +98,7 @@ impl Interpreter {
                 expansions: &self.scratch.expansions,
                 until: self.work_bound(),
             },
-            effort: &self.state.effort,
+            work: &self.state.work,
             scope: ExpressionScope {
                 memory: &self.state.control.memory,
                 reads: self.state.watching.then_some(&self.state.reads),

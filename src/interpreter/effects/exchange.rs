@@ -152,7 +152,7 @@ impl Interpreter {
             .cloned()
             .collect();
         self.state
-            .effort
+            .work
             .charge(ITEM + self.machine.axes.len() + names.len());
         for name in &gone {
             self.release_axis(name);

@@ -19,11 +19,11 @@ impl Interpreter {
     ) {
         let span = fault.span;
         let said = at.diagnostic(fault);
-        let said = self.state.told.with_origin(said, cause, at);
-        self.state.told.enter_root(cause, span, at);
+        let said = self.state.mentioned.with_origin(said, cause, at);
+        self.state.mentioned.enter_root(cause, span, at);
         if self
             .state
-            .told
+            .mentioned
             .is_new(cause, [what.to_owned()], &said.place)
         {
             self.scratch.diagnostics.push(said);

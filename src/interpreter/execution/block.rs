@@ -63,11 +63,14 @@ impl Interpreter {
     #[inline]
     fn begin_block(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) -> usize {
         self.scratch.clear();
-        if !(self.met.is_empty() && self.met_withheld.is_empty()) {
-            self.scratch.diagnostics.append(&mut self.met);
-            self.scratch.aside.withheld.append(&mut self.met_withheld);
+        if !(self.joined.is_empty() && self.joined_withheld.is_empty()) {
+            self.scratch.diagnostics.append(&mut self.joined);
+            self.scratch
+                .aside
+                .withheld
+                .append(&mut self.joined_withheld);
         }
-        let met = self.scratch.diagnostics.len();
+        let first = self.scratch.diagnostics.len();
         self.state.seq += 1;
         self.state.blocks += 1;
         if self.state.track.ways.has_targets() {
@@ -76,7 +79,7 @@ impl Interpreter {
         if self.state.track.searching.is_some() {
             self.search(at);
         }
-        met
+        first
     }
 
     /// Finds the programs that a block calls.
@@ -102,8 +105,8 @@ impl Interpreter {
     fn is_plain(&self) -> bool {
         !self.scratch.wrote
             && self.scratch.unsaid.is_none()
-            && self.state.effort.level() <= self.options.limits.work
-            && self.state.effort.ways() <= self.options.limits.ways
+            && self.state.work.level() <= self.options.limits.work
+            && self.state.work.ways() <= self.options.limits.ways
     }
 
     /// Executes a block and informs the observer. `Continue` where the next block follows.
@@ -113,7 +116,7 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> ControlFlow<NextBlock> {
-        let met = self.begin_block(at, finder);
+        let first = self.begin_block(at, finder);
         let mut outcome = BlockOutcome::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
@@ -162,7 +165,7 @@ impl Interpreter {
             Some(ControlStep::End(EndedBy::Error)) => Some(self.end_by_error(at, finder)),
             step => step,
         };
-        self.limit_said(met);
+        self.limit_messages(first);
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
             file: at.file,
@@ -218,7 +221,7 @@ impl Interpreter {
     /// Accounts for the work and the changes of a block. Returns whether the program is over.
     #[inline]
     fn account(&mut self, at: &BlockContext<'_>) -> bool {
-        self.state.effort.grant(at.text);
+        self.state.work.grant(at.text);
         let is_over = !self.is_plain() && self.settle(at);
         let scratch = &self.scratch;
         if !scratch.changes.is_empty() || scratch.new_axes || scratch.left_open.is_some() {
@@ -243,10 +246,10 @@ impl Interpreter {
     /// Limits the messages of the block to the ways on which they apply, except the first ones, which are
     /// about ways that meet (R14.5).
     #[inline]
-    fn limit_said(&mut self, met: usize) {
+    fn limit_messages(&mut self, first: usize) {
         self.show_ways();
         if let Some(ways) = &self.shown.branch {
-            let own = self.scratch.diagnostics.iter_mut().skip(met);
+            let own = self.scratch.diagnostics.iter_mut().skip(first);
             own.for_each(|said| limit_to(said, ways));
         }
         let work = &mut self.scratch;

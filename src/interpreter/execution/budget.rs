@@ -16,7 +16,7 @@ impl Interpreter {
         if self.state.blocks >= limits.blocks {
             return Some(too_many_blocks(limits.blocks, at));
         }
-        let is_over = self.state.effort.repeated() > limits.repeats;
+        let is_over = self.state.work.repeated() > limits.repeats;
         is_over.then(|| too_many_repeats(self.state.blocks, at))
     }
 
@@ -28,7 +28,7 @@ impl Interpreter {
             self.havoc_all(&Unknown::Work);
             return Some(too_many_regions(at));
         }
-        if self.state.effort.level() > self.options.limits.work && self.is_exhausted() {
+        if self.state.work.level() > self.options.limits.work && self.is_exhausted() {
             self.havoc_all(&Unknown::Work);
             return Some(self.too_much_work(at));
         }

@@ -23,7 +23,7 @@ impl Interpreter {
         let pairs = PAIR.saturating_mul(control.pairs(reach));
         let axes = 20 * self.machine.axes.len() as u64;
         let units = COPY.saturating_add(levels).saturating_add(pairs);
-        self.state.effort.charge_ways(units.saturating_add(axes));
+        self.state.work.charge_ways(units.saturating_add(axes));
     }
 
     /// Counts the work of a block that is executed while other ways wait.
@@ -31,7 +31,7 @@ impl Interpreter {
         let waiting = self.state.pending.len() as u64;
         let compared = waiting.saturating_mul(20 * self.state.control.frames.depth() as u64);
         let units = BLOCK.saturating_add(weight).saturating_add(compared);
-        self.state.effort.charge_ways(units);
+        self.state.work.charge_ways(units);
     }
 }
 

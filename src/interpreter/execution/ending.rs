@@ -72,7 +72,7 @@ impl Interpreter {
         if !beside.is_empty() {
             notes.to_mut().append(&beside);
         }
-        let met = if self.state.ended.is_empty() {
+        let ended = if self.state.ended.is_empty() {
             if by == EndedBy::Error {
                 self.reset_friction();
             }
@@ -86,16 +86,16 @@ impl Interpreter {
         } else {
             self.meet_ended(by)
         };
-        let by = met.by;
+        let by = ended.by;
         self.let_plc_act();
-        notes.to_mut().extend(self.met.drain(..));
+        notes.to_mut().extend(self.joined.drain(..));
         notes.to_mut().extend(self.scratch.of_some_ways.drain(..));
         notes.to_mut().extend(self.take_held());
         notes.to_mut().extend(self.missed_search());
         let at = self.scratch.end.take();
         let mut ends = self.all_ends(by, at.as_ref());
-        if !met.ends.is_empty() {
-            ends.splice(..1.min(ends.len()), met.ends);
+        if !ended.ends.is_empty() {
+            ends.splice(..1.min(ends.len()), ended.ends);
         }
         // R2.84: only a reset ends a loop without an end.
         if self.scratch.endless {
@@ -125,7 +125,7 @@ impl Interpreter {
             at: at.as_ref().map(|end| &end.place),
             ends: &ends,
             last_commands: &self.state.control.last_commands,
-            stopped: met.stopped.as_ref(),
+            stopped: ended.stopped.as_ref(),
             failed: self.state.track.failed.as_deref(),
             changes: &changes,
             diagnostics: &notes.said,

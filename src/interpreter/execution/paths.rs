@@ -99,7 +99,7 @@ impl Interpreter {
         }
         let both_count = mine.track.failed.is_some() == other.track.failed.is_some();
         let differing = mine.join(other, &cause);
-        self.state.effort.charge_region(ITEM * differing);
+        self.state.work.charge_region(ITEM * differing);
         self.enter_path(mine);
         self.scratch.havoc_last_motion();
         if both_count {
@@ -127,7 +127,7 @@ impl Interpreter {
     /// Reports, once for each condition, what differs where two ways join (FC901).
     pub(in crate::interpreter) fn tell_join(
         &mut self,
-        met: &[ControlState; 2],
+        sides: &[ControlState; 2],
         parted: Option<u32>,
     ) {
         let Some(condition) = parted.and_then(|number| {
@@ -137,7 +137,7 @@ impl Interpreter {
             return;
         };
         let place = condition.place.clone();
-        let mut kinds = self.state.control.differing_kinds(met);
+        let mut kinds = self.state.control.differing_kinds(sides);
         for (kind, axes) in &mut kinds {
             axes.retain(|axis| {
                 let key = (&place.file, place.first_line, kind, axis.get());
@@ -155,7 +155,7 @@ impl Interpreter {
             keys.extend(names.iter().map(|axis| format!("{kind} {axis}")));
             shown.push(of_axes(*kind, &names));
         }
-        let [mine, theirs] = met;
+        let [mine, theirs] = sides;
         let variables = mine.memory.differing_variables(&theirs.memory);
         let others = [
             (mine.couplings != theirs.couplings, "axis couplings"),
@@ -174,15 +174,15 @@ impl Interpreter {
         keys.extend(named.iter().cloned());
         shown.extend(named);
         let cause = &condition.cause;
-        self.state.told.enter(cause, || place.clone());
-        let is_new = !shown.is_empty() && self.state.told.is_new(cause, keys, &place);
+        self.state.mentioned.enter(cause, || place.clone());
+        let is_new = !shown.is_empty() && self.state.mentioned.is_new(cause, keys, &place);
         let mut said = about(&condition, &shown);
         self.state.limit_to_reach(&mut said, parted);
         // Whether an error ends the program is said at its block.
         if is_new && condition.kind != ConditionKind::Stop {
-            self.met.push(said);
+            self.joined.push(said);
         } else {
-            self.met_withheld.push(said);
+            self.joined_withheld.push(said);
         }
     }
 }
@@ -214,9 +214,9 @@ impl BlockScratch {
 
 impl ControlState {
     /// The kinds in which two ways differ, with their axes.
-    fn differing_kinds(&self, met: &[ControlState; 2]) -> BTreeMap<Kind, Vec<AxisIndex>> {
+    fn differing_kinds(&self, sides: &[ControlState; 2]) -> BTreeMap<Kind, Vec<AxisIndex>> {
         let mut kinds: BTreeMap<Kind, Vec<AxisIndex>> = BTreeMap::new();
-        let [mine, theirs] = met.each_ref().map(|control| &control.compensation);
+        let [mine, theirs] = sides.each_ref().map(|control| &control.compensation);
         for axis in (0..mine.len()).map(AxisIndex::new) {
             for kind in self.compensation.unknown(axis).iter() {
                 if mine.state(axis, kind) != theirs.state(axis, kind) {

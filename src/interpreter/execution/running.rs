@@ -81,15 +81,15 @@ impl Interpreter {
                 }
             }
             let depth = self.state.control.frames.depth();
-            let spent = self.state.effort.spent();
+            let spent = self.state.work.spent();
             let is_on_ways = !self.state.pending.is_empty();
             let flow = self.execute(&at, finder, observer);
             if is_repeated {
                 self.state
-                    .effort
+                    .work
                     .repeat(parsed.weight, self.scratch.said, spent);
             } else {
-                self.state.effort.grant_ways();
+                self.state.work.grant_ways();
             }
             if is_on_ways {
                 self.charge_block(parsed.weight);

@@ -108,7 +108,7 @@ impl Interpreter {
     /// The state of the run between two blocks. `None` where the program is read line by line: its
     /// lines are gone, so nothing could be resumed.
     pub fn snapshot(&self) -> Option<Snapshot> {
-        if self.handed == SourceMode::LineByLine {
+        if self.source_mode == SourceMode::LineByLine {
             return None;
         }
         let file = |unit: &SourceUnit| RunFile {

@@ -31,7 +31,7 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         self.start();
-        self.handed = SourceMode::Whole;
+        self.source_mode = SourceMode::Whole;
         self.whole(source, finder, observer)
     }
 
@@ -47,7 +47,7 @@ impl Interpreter {
             .main
             .and_then(|main| index.sections[main].name.clone());
         self.programs.clear();
-        self.sought = None;
+        self.awaited = None;
         self.programs.hold(index);
         if self.announce(name.as_deref(), observer).is_break() {
             self.state.parked = Some(ControlStep::Begin);
@@ -81,7 +81,7 @@ impl Interpreter {
     /// Continues a run that an observer stopped. One whose program is read line by line stays
     /// [`RunOutcome::Stopped`].
     pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> RunOutcome {
-        if self.handed == SourceMode::LineByLine {
+        if self.source_mode == SourceMode::LineByLine {
             return RunOutcome::Stopped;
         }
         self.offered.clear();
@@ -121,14 +121,14 @@ impl Interpreter {
         self.state.control.described = None;
         self.state.track = RunTrack::default();
         self.begin_search();
-        self.state.effort.begin_ways();
+        self.state.work.begin_ways();
         self.state.is_widened = false;
         self.state.pending.clear();
         self.state.ended.clear();
         self.sides.clear();
-        self.met.clear();
-        self.met_withheld.clear();
-        self.state.told = MentionedUnknowns::default();
+        self.joined.clear();
+        self.joined_withheld.clear();
+        self.state.mentioned = MentionedUnknowns::default();
         self.programs.clear();
         self.pending.clear();
         self.departing.clear();
@@ -179,7 +179,7 @@ impl Interpreter {
         };
         match self
             .programs
-            .find(&wanted, caller, finder, &self.state.effort)
+            .find(&wanted, caller, finder, &self.state.work)
         {
             Ok(Some(found)) => {
                 let refused = &self.programs.index(found.unit).refused;

@@ -70,7 +70,7 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         self.start();
-        self.handed = SourceMode::LineByLine;
+        self.source_mode = SourceMode::LineByLine;
         let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
         self.programs.hold(none);
         match self.run_lines(file, lines, finder, observer) {
@@ -248,18 +248,18 @@ impl Interpreter {
 
     /// Whether a block is passed over on the way to the one that M17 returned to.
     fn is_on_the_way(&mut self, block: &Block) -> bool {
-        let Some(sought) = &self.sought else {
+        let Some(awaited) = &self.awaited else {
             return false;
         };
         let number = block.number.map(|number| number.value);
-        let is_it = match (&sought.label, number) {
+        let is_it = match (&awaited.label, number) {
             (LabelName::Number(wanted), Some(Operand::Number(number))) => {
                 rounded(number) == Some(*wanted)
             }
             _ => false,
         };
         if is_it {
-            self.sought = None;
+            self.awaited = None;
         }
         !is_it
     }
@@ -320,13 +320,13 @@ impl Interpreter {
             ProgramStage::Before | ProgramStage::Announced => self.begin(finder, observer),
             ProgramStage::Running if self.is_refused() => self.refuse(observer),
             ProgramStage::Running => {
-                if let Some(sought) = self.sought.take() {
+                if let Some(awaited) = self.awaited.take() {
                     let found =
                         self.programs
-                            .block_of(ProgramId::FIRST, &sought.label, &self.state.effort);
+                            .block_of(ProgramId::FIRST, &awaited.label, &self.state.work);
                     match (found, self.state.control.frames.running_mut()) {
                         (Some(entry), Some(frame)) => frame.next = entry,
-                        _ => return self.ended(EndedBy::Error, &one(sought.missing), observer),
+                        _ => return self.ended(EndedBy::Error, &one(awaited.missing), observer),
                     }
                 }
                 let outcome = self.run(finder, observer);
@@ -378,8 +378,8 @@ impl Interpreter {
         notes: &Collected,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        if let Some(sought) = self.sought.take() {
-            return self.ended(EndedBy::Error, &one(sought.missing), observer);
+        if let Some(awaited) = self.awaited.take() {
+            return self.ended(EndedBy::Error, &one(awaited.missing), observer);
         }
         let mut said = self.programs.refused();
         let by = if let ProgramStage::Beyond(Some(by)) = stage {

@@ -134,10 +134,10 @@ impl<'a> Trust<'a> {
         let counted = [
             state.seq,
             state.blocks,
-            state.effort.spent(),
-            state.effort.level(),
-            state.effort.repeated(),
-            state.effort.ways(),
+            state.work.spent(),
+            state.work.level(),
+            state.work.repeated(),
+            state.work.ways(),
         ];
         let mut counted = counted.iter().chain(state.opaque.values());
         let counted = counted.all(|count| *count < MOST_COUNTED);

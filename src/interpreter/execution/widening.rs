@@ -24,10 +24,10 @@ impl Interpreter {
     /// Whether following the ways of the program takes more work than its budget, and they are still followed.
     #[inline]
     pub(in crate::interpreter) fn is_past_ways(&self) -> bool {
-        self.state.effort.ways() > self.options.limits.ways
+        self.state.work.ways() > self.options.limits.ways
             && !self.state.is_widened
             && self.options.follows_ways()
-            && self.state.effort.ways() > self.ways_bound()
+            && self.state.work.ways() > self.ways_bound()
     }
 
     /// Takes all ways to the end of the outermost control block that any of them is in, and reports what is unknown
@@ -77,7 +77,7 @@ impl Interpreter {
         }
         self.version += 1;
         let said = self.too_many_ways(&passed);
-        self.met.extend(said);
+        self.joined.extend(said);
     }
 
     /// The blocks of the main program that ways may execute up to the end of the control blocks that they are in.

@@ -166,7 +166,7 @@ impl ProgramStore {
         &mut self,
         program: ProgramId,
         name: &LabelName,
-        effort: &WorkBudget,
+        work: &WorkBudget,
     ) -> Option<EntryIndex> {
         let ProgramId { unit, section } = program;
         if let Some(entry) = self.units[unit].index.label(section, name.clone()) {
@@ -177,7 +177,7 @@ impl ProgramStore {
         };
         let index = &self.units[unit].index;
         let numbers = self.numbers.entry(program).or_insert_with(|| {
-            effort.charge(ITEM * index.entries.len());
+            work.charge(ITEM * index.entries.len());
             index.numbers(section)
         });
         numbers.get(number).copied()
@@ -189,7 +189,7 @@ impl ProgramStore {
         wanted: &WantedCall,
         caller: Caller<'_>,
         finder: &mut dyn Finder,
-        effort: &WorkBudget,
+        work: &WorkBudget,
     ) -> Result<Option<ProgramId>, Box<Fault>> {
         let name = wanted.name.as_str();
         let unit = caller.unit;
@@ -200,7 +200,7 @@ impl ProgramStore {
             }
             return match index.and_then(|index| index.local(name)) {
                 Some(section) => Ok(Some(ProgramId { unit, section })),
-                None => Err(self.no_local(wanted, unit, effort)),
+                None => Err(self.no_local(wanted, unit, work)),
             };
         }
         let key = (caller.file.to_owned(), name.to_owned());
@@ -247,7 +247,7 @@ impl ProgramStore {
 
     /// FC320 for a local subprogram. Names are compared for the first calls only: a file of calls
     /// that all fail has as many names as calls (R2.60).
-    fn no_local(&mut self, wanted: &WantedCall, unit: usize, effort: &WorkBudget) -> Box<Fault> {
+    fn no_local(&mut self, wanted: &WantedCall, unit: usize, work: &WorkBudget) -> Box<Fault> {
         let name = wanted.name.as_str();
         let fault = Fault::new(
             Code::Fc320,
@@ -269,7 +269,7 @@ impl ProgramStore {
             (near, None) => fault.with_help(Advice::did_you_mean(near)),
         };
         self.compared += compared;
-        effort.charge(compared);
+        work.charge(compared);
         Box::new(fault)
     }
 }

@@ -57,7 +57,7 @@ use crate::syntax::{SkipLevels, VariableFamily, VariableName};
 pub struct Interpreter {
     pub(in crate::interpreter) machine: Arc<Machine>,
     pub(in crate::interpreter) options: Options,
-    pub(in crate::interpreter) handed: SourceMode,
+    pub(in crate::interpreter) source_mode: SourceMode,
     /// The axes with one-letter names.
     pub(in crate::interpreter) letters: [Option<AxisIndex>; 26],
     /// The axes with longer names.
@@ -68,7 +68,7 @@ pub struct Interpreter {
     pub(in crate::interpreter) any_required: bool,
     pub(in crate::interpreter) programs: ProgramStore,
     /// Label at which a main program that is read line by line continues.
-    pub(in crate::interpreter) sought: Option<AwaitedBlock>,
+    pub(in crate::interpreter) awaited: Option<AwaitedBlock>,
     /// Calls in regions that may or may not be executed.
     pub(in crate::interpreter) pending: Vec<RegionCall>,
     /// Ways that leave at the block being executed.
@@ -78,9 +78,9 @@ pub struct Interpreter {
     /// The states that are possible, as users see them, and where they count.
     pub(in crate::interpreter) shown: ShownWays,
     /// Messages on ways that joined before the current block.
-    pub(in crate::interpreter) met: Vec<Diagnostic>,
+    pub(in crate::interpreter) joined: Vec<Diagnostic>,
     /// Such messages that are withheld, because they were reported before or nothing differs.
-    pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
+    pub(in crate::interpreter) joined_withheld: Vec<Diagnostic>,
     /// Refusals of the control in blocks of called programs, each with its file, until it is known whether
     /// the dry run executes them.
     pub(in crate::interpreter) held: Vec<((usize, EntryIndex), Diagnostic)>,
@@ -168,7 +168,7 @@ impl Interpreter {
             conditions: Vec::new(),
             seq: 0,
             blocks: 0,
-            effort: WorkBudget::default(),
+            work: WorkBudget::default(),
             is_widened: false,
             opaque: BTreeMap::new(),
             once: BTreeSet::new(),
@@ -177,7 +177,7 @@ impl Interpreter {
             reads: RefCell::default(),
             last: None,
             parked: None,
-            told: MentionedUnknowns::default(),
+            mentioned: MentionedUnknowns::default(),
             rests_on: QuestionSet::default(),
         };
         let mut interpreter = Self::with_state(machine, options, state);
@@ -213,15 +213,15 @@ impl Interpreter {
             machine,
             options,
             programs: ProgramStore::new(options.limits.nesting),
-            handed: SourceMode::Whole,
+            source_mode: SourceMode::Whole,
             letters,
             names,
-            sought: None,
+            awaited: None,
             pending: Vec::new(),
             departing: Vec::new(),
             sides: Vec::new(),
-            met: Vec::new(),
-            met_withheld: Vec::new(),
+            joined: Vec::new(),
+            joined_withheld: Vec::new(),
             held: Vec::new(),
             offered: Vec::new(),
             chosen: VecDeque::new(),
@@ -436,7 +436,7 @@ impl Interpreter {
     /// The work of the session so far, in units: characters of macros, texts and regions that were
     /// gone through, operands that were computed, names that were compared (R2.60).
     pub fn work(&self) -> u64 {
-        self.state.effort.spent()
+        self.state.work.spent()
     }
 
     /// Returns the limit of the level of work.
@@ -448,8 +448,8 @@ impl Interpreter {
     /// Whether even reading what the ways could change takes too much work.
     #[inline]
     pub(in crate::interpreter) fn is_past_regions(&self) -> bool {
-        self.state.effort.ways() > self.options.limits.ways
-            && self.state.effort.ways() > self.ways_bound().saturating_mul(2)
+        self.state.work.ways() > self.options.limits.ways
+            && self.state.work.ways() > self.ways_bound().saturating_mul(2)
     }
 
     #[cold]
@@ -461,7 +461,7 @@ impl Interpreter {
 
     /// Whether the budget of work is used up.
     pub(in crate::interpreter) fn is_exhausted(&self) -> bool {
-        self.state.effort.level() > self.work_bound() || self.is_past_regions()
+        self.state.work.level() > self.work_bound() || self.is_past_regions()
     }
 
     /// The macros of the channel list, which no program takes away (TF5200 Programming manual,

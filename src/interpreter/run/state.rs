@@ -35,7 +35,7 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) seq: u64,
     /// Executed blocks of the session.
     pub(in crate::interpreter) blocks: u64,
-    pub(in crate::interpreter) effort: WorkBudget,
+    pub(in crate::interpreter) work: WorkBudget,
     /// Whether the program has used up its budget of ways: no further way is followed.
     pub(in crate::interpreter) is_widened: bool,
     /// Words and commands that were passed over.
@@ -52,7 +52,7 @@ pub(in crate::interpreter) struct State {
     /// First step of a paused run when it continues.
     pub(in crate::interpreter) parked: Option<ControlStep>,
     /// The unknown values that messages were about.
-    pub(in crate::interpreter) told: MentionedUnknowns,
+    pub(in crate::interpreter) mentioned: MentionedUnknowns,
     /// The open questions whose readings results depend on (R15.3).
     pub(in crate::interpreter) rests_on: QuestionSet,
 }

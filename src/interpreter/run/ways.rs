@@ -79,7 +79,7 @@ pub(in crate::interpreter) struct OpenPath {
     /// The executed block at which it left last, where it left several times.
     pub(in crate::interpreter) latest: u64,
     pub(in crate::interpreter) cause: Unknown,
-    pub(in crate::interpreter) standing: PathState,
+    pub(in crate::interpreter) state: PathState,
     /// Blocks that it executes before it reaches the target.
     pub(in crate::interpreter) tails: Vec<Remainder>,
 }
@@ -304,10 +304,10 @@ impl Ways {
 
     /// Whether the state kept for each way describes a number of axes.
     pub(in crate::interpreter) fn fit(&self, axes: usize) -> bool {
-        let standings = self.all().map(|way| &way.standing);
-        standings
+        let states = self.all().map(|way| &way.state);
+        states
             .into_iter()
-            .all(|standing| standing.kinds.len() == axes && standing.modal.fits(axes))
+            .all(|state| state.kinds.len() == axes && state.modal.fits(axes))
     }
 
     /// The sections that ways execute, each from a block on.
@@ -324,7 +324,7 @@ impl Ways {
 
     /// The modal cycles of each way.
     pub(in crate::interpreter) fn cycles(&self) -> impl Iterator<Item = &ModalCycles> {
-        self.all().map(|way| &way.standing.cycles)
+        self.all().map(|way| &way.state.cycles)
     }
 
     /// Drops data that no way needs any more.
@@ -341,21 +341,15 @@ impl OpenPath {
     pub(in crate::interpreter) fn take_in(&mut self, other: Self) {
         self.since = self.since.min(other.since);
         self.latest = self.latest.max(other.latest);
-        self.standing.macros = self.standing.macros.min(other.standing.macros);
-        self.standing.couplings = self.standing.couplings.min(other.standing.couplings);
-        for (mine, theirs) in self.standing.kinds.iter_mut().zip(&other.standing.kinds) {
+        self.state.macros = self.state.macros.min(other.state.macros);
+        self.state.couplings = self.state.couplings.min(other.state.couplings);
+        for (mine, theirs) in self.state.kinds.iter_mut().zip(&other.state.kinds) {
             mine.unknown = mine.differing(*theirs);
         }
-        self.standing.modal.join(&other.standing.modal);
-        self.standing.cycles.join(&other.standing.cycles);
-        join_names(
-            &mut self.standing.named,
-            &other.standing.named,
-            &other.cause,
-        );
-        self.standing
-            .channel_axes
-            .join(&other.standing.channel_axes);
+        self.state.modal.join(&other.state.modal);
+        self.state.cycles.join(&other.state.cycles);
+        join_names(&mut self.state.named, &other.state.named, &other.cause);
+        self.state.channel_axes.join(&other.state.channel_axes);
         for tail in other.tails {
             if !self.tails.contains(&tail) {
                 self.tails.push(tail);

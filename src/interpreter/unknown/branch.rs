@@ -117,7 +117,7 @@ impl Interpreter {
             Exit::AnyLabel => {
                 let labels: Vec<JumpTarget> =
                     index.labels(section).map(JumpTarget::Block).collect();
-                self.state.effort.charge_region(ITEM * labels.len());
+                self.state.work.charge_region(ITEM * labels.len());
                 labels
             }
             Exit::Block(target) => vec![JumpTarget::Block(*target)],

@@ -186,7 +186,7 @@ impl Interpreter {
             return None;
         }
         self.state
-            .effort
+            .work
             .charge_ways(1_000 + 20 * self.machine.axes.len() as u64);
         let condition = self.ask(question, vec![ImpliedValues::default(); 2], at);
         let reach = &self.state.track.reach;

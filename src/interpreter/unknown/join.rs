@@ -161,7 +161,7 @@ impl Interpreter {
                 });
             }
             if let Some(saved) = &frame.restores {
-                way.standing.modal.restore(saved);
+                way.state.modal.restore(saved);
             }
             let Some((next, waiting)) = &caller else {
                 self.state.track.ways.add_end(way);
@@ -222,27 +222,27 @@ impl Interpreter {
         let OpenPath {
             since,
             cause,
-            standing,
+            state,
             ..
         } = way;
-        for (position, kinds) in standing.kinds.iter().enumerate() {
+        for (position, kinds) in state.kinds.iter().enumerate() {
             let axis = AxisIndex::new(position);
             let known = self.state.control.kinds(axis);
             let differing = known.differing(*kinds);
             self.havoc(axis, differing.without(known.unknown));
         }
-        self.state.control.modal.join(&standing.modal);
-        if standing.macros != self.state.control.memory.macro_version() {
+        self.state.control.modal.join(&state.modal);
+        if state.macros != self.state.control.memory.macro_version() {
             self.havoc_macros(&cause);
         }
-        self.state.control.cycles.join(&standing.cycles);
-        if standing.couplings != self.state.control.couplings.version() {
+        self.state.control.cycles.join(&state.cycles);
+        if state.couplings != self.state.control.couplings.version() {
             self.havoc_couplings();
         }
-        join_names(&mut self.state.control.named, &standing.named, &cause);
-        self.state.control.channel_axes.join(&standing.channel_axes);
+        join_names(&mut self.state.control.named, &state.named, &cause);
+        self.state.control.channel_axes.join(&state.channel_axes);
         let written = &self.state.track.ways.written.0;
-        self.state.effort.charge_region(ITEM + written.len());
+        self.state.work.charge_region(ITEM + written.len());
         let later = written.iter().filter(|(_, seq)| **seq > since);
         let later: Vec<Location> = later.map(|(target, _)| target.clone()).collect();
         if self.state.track.ways.everything > since {
@@ -300,14 +300,14 @@ impl State {
     /// A way that leaves now.
     fn way(&self, depth: usize, target: EntryIndex, cause: Unknown) -> OpenPath {
         let count = self.control.compensation.len();
-        self.effort.charge_region(ITEM + count);
+        self.work.charge_region(ITEM + count);
         OpenPath {
             depth,
             target,
             since: self.seq,
             latest: self.seq,
             cause,
-            standing: PathState {
+            state: PathState {
                 kinds: self.control.all_kinds(),
                 modal: self.control.modal.clone(),
                 cycles: self.control.cycles.clone(),

@@ -34,7 +34,7 @@ impl Interpreter {
         if self.state.conditions.len() + 1 >= MAX_CONDITIONS {
             return;
         }
-        self.state.effort.charge(ITEM * 8);
+        self.state.work.charge(ITEM * 8);
         let name: Arc<str> = self.machine.axis(axis).name.as_str().into();
         let condition = self.state.ask_anew(Condition::new(
             ConditionKind::Call(kind),

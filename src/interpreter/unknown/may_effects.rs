@@ -69,7 +69,7 @@ impl MayEffects<'_> {
                 continue;
             }
             left -= 1;
-            self.run.state.effort.charge_region(ITEM + raw.text.len());
+            self.run.state.work.charge_region(ITEM + raw.text.len());
             let shown = ShownBlockLines::default();
             let at = BlockContext::of_raw(file, &raw, &block, &shown);
             // Blocks that are skipped change nothing (R2.3).
@@ -115,7 +115,7 @@ impl MayEffects<'_> {
                 }
                 Some(Value::Number(_)) | None => continue,
             };
-            self.run.state.effort.charge_region(ITEM + code.len());
+            self.run.state.work.charge_region(ITEM + code.len());
             let block = crate::syntax::parse_block(code);
             let shown = ShownBlockLines::default();
             let code = MacroCode {

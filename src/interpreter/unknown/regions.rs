@@ -91,7 +91,7 @@ impl Interpreter {
         let is_new = known.is_none_or(|known| known.macro_version != version);
         let region = self.region(unit, range);
         self.state
-            .effort
+            .work
             .charge_region(ITEM * (region.effects.len() + region.calls.len()));
         self.note_differing(&region);
         for effect in &region.effects {
@@ -104,12 +104,12 @@ impl Interpreter {
                 .filter(|written| region.writes(written))
                 .cloned()
                 .collect();
-            self.state.effort.charge_region(written.len());
+            self.state.work.charge_region(written.len());
             for target in &known {
                 self.write(target, Value::Unknown(cause.clone()));
             }
         } else {
-            self.state.effort.charge_region(region.targets.len());
+            self.state.work.charge_region(region.targets.len());
             for target in &region.targets {
                 self.write(target, Value::Unknown(cause.clone()));
             }
@@ -165,7 +165,7 @@ impl Interpreter {
     }
 
     fn suffer_region(&mut self, region: &Region, unit: usize, cause: &Unknown) {
-        self.state.effort.charge_region(
+        self.state.work.charge_region(
             ITEM * (region.effects.len() + region.calls.len() + region.targets.len()),
         );
         self.note_differing(region);
@@ -286,7 +286,7 @@ impl Interpreter {
                     file: &caller,
                 },
                 finder,
-                &self.state.effort,
+                &self.state.work,
             ) {
                 Ok(Some(found)) => found,
                 Ok(None) => continue,

@@ -48,7 +48,7 @@ impl Interpreter {
         };
         let fault = Fault::new(Code::Fc901, span, message).with_help(cause.advice());
         let said = at.diagnostic(fault);
-        let said = self.state.told.with_origin(said, cause, at);
+        let said = self.state.mentioned.with_origin(said, cause, at);
         self.scratch.undecided = Some(Box::new(Undecided {
             cause: cause.clone(),
             said: self.scratch.diagnostics.len(),
@@ -56,7 +56,7 @@ impl Interpreter {
             differing: Differing::default(),
         }));
         self.scratch.diagnostics.push(said);
-        self.state.told.enter_root(cause, span, at);
+        self.state.mentioned.enter_root(cause, span, at);
     }
 
     /// Completes the message about a part of the program, or withholds it where nothing differs or
@@ -105,7 +105,7 @@ impl Interpreter {
             .collect();
         differing.decides |= !shown.is_empty();
         let place = &self.scratch.diagnostics[said].place;
-        let is_new = self.state.told.is_new(&cause, keys, place);
+        let is_new = self.state.mentioned.is_new(&cause, keys, place);
         if !(differing.decides && is_new) {
             let said = self.scratch.diagnostics.remove(said);
             self.scratch.aside.withheld.push(said);
@@ -256,7 +256,7 @@ impl Interpreter {
     /// blocks and meet after them: a way into a loop or out of it is one past all its passes.
     fn passed_by(&self, unit: usize, blocks: Range<EntryIndex>) -> Range<EntryIndex> {
         let index = self.programs.index(unit);
-        self.state.effort.charge_region(index.loops.len());
+        self.state.work.charge_region(index.loops.len());
         let mut around = blocks;
         for &opener in &index.loops {
             let end = index.links(opener).end;

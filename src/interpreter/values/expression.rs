@@ -75,11 +75,11 @@ impl Macros<'_> {
     pub(in crate::interpreter) fn expand(
         self,
         code: &str,
-        effort: &WorkBudget,
+        work: &WorkBudget,
         span: Span,
     ) -> Result<Self, Box<Fault>> {
-        effort.charge(ITEM + code.len());
-        if effort.level() > self.until {
+        work.charge(ITEM + code.len());
+        if work.level() > self.until {
             // The block ends with FC919, which says it all.
             return Err(fault(Code::Fc919, span, "the budget of work is used up"));
         }
@@ -112,7 +112,7 @@ pub(in crate::interpreter) struct Evaluator<'a> {
     pub(in crate::interpreter) macros: Macros<'a>,
     pub(in crate::interpreter) scope: ExpressionScope<'a>,
     /// Meter of the work.
-    pub(in crate::interpreter) effort: &'a WorkBudget,
+    pub(in crate::interpreter) work: &'a WorkBudget,
 }
 
 impl Evaluator<'_> {
@@ -132,7 +132,7 @@ impl Evaluator<'_> {
 
     fn run(&self, expression: Expression, stack: &mut Vec<Slot>) {
         let nodes = expression.end.saturating_sub(expression.start);
-        self.effort
+        self.work
             .charge(usize::try_from(nodes).unwrap_or(usize::MAX));
         for at in expression.start..expression.end {
             let at = at as usize;
@@ -194,7 +194,7 @@ impl Evaluator<'_> {
                         Ok(Value::Text(text)) => text.len(),
                         _ => 0,
                     });
-                    self.effort.charge(read.sum());
+                    self.work.charge(read.sum());
                     match self.perhaps_there(function, at) {
                         Some(unknown) => Ok(unknown),
                         None => self.bounded(call(function, slots, span), span),
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
     /// A text that an operation made; FC312 where it is longer than any text of a program.
     fn bounded(&self, slot: Slot, span: Span) -> Slot {
         if let Ok(Value::Text(text)) = &slot {
-            self.effort.charge(text.len());
+            self.work.charge(text.len());
             if text.len() > MAX_LINE && text.chars().count() > MAX_LINE {
                 let message = format!("the string has more than {MAX_LINE} characters");
                 return Err(fault(Code::Fc312, span, message));
@@ -302,7 +302,7 @@ impl Evaluator<'_> {
             Some(unknown @ Value::Unknown(_)) => return Ok(unknown.clone()),
             Some(Value::Number(_)) | None => return plain(),
         };
-        let macros = self.macros.expand(code, self.effort, span)?;
+        let macros = self.macros.expand(code, self.work, span)?;
         let mut block = Block::default();
         let Some(operand) = crate::syntax::parse_expression(code, &mut block) else {
             return plain();
@@ -314,7 +314,7 @@ impl Evaluator<'_> {
             shown: Some(shown),
             macros,
             scope: self.scope,
-            effort: self.effort,
+            work: self.work,
         };
         inner.value(operand, &mut Vec::new()).map_err(|mut fault| {
             fault.span = span;

@@ -19,13 +19,13 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
                 continue;
             }
             let did = linter.memory.axis(axis).kind(kind);
-            let is_told = |deed: KindEffect| match deed {
+            let is_told = |effect: KindEffect| match effect {
                 KindEffect::On | KindEffect::Off => end != State::Unknown,
                 KindEffect::Unknown => end == State::Unknown,
                 // FC902 already reported this for every axis.
                 KindEffect::Lost => false,
             };
-            let last = did.last.as_ref().filter(|(deed, _)| is_told(*deed));
+            let last = did.last.as_ref().filter(|(effect, _)| is_told(*effect));
             let possible = ended.possible.iter();
             let mut possible = possible.filter(|it| (it.axis, it.kind) == (axis, kind));
             let possible = possible.next();

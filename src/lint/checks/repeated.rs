@@ -11,12 +11,12 @@ use crate::lint::memory::{BlockSite, KindEffect, place};
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
     let command = &taken.outcome.command;
-    let deed = KindEffect::from(command.selection);
+    let effect = KindEffect::from(command.selection);
     let kinds = command.selection.kinds();
     let place = place(taken.executed, command.span);
     let (what, name) = (what(command.selection), &command.axis);
     let say = |message| Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone());
-    let useless = |kind| deed == KindEffect::Off && is_unconfigured(linter, taken, kind);
+    let useless = |kind| effect == KindEffect::Off && is_unconfigured(linter, taken, kind);
     let of_axis = &linter.machine.axis(taken.axis).frict_comp_origin;
     // The program counts on an axis that is not compensated (R18.3).
     let is_mistaken = kinds.contains(Kind::Frict) && useless(Kind::Frict);
@@ -49,7 +49,7 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     let mut repeated: Option<&Arc<BlockSite>> = None;
     for kind in kinds.iter() {
         match &memory.kind(kind).last {
-            Some((earlier, site)) if *earlier == deed && site.leads_to(taken.executed) => {
+            Some((earlier, site)) if *earlier == effect && site.leads_to(taken.executed) => {
                 if repeated.is_none_or(|other| other.seq < site.seq) {
                     repeated = Some(site);
                 }
@@ -58,7 +58,11 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
             _ => return None,
         }
     }
-    let state = if deed == KindEffect::On { "on" } else { "off" };
+    let state = if effect == KindEffect::On {
+        "on"
+    } else {
+        "off"
+    };
     let said = say(format!(
         "this command repeats an earlier one: {what} of axis `{name}` is already {state}"
     ));

@@ -106,14 +106,14 @@ impl AxisBars<'_> {
             Some(last) if last.state == BandState::One(state) => last.to = to,
             Some(last) if is_full => {
                 last.state = BandState::Changing;
-                last.standing = StartUpRelation::StartUp;
+                last.relation = StartUpRelation::StartUp;
                 last.to = to;
             }
             _ => self.bands.push(Band {
                 from,
                 to,
                 state: BandState::One(state),
-                standing: StartUpRelation::of(state, self.start_up),
+                relation: StartUpRelation::of(state, self.start_up),
                 title: format!("{} {} {}", self.axis, state.as_str(), place_in_words()),
                 href: None,
             }),

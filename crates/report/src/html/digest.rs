@@ -193,7 +193,7 @@ impl RunDigest {
     }
 
     /// Compares a state of a kind on an axis with the start-up state.
-    pub(super) fn standing(&self, axis: AxisIndex, kind: Kind, state: State) -> StartUpRelation {
+    pub(super) fn relation(&self, axis: AxisIndex, kind: Kind, state: State) -> StartUpRelation {
         let mut tracks = self.programs.iter().flat_map(|program| &program.tracks);
         let track = tracks.find(|track| (track.axis, track.kind) == (axis, kind));
         track.map_or(StartUpRelation::StartUp, |track| {

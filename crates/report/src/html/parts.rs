@@ -108,9 +108,9 @@ pub(super) fn figure(svg: String) -> Markup {
 }
 
 /// A state, distinguished by more than colour, especially if it is away from its start-up state.
-pub(super) fn state_word(state: State, standing: StartUpRelation) -> Markup {
+pub(super) fn state_word(state: State, relation: StartUpRelation) -> Markup {
     let word = state.as_str();
-    html! { span.state.(word).away[standing == StartUpRelation::Away] { (word) } }
+    html! { span.state.(word).away[relation == StartUpRelation::Away] { (word) } }
 }
 
 /// A sentence whose words in backquotes become code.

@@ -97,7 +97,7 @@ fn row(axis: &ReplayReportAxis) -> BandRow {
             from,
             to,
             state: BandState::One(state),
-            standing: StartUpRelation::default(),
+            relation: StartUpRelation::default(),
             title: format!(
                 "{} from {} s to {} s",
                 state.as_str(),

@@ -125,8 +125,8 @@ fn left(digest: &RunDigest) -> Markup {
         ],
     };
     let rows = summary.axes.iter().map(|axis| {
-        let standing = |state| digest.standing(axis.axis, Kind::Frict, state);
-        let state = |state| state_word(state, standing(state));
+        let relation = |state| digest.relation(axis.axis, Kind::Frict, state);
+        let state = |state| state_word(state, relation(state));
         let changed = changed_by(digest, &axis.changed_by, axis.changes);
         let ways = summary.ways.iter().find(|(at, _)| *at == axis.axis);
         let end = html! {

@@ -250,8 +250,8 @@ impl SourceLines<'_, '_> {
     }
 
     fn change(&self, change: Change) -> Markup {
-        let standing = |state| self.digest.standing(change.axis, change.kind, state);
-        let word = |state| state_word(state, standing(state));
+        let relation = |state| self.digest.relation(change.axis, change.kind, state);
+        let word = |state| state_word(state, relation(state));
         html! {
             (self.named(change.axis, change.kind)) " " (word(change.from)) " \u{2192} " (word(change.to))
         }

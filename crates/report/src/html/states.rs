@@ -97,7 +97,7 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &StateTrack) -> BandR
             from: block(stretch.from) - 0.5,
             to: block(end) - 0.5,
             state: stretch.state,
-            standing: track.standing(stretch.state),
+            relation: track.relation(stretch.state),
             title: told(digest, &label, stretch),
             href: Some(target(digest, program, stretch)),
         })

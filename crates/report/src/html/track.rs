@@ -90,7 +90,7 @@ impl StateTrack {
     }
 
     /// Compares a state of this kind on this axis with the start-up state.
-    pub(super) fn standing(&self, state: BandState) -> StartUpRelation {
+    pub(super) fn relation(&self, state: BandState) -> StartUpRelation {
         match state {
             BandState::One(state) => StartUpRelation::of(state, self.start_up),
             BandState::Changing => StartUpRelation::StartUp,

@@ -334,7 +334,7 @@ fn extend(bands: &mut Vec<Band>, name: &str, (time_s, state): (f64, State)) {
         Some(last) if last.state == BandState::One(state) => last.to = time_s,
         Some(last) if is_full => {
             last.state = BandState::Changing;
-            last.standing = StartUpRelation::StartUp;
+            last.relation = StartUpRelation::StartUp;
             last.to = time_s;
         }
         last => {
@@ -345,7 +345,7 @@ fn extend(bands: &mut Vec<Band>, name: &str, (time_s, state): (f64, State)) {
                 from: time_s,
                 to: time_s,
                 state: BandState::One(state),
-                standing: StartUpRelation::of(state, State::Active),
+                relation: StartUpRelation::of(state, State::Active),
                 title: format!("{name} {} from {time_s} s", state.as_str()),
                 href: None,
             });

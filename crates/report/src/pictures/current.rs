@@ -95,7 +95,7 @@ impl AxisPlot {
             Some(last) if last.state == BandState::One(state) || full => {
                 if last.state != BandState::One(state) {
                     last.state = BandState::Changing;
-                    last.standing = StartUpRelation::StartUp;
+                    last.relation = StartUpRelation::StartUp;
                 }
                 last.to = time;
             }
@@ -109,7 +109,7 @@ impl AxisPlot {
                     to: time,
                     state: BandState::One(state),
                     // Friction compensation that can be switched is on after a start.
-                    standing: StartUpRelation::of(state, State::Active),
+                    relation: StartUpRelation::of(state, State::Active),
                     title: format!("{name} {} from {time} s", state.as_str()),
                     href: None,
                 });

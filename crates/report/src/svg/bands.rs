@@ -18,7 +18,7 @@ pub struct Band {
     /// Its content.
     pub state: BandState,
     /// Relation of the state to the start-up state.
-    pub standing: StartUpRelation,
+    pub relation: StartUpRelation,
     /// Text for a pointer and a screen reader.
     pub title: String,
     /// Target of its link, `#id` of the page.
@@ -29,7 +29,7 @@ impl Band {
     fn shape(&self) -> BarShape {
         BarShape {
             state: self.state,
-            standing: self.standing,
+            relation: self.relation,
         }
     }
 }
@@ -152,7 +152,7 @@ impl BandRows<'_> {
                     && let Some(next) = bands.next_if(|next| narrow(next))
                 {
                     shown.state = BandState::Changing;
-                    shown.standing = StartUpRelation::StartUp;
+                    shown.relation = StartUpRelation::StartUp;
                     shown.to = next.to;
                 }
                 if shown.state != first.state {
@@ -184,7 +184,7 @@ fn draw_band(canvas: &mut Canvas<'_>, band: &Band, area: Area) {
     band.shape().draw(canvas, area);
     let word = band.state.as_str();
     if band.state != BandState::One(State::Unconfigured) && text_width(word) + 10.0 < area.width {
-        let class = match band.standing {
+        let class = match band.relation {
             StartUpRelation::Away => "fc-on-away",
             StartUpRelation::StartUp => "",
         };

@@ -64,22 +64,22 @@ pub(super) const BAR: f64 = 18.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct BarShape {
     pub(super) state: BandState,
-    pub(super) standing: StartUpRelation,
+    pub(super) relation: StartUpRelation,
 }
 
 impl BarShape {
     /// Every shape, in the order of the legend.
     pub(super) fn all() -> impl Iterator<Item = Self> {
-        let standings = [StartUpRelation::StartUp, StartUpRelation::Away];
+        let relations = [StartUpRelation::StartUp, StartUpRelation::Away];
         BandState::ALL
             .into_iter()
-            .flat_map(move |state| standings.map(|standing| Self { state, standing }))
+            .flat_map(move |state| relations.map(|relation| Self { state, relation }))
     }
 
     /// Its meaning, for the legend.
     pub(super) fn name(self) -> String {
         let word = self.state.as_str();
-        match self.standing {
+        match self.relation {
             StartUpRelation::Away => format!("{word}, not start-up"),
             StartUpRelation::StartUp => word.to_owned(),
         }
@@ -88,7 +88,7 @@ impl BarShape {
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Area) {
         let middle = area.y + area.height / 2.0;
         let along = [(area.x, middle), (area.right(), middle)];
-        if self.standing == StartUpRelation::Away {
+        if self.relation == StartUpRelation::Away {
             canvas.rect("fc-away", area);
             let class = if area.height < BAR {
                 "fc-stripes fc-low"

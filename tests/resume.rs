@@ -293,7 +293,7 @@ fn stopped_on_sides() -> Snapshot {
         track["searching"].is_object()
             && track["readings"][0].is_object()
             && track["loops"][0]["covered"].is_object()
-            && state["pending"][0].is_object()
+            && state["waiting"][0].is_object()
             && state["conditions"][3].is_object()
     };
     let mut stops = (10..40).map(|events| stopped_after(events, "sides.nc", options));
@@ -326,7 +326,7 @@ fn a_snapshot_that_names_what_is_not_there_is_refused() {
         ("/state/control/frames/0/level", json!(4_000_000_000_u32)),
         ("/state/seq", json!(u64::MAX)),
         ("/state/blocks", json!(u64::MAX)),
-        ("/state/effort/level", json!(u64::MAX)),
+        ("/state/work/level", json!(u64::MAX)),
         ("/state/opaque", json!({"G99": u64::MAX})),
         ("/state/occurred", json!([true])),
         ("/state/control/modal/positions", json!([])),
@@ -367,7 +367,7 @@ fn sides_of_conditions_that_are_not_there_are_refused() {
             json!([]),
         ),
         ("/track/searching/compensation/axes", json!([])),
-        ("/pending/0/track/reach", reached),
+        ("/waiting/0/track/reach", reached),
     ] {
         assert_ne!(state.pointer(place), Some(&value), "{place}");
         let refused = forged(&saved, &format!("/state{place}"), value);

@@ -28,8 +28,7 @@ impl Interpreter {
 
     /// Counts the work of a block that is executed while other ways wait.
     pub(in crate::interpreter) fn charge_block(&self, weight: u64) {
-        let waiting = self.state.pending.len() as u64;
-        let compared = waiting.saturating_mul(20 * self.state.control.frames.depth() as u64);
+        let compared = 20 * self.state.control.frames.depth() as u64;
         let units = BLOCK.saturating_add(weight).saturating_add(compared);
         self.state.work.charge_ways(units);
     }

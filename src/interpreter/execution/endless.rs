@@ -315,7 +315,7 @@ impl State {
     /// Makes counters unknown where other ways have left a loop that is not run to its end.
     fn lose_counters(&mut self, counters: &[Location], since: u64) {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
-        for path in self.pending.iter_mut().chain(ended) {
+        for path in self.waiting.iter_mut().chain(ended) {
             if path.parted >= since {
                 for counter in counters {
                     let unknown = Value::Unknown(Unknown::Passes);
@@ -338,7 +338,7 @@ impl State {
             .last()
             .map_or(u64::MAX, |known| known.since);
         let ended = self.ended.iter().map(|ended| &ended.path);
-        let others = self.pending.iter().chain(ended);
+        let others = self.waiting.iter().chain(ended);
         others.filter(move |path| path.parted >= since)
     }
 

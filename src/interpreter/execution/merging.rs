@@ -16,7 +16,7 @@ impl Interpreter {
     #[cold]
     pub(in crate::interpreter) fn end_path(&mut self, by: EndedBy) -> Option<EndedBy> {
         let is_covered = std::mem::take(&mut self.scratch.covered);
-        let is_alone = self.state.pending.is_empty() && self.state.ended.is_empty();
+        let is_alone = self.state.waiting.is_empty() && self.state.ended.is_empty();
         let waits_for_lines = by == EndedBy::EndOfFile
             && self.state.control.frames.depth() == 1
             && self.programs.index(0).entries.is_empty();
@@ -25,7 +25,7 @@ impl Interpreter {
         }
         if by == EndedBy::Budget && !self.scratch.endless && !is_covered {
             // The effects of the other ways are not known.
-            self.state.pending.clear();
+            self.state.waiting.clear();
             self.state.ended.clear();
             self.havoc_all(&Unknown::Ways);
             return Some(by);

@@ -48,8 +48,10 @@ impl Interpreter {
             }
         }
         self.version += 1;
-        self.state.pending.append(&mut open);
-        if self.state.pending.is_empty() {
+        for path in open {
+            self.state.waiting.push(path);
+        }
+        if self.state.waiting.is_empty() {
             // No answer is possible: the ways were merged too far to tell. The run can only continue.
             self.enter_path(base);
         } else {

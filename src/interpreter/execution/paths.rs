@@ -17,6 +17,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Path;
 use crate::interpreter::run::possible_state::{change_since, ways_of};
 use crate::interpreter::run::state::State;
+use crate::interpreter::run::waiting_paths::FirstWaiting;
 use crate::interpreter::run::way_condition::limit_to;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
@@ -43,19 +44,8 @@ impl Interpreter {
 
     /// Continues with the way that is first in the text. Returns whether there is one.
     pub(in crate::interpreter) fn enter_first(&mut self) -> bool {
-        let mut first = 0;
-        for place in 1..self.state.pending.len() {
-            let (one, other) = (&self.state.pending[place], &self.state.pending[first]);
-            if one.control.frames.comes_before(&other.control.frames) == Some(true) {
-                first = place;
-            }
-        }
-        if first >= self.state.pending.len() {
-            return false;
-        }
-        let path = self.state.pending.swap_remove(first);
-        self.enter_path(path);
-        true
+        let first = self.state.waiting.take_first();
+        first.map(|path| self.enter_path(path)).is_some()
     }
 
     /// Continues with the way that is first in the text, joined with those at the same block. Returns
@@ -63,27 +53,24 @@ impl Interpreter {
     #[cold]
     pub(in crate::interpreter) fn choose_path(&mut self) -> bool {
         let mut joined = false;
-        let mut place = 0;
-        while let Some(other) = self.state.pending.get(place) {
-            let here = &self.state.control.frames;
-            match other.control.frames.comes_before(here) {
-                Some(true) => {
-                    let other = self.state.pending.swap_remove(place);
-                    let mine = self.state.leave_path();
-                    self.enter_path(other);
-                    self.scratch.havoc_last_motion();
-                    self.state.pending.push(mine);
-                    place = 0;
-                }
-                Some(false) => place += 1,
-                None => {
-                    let other = self.state.pending.swap_remove(place);
-                    self.join_path(other);
-                    joined = true;
-                }
+        loop {
+            let first = self.state.waiting.first_from(&self.state.control.frames);
+            if first == FirstWaiting::After {
+                return joined;
+            }
+            let Some(other) = self.state.waiting.take_first() else {
+                return joined;
+            };
+            if first == FirstWaiting::Here {
+                self.join_path(other);
+                joined = true;
+            } else {
+                let mine = self.state.leave_path();
+                self.enter_path(other);
+                self.scratch.havoc_last_motion();
+                self.state.waiting.push(mine);
             }
         }
-        joined
     }
 
     /// Joins another way that reaches the block that is executed next.

@@ -82,7 +82,7 @@ impl Interpreter {
             }
             let depth = self.state.control.frames.depth();
             let spent = self.state.work.spent();
-            let is_on_ways = !self.state.pending.is_empty();
+            let is_on_ways = !self.state.waiting.is_empty();
             let flow = self.execute(&at, finder, observer);
             if is_repeated {
                 self.state
@@ -118,7 +118,7 @@ impl Interpreter {
     /// Continues on the way whose block comes first in the text; past their budget, all ways are joined.
     #[inline]
     fn choose_way(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) {
-        if !self.state.pending.is_empty() && self.choose_path() {
+        if !self.state.waiting.is_empty() && self.choose_path() {
             self.tell_joined(observer);
         }
         if self.is_past_ways() {

@@ -123,7 +123,7 @@ impl Interpreter {
         self.begin_search();
         self.state.work.begin_ways();
         self.state.is_widened = false;
-        self.state.pending.clear();
+        self.state.waiting.clear();
         self.state.ended.clear();
         self.sides.clear();
         self.joined.clear();

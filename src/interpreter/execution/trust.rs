@@ -57,7 +57,7 @@ impl<'a> Trust<'a> {
         self.check_parked()?;
         self.check_path(&state.control, &state.track)?;
         let ended = state.ended.iter().map(|ended| &ended.path);
-        for path in state.pending.iter().chain(ended) {
+        for path in state.waiting.iter().chain(ended) {
             self.check_path(&path.control, &path.track)?;
         }
         let begins = !self.programs.units().is_empty()

@@ -37,7 +37,7 @@ impl Interpreter {
         self.state.is_widened = true;
         let cause = Unknown::Ways;
         let mut left = BTreeSet::new();
-        let mut ways = std::mem::take(&mut self.state.pending);
+        let mut ways = self.state.waiting.take_all();
         ways.insert(0, self.state.leave_path());
         for way in &mut ways {
             self.enter_path(way.clone());

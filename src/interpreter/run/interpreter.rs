@@ -15,6 +15,7 @@ use super::possible_state::{PossibleStates, shown, ways_of};
 use super::state::State;
 use super::step::AwaitedBlock;
 use super::undecided::MentionedUnknowns;
+use super::waiting_paths::WaitingPaths;
 use super::way_condition::WayCondition;
 use super::ways::Branch;
 use crate::comp::{AxisIndex, Compensation, KindSet};
@@ -163,7 +164,7 @@ impl Interpreter {
         let state = State {
             control: ControlState::new(compensation, modal),
             track: RunTrack::default(),
-            pending: Vec::new(),
+            waiting: WaitingPaths::default(),
             ended: Vec::new(),
             conditions: Vec::new(),
             seq: 0,

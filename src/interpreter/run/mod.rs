@@ -31,6 +31,7 @@ pub(super) mod step;
 pub(super) mod stopping;
 pub(super) mod undecided;
 pub(super) mod untouched;
+pub(super) mod waiting_paths;
 pub(super) mod way_condition;
 pub(super) mod way_set;
 pub(super) mod ways;

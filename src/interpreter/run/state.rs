@@ -10,6 +10,7 @@ use super::control::ControlState;
 use super::path::{EndedPath, Last, Path, RunTrack};
 use super::step::ControlStep;
 use super::undecided::MentionedUnknowns;
+use super::waiting_paths::WaitingPaths;
 use super::way_set::WaySet;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
@@ -26,7 +27,7 @@ pub(in crate::interpreter) struct State {
     /// The way to it.
     pub(in crate::interpreter) track: RunTrack,
     /// The other ways that are still executed.
-    pub(in crate::interpreter) pending: Vec<Path>,
+    pub(in crate::interpreter) waiting: WaitingPaths,
     /// The ways that have ended.
     pub(in crate::interpreter) ended: Vec<EndedPath>,
     /// The conditions that ways name, by their numbers.
@@ -63,7 +64,7 @@ impl State {
         &mut self,
     ) -> impl Iterator<Item = &mut ControlState> {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
-        let others = self.pending.iter_mut().chain(ended);
+        let others = self.waiting.iter_mut().chain(ended);
         let others = others.map(|path| &mut path.control);
         std::iter::once(&mut self.control).chain(others)
     }

@@ -23,7 +23,7 @@ use crate::interpreter::values::value::Value;
 use crate::text::Span;
 
 /// Most ways that are open at a time; beyond them a condition is treated by R2.51.
-const MAX_OPEN: usize = 40;
+const MAX_OPEN: usize = 400;
 
 /// Most conditions that ways may name.
 pub(in crate::interpreter) const MAX_CONDITIONS: usize = 4096;
@@ -134,7 +134,7 @@ impl Interpreter {
             && at.macro_depth == 0
             && self.sides.is_empty()
             && (2..=MAX_ANSWERS).contains(&answers)
-            && self.state.pending.len() + answers <= MAX_OPEN
+            && self.state.waiting.len() + answers <= MAX_OPEN
             && self.state.conditions.len() + 1 < MAX_CONDITIONS
             && self.state.control.cycles.is_empty()
             && !self.programs.index(program.unit).entries.is_empty()
@@ -283,11 +283,11 @@ impl Interpreter {
     fn keep_answer(&mut self, condition: u32, kept: Option<&KeptAnswer>) {
         let State {
             conditions,
-            pending,
+            waiting,
             ended,
             ..
         } = &mut self.state;
-        let is_alone = pending.is_empty() && ended.is_empty();
+        let is_alone = waiting.is_empty() && ended.is_empty();
         if let Some(known) = conditions.get_mut(condition as usize) {
             let is_it = known.time == 0 || is_alone || known.kept.as_ref() == kept;
             known.kept = kept.filter(|_| is_it).cloned();
@@ -310,7 +310,7 @@ impl Interpreter {
         let State {
             track,
             conditions,
-            pending,
+            waiting,
             ended,
             ..
         } = &mut self.state;
@@ -323,7 +323,7 @@ impl Interpreter {
             track.readings.wait_for(asking);
         }
         // Other ways may name the same condition as it was asked before.
-        let is_alone = known.time == 1 || (pending.is_empty() && ended.is_empty());
+        let is_alone = known.time == 1 || (waiting.is_empty() && ended.is_empty());
         if let Some(asking) = asking.filter(|_| is_alone && is_compared(kind)) {
             let reading = RememberedCondition::of((condition, known.time), asking, answers);
             known.clashes = track.readings.ask(reading);
@@ -376,7 +376,7 @@ impl State {
     /// A question that reads no value, and so has one answer on all ways, as another way asked it.
     fn asked_elsewhere(&self, meaning: &ConditionMeaning) -> Option<AskedCondition> {
         let ended = self.ended.iter().map(|ended| &ended.path);
-        let paths = self.pending.iter().chain(ended);
+        let paths = self.waiting.iter().chain(ended);
         let mut asked = paths.flat_map(|path| &path.track.asked);
         let found = asked.find(|asked| asked.reads_nothing() && *asked.meaning == *meaning);
         found.cloned()

@@ -5,10 +5,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::interpreter::{Branches, Event, Interpreter, Options, PositionFrame, Value};
-use frictcomp::machine::{Machine, Setting};
+use frictcomp::machine::{Configuration, ListFiles, Machine, NoList, Setting};
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::{SourceFile, TextLines};
 use frictcomp::timeline::{Record, Sink, StateView};
@@ -63,6 +64,18 @@ impl Bench {
         }
     }
 
+    /// On the machine of a configuration and the lists that it names.
+    pub(crate) fn configured(toml: &str, files: BTreeMap<String, String>) -> Self {
+        let file = SourceFile::new("frictcomp.toml", toml);
+        let found = Configuration::from_toml(file, &mut Lists(&files)).expect("a machine");
+        let mut bench = Self::new();
+        bench.machine = found.machine;
+        bench.options.levels = found.levels;
+        bench.options.settings = found.settings;
+        bench.files = files;
+        bench
+    }
+
     /// On a machine that nobody described.
     pub(crate) fn undescribed() -> Self {
         Self {
@@ -94,6 +107,11 @@ impl Bench {
 
     pub(crate) fn skip(mut self, levels: &str) -> Self {
         self.options.run.skip = levels.parse().ok();
+        self
+    }
+
+    pub(crate) fn build(mut self, build: &str) -> Self {
+        self.machine.build = build.parse().ok();
         self
     }
 
@@ -280,6 +298,27 @@ impl Bench {
             let _ = session.program(&name, program, &mut find, sink);
         }
         let _ = session.finish(sink);
+    }
+}
+
+/// Lists by their paths, in which `..` leads to the folder above, before those of `programs/machines`.
+pub(crate) struct Lists<'a>(pub(crate) &'a BTreeMap<String, String>);
+
+impl ListFiles for Lists<'_> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let mut folders: Vec<&str> = Vec::new();
+        for part in path.split('/') {
+            if part == ".." && folders.last().is_some_and(|it| *it != "..") {
+                folders.pop();
+            } else {
+                folders.push(part);
+            }
+        }
+        let text = self.0.get(path).or_else(|| self.0.get(&folders.join("/")));
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/programs/machines");
+        let on_disk = || std::fs::read_to_string(Path::new(folder).join(path)).ok();
+        let text = text.cloned().or_else(on_disk).ok_or(NoList::Missing)?;
+        Ok(SourceFile::new(path, text))
     }
 }
 

@@ -1,0 +1,145 @@
+//! What fixes change.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use frictcomp::diagnostic::{Code, Diagnostic, Fix, Fixed};
+use frictcomp::session::{Findings, allow_here};
+use frictcomp::text::SourceFile;
+
+use super::runs::message;
+use crate::support::{MACHINE, SourceMode};
+use crate::{Case, PLACE};
+
+/// Texts by their names.
+pub(crate) type Texts = BTreeMap<String, String>;
+
+/// The name of the configuration.
+const CONFIGURATION: &str = "frictcomp.toml";
+
+/// Messages on a program, each with its fixes or with the comment that allows it, and where CRLF changes them.
+pub(crate) fn shown(case: &Case, part: &str, parts: &str) -> String {
+    let mut programs: Vec<String> = (case.programs.iter())
+        .map(|program| program.replace(PLACE, part))
+        .collect();
+    if programs == case.programs {
+        programs.push(part.to_owned());
+    }
+    let mut texts = case.files.clone();
+    let machine = case.machine.as_deref().unwrap_or(MACHINE);
+    texts.insert(CONFIGURATION.to_owned(), machine.to_owned());
+    texts.extend(
+        ('a'..)
+            .zip(programs)
+            .map(|(at, text)| (format!("{at}.nc"), text)),
+    );
+    let mut shown = of_texts(case, parts, &texts);
+    for text in texts.values_mut() {
+        *text = text.replace('\n', "\r\n");
+    }
+    let with_returns = of_texts(case, parts, &texts);
+    if with_returns != shown {
+        write!(shown, "with CRLF\n{with_returns}").expect("text");
+    }
+    shown
+}
+
+fn of_texts(case: &Case, parts: &str, texts: &Texts) -> String {
+    let programs = texts.keys().filter(|name| is_program(name));
+    let last = programs.max().expect("a program").as_str();
+    let say = |texts: &Texts| messages(case, texts, last);
+    let mut shown = String::new();
+    for said in say(texts) {
+        writeln!(shown, "{}", message(&said, last)).expect("text");
+        let allowing = || allow_here(&said, &SourceFile::new(last, texts[last].as_str()));
+        let fixes = match parts {
+            "allow" => allowing().into_iter().collect(),
+            _ => said.fixes.clone(),
+        };
+        for fix in &fixes {
+            shown.push_str(&mended(&said, fix, texts, &say));
+        }
+    }
+    shown
+}
+
+fn is_program(name: &str) -> bool {
+    matches!(name.as_bytes(), [b'a'..=b'z', b'.', b'n', b'c'])
+}
+
+/// Runs the programs among the texts, and returns the messages about one of them.
+fn messages(case: &Case, texts: &Texts, of: &str) -> Vec<Diagnostic> {
+    let mut case = case.clone();
+    case.machine = texts.get(CONFIGURATION).cloned();
+    let programs = texts.iter().filter(|(name, _)| is_program(name));
+    let programs: Vec<&str> = programs.map(|(_, text)| text.as_str()).collect();
+    case.files = texts.clone();
+    let bench = case.bench();
+    let mut found = Findings::default();
+    bench.run_into(
+        &mut bench.session(),
+        (&programs, SourceMode::Whole),
+        &mut found,
+    );
+    let said = found.diagnostics().filter(|said| &*said.place.file == of);
+    said.cloned().collect()
+}
+
+/// The lines that a fix changes, and what is said after it unless only its message is gone.
+pub(crate) fn mended(
+    said: &Diagnostic,
+    fix: &Fix,
+    texts: &Texts,
+    say: &dyn Fn(&Texts) -> Vec<Diagnostic>,
+) -> String {
+    let file = &*fix.place.file;
+    let before = &texts[file];
+    let source = SourceFile::new(file, before.as_str());
+    let after = Fixed::new(&source, [fix]).text;
+    let name = if file == &*said.place.file { "" } else { file };
+    let safety = fix.safety.as_str();
+    let mut shown = format!("    {}\n", format!("{safety} {name}").trim_end());
+    shown.push_str(&difference(before, &after));
+    let mut changed = texts.clone();
+    changed.insert(file.to_owned(), after);
+    let [was, is] = [texts, &changed].map(|texts| counted(&say(texts)));
+    if is.get(&said.code) >= was.get(&said.code) {
+        writeln!(shown, "    still {}", said.code).expect("text");
+    }
+    for (code, times) in &is {
+        if *code != said.code && Some(times) > was.get(code) {
+            writeln!(shown, "    then {code}").expect("text");
+        }
+    }
+    shown
+}
+
+/// How often each code is said.
+fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
+    let mut counts = BTreeMap::new();
+    for said in said {
+        *counts.entry(said.code).or_default() += 1;
+    }
+    counts
+}
+
+/// The lines between the first and the last difference.
+fn difference(before: &str, after: &str) -> String {
+    let line_end = if before.contains("\r\n") {
+        "\r\n"
+    } else {
+        "\n"
+    };
+    let [old, new] = [before, after].map(|text| text.split(line_end).collect::<Vec<_>>());
+    let same = |(one, other): &(&&str, &&str)| one == other;
+    let first = old.iter().zip(&new).take_while(same).count();
+    let last = old[first..].iter().rev().zip(new[first..].iter().rev());
+    let last = last.take_while(same).count();
+    let mut shown = String::new();
+    for (mark, lines) in [('-', old), ('+', new)] {
+        for line in &lines[first..lines.len() - last] {
+            writeln!(shown, "{}", format!("    {mark} {line}").trim_end()).expect("text");
+        }
+    }
+    shown
+}

@@ -1,9 +1,10 @@
 //! What lists and `frictcomp.toml` show.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::sync::Arc;
 
-use frictcomp::comp::{CncBuild, KindSet};
+use frictcomp::comp::{CncBuild, Kind, KindSet};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::drive_interface::{Evidence, Presence, TorqueScale, check_drive};
 use frictcomp::lists::{Entries, Entry, ListKind};
@@ -31,17 +32,15 @@ pub(crate) fn shown(case: &Case, list: &str, parts: &str) -> String {
     let named = parts.iter().position(|part| part.contains('.'));
     let named = named.map(|at| parts.remove(at));
     let mut files = case.files.clone();
-    let name = match files.iter_mut().find(|(_, text)| text.contains(PLACE)) {
-        Some((holder, text)) => {
-            *text = text.replace(PLACE, list);
-            named.unwrap_or(holder.as_str()).to_owned()
-        }
-        None => {
-            let name = named.unwrap_or("a.lis").to_owned();
-            files.insert(name.clone(), list.to_owned());
-            name
-        }
+    let holder = files.iter_mut().find(|(_, text)| text.contains(PLACE));
+    let name = if let Some((holder, text)) = holder {
+        *text = text.replace(PLACE, list);
+        named.unwrap_or(holder)
+    } else {
+        named.unwrap_or("a.lis")
     };
+    let name = name.to_owned();
+    files.entry(name.clone()).or_insert_with(|| list.to_owned());
     let checked = Checked {
         build: case.build(),
         name: &name,
@@ -105,7 +104,7 @@ impl Checked<'_> {
 
     fn report(&self) -> ListsReport {
         let files = &mut Lists(self.files);
-        if self.name.ends_with(".toml") {
+        if is_configuration(self.name) {
             return check_configuration(self.source(), files);
         }
         let mut report = check_list(self.source(), self.build, files);
@@ -118,12 +117,16 @@ impl Checked<'_> {
     /// The machine of a start-up list or a configuration.
     fn machine(&self, report: &ListsReport) -> Option<Configuration> {
         let files = &mut Lists(self.files);
-        if self.name.ends_with(".toml") {
+        if is_configuration(self.name) {
             return Configuration::from_toml(self.source(), files).ok();
         }
         let starts = report.kind == Some(ListKind::Startup) || self.name.ends_with(START_UP);
         starts.then(|| Configuration::from_startup(self.source(), files))
     }
+}
+
+fn is_configuration(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|it| it == "toml")
 }
 
 fn of_machine(found: &Configuration) -> String {
@@ -152,7 +155,7 @@ fn kind(report: &ListsReport) -> &'static str {
         Some(ListKind::Value) if report.accepted.is_empty() => "value list without effect",
         Some(ListKind::Value) => "value list in effect",
         Some(ListKind::Head) => "axis list or value list",
-        _ if report.files[0].ends_with(".toml") => "refused",
+        _ if is_configuration(&report.files[0]) => "refused",
         _ => "no list of an axis",
     }
 }
@@ -172,7 +175,7 @@ fn of_axis(axis: &Axis) -> String {
     ];
     for (word, kinds) in kinds {
         if kinds != KindSet::NONE {
-            let kinds: Vec<&str> = kinds.iter().map(|kind| kind.as_str()).collect();
+            let kinds: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
             parts.push(format!("{word} {}", kinds.join(" ")));
         }
     }

@@ -1,4 +1,3 @@
-mod brief;
 mod budgets;
 mod comp;
 mod flow;

@@ -1,14 +1,16 @@
 //! What fixes change.
 
-use std::collections::BTreeMap;
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use frictcomp::diagnostic::{Code, Diagnostic, Fix, Fixed};
+use frictcomp::machine::check_configuration;
 use frictcomp::session::{Findings, allow_here};
 use frictcomp::text::SourceFile;
 
 use super::runs::message;
-use crate::support::{MACHINE, SourceMode};
+use crate::support::{Lists, MACHINE, SourceMode};
 use crate::{Case, PLACE};
 
 /// Texts by their names.
@@ -47,9 +49,12 @@ pub(crate) fn shown(case: &Case, part: &str, parts: &str) -> String {
 fn of_texts(case: &Case, parts: &str, texts: &Texts) -> String {
     let programs = texts.keys().filter(|name| is_program(name));
     let last = programs.max().expect("a program").as_str();
-    let say = |texts: &Texts| messages(case, texts, last);
+    let say = |texts: &Texts| messages(case, texts);
     let mut shown = String::new();
     for said in say(texts) {
+        if &*said.place.file != last {
+            continue;
+        }
         writeln!(shown, "{}", message(&said, last)).expect("text");
         let allowing = || allow_here(&said, &SourceFile::new(last, texts[last].as_str()));
         let fixes = match parts {
@@ -67,22 +72,20 @@ fn is_program(name: &str) -> bool {
     matches!(name.as_bytes(), [b'a'..=b'z', b'.', b'n', b'c'])
 }
 
-/// Runs the programs among the texts, and returns the messages about one of them.
-fn messages(case: &Case, texts: &Texts, of: &str) -> Vec<Diagnostic> {
+/// Runs the programs among the texts, and returns the messages about them and about the lists.
+fn messages(case: &Case, texts: &Texts) -> Vec<Diagnostic> {
     let mut case = case.clone();
     case.machine = texts.get(CONFIGURATION).cloned();
     let programs = texts.iter().filter(|(name, _)| is_program(name));
     let programs: Vec<&str> = programs.map(|(_, text)| text.as_str()).collect();
-    case.files = texts.clone();
+    case.files.clone_from(texts);
     let bench = case.bench();
     let mut found = Findings::default();
-    bench.run_into(
-        &mut bench.session(),
-        (&programs, SourceMode::Whole),
-        &mut found,
-    );
-    let said = found.diagnostics().filter(|said| &*said.place.file == of);
-    said.cloned().collect()
+    let handed = (programs.as_slice(), SourceMode::Whole);
+    bench.run_into(&mut bench.session(), handed, &mut found);
+    let configuration = SourceFile::new(CONFIGURATION, texts[CONFIGURATION].as_str());
+    let lists = check_configuration(configuration, &mut Lists(texts)).diagnostics;
+    found.diagnostics().cloned().chain(lists).collect()
 }
 
 /// The lines that a fix changes, and what is said after it unless only its message is gone.
@@ -103,12 +106,18 @@ pub(crate) fn mended(
     let mut changed = texts.clone();
     changed.insert(file.to_owned(), after);
     let [was, is] = [texts, &changed].map(|texts| counted(&say(texts)));
-    if is.get(&said.code) >= was.get(&said.code) {
-        writeln!(shown, "    still {}", said.code).expect("text");
+    if let (Some(left), Some(all)) = (is.get(&said.code), was.get(&said.code)) {
+        writeln!(shown, "    still {left} of {all} {}", said.code).expect("text");
     }
-    for (code, times) in &is {
-        if *code != said.code && Some(times) > was.get(code) {
-            writeln!(shown, "    then {code}").expect("text");
+    let others = was
+        .keys()
+        .chain(is.keys())
+        .filter(|code| **code != said.code);
+    for code in others.collect::<BTreeSet<_>>() {
+        match is.get(code).cmp(&was.get(code)) {
+            Ordering::Less => writeln!(shown, "    without {code}").expect("text"),
+            Ordering::Greater => writeln!(shown, "    then {code}").expect("text"),
+            Ordering::Equal => {}
         }
     }
     shown
@@ -123,7 +132,7 @@ fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
     counts
 }
 
-/// The lines between the first and the last difference.
+/// The lines between the first and the last difference, with their numbers.
 fn difference(before: &str, after: &str) -> String {
     let line_end = if before.contains("\r\n") {
         "\r\n"
@@ -137,8 +146,10 @@ fn difference(before: &str, after: &str) -> String {
     let last = last.take_while(same).count();
     let mut shown = String::new();
     for (mark, lines) in [('-', old), ('+', new)] {
-        for line in &lines[first..lines.len() - last] {
-            writeln!(shown, "{}", format!("    {mark} {line}").trim_end()).expect("text");
+        for at in first..lines.len() - last {
+            let line = format!(" {}", lines[at]);
+            let line = if lines[at].is_empty() { "" } else { &line };
+            writeln!(shown, "    {mark} {}:{line}", at + 1).expect("text");
         }
     }
     shown

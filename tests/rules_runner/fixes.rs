@@ -146,10 +146,14 @@ fn difference(before: &str, after: &str) -> String {
     let last = last.take_while(same).count();
     let mut shown = String::new();
     for (mark, lines) in [('-', old), ('+', new)] {
-        for at in first..lines.len() - last {
-            let line = format!(" {}", lines[at]);
-            let line = if lines[at].is_empty() { "" } else { &line };
-            writeln!(shown, "    {mark} {}:{line}", at + 1).expect("text");
+        let changed = (1..).zip(&lines[..lines.len() - last]).skip(first);
+        for (number, line) in changed {
+            let line = if line.is_empty() {
+                String::new()
+            } else {
+                format!(" {line}")
+            };
+            writeln!(shown, "    {mark} {number}:{line}").expect("text");
         }
     }
     shown

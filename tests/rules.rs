@@ -9,7 +9,6 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frictcomp::comp::CncBuild;
 use rules_runner::{fixes, lists, runs::Shown};
 use support::{Bench, MACHINE, SourceMode};
 
@@ -103,21 +102,16 @@ struct Case {
 impl Case {
     fn bench(&self) -> Bench {
         let bench = match self.machine.as_deref() {
-            Some("") => Bench::undescribed(),
-            Some(machine) => Bench::configured(machine, self.files.clone()),
-            None => Bench::configured(MACHINE, self.files.clone()),
+            Some("") => {
+                let mut bench = Bench::undescribed();
+                bench.files.clone_from(&self.files);
+                bench
+            }
+            machine => Bench::configured(machine.unwrap_or(MACHINE), self.files.clone()),
         };
         self.options
             .iter()
             .fold(bench, |bench, option| with_option(bench, option))
-    }
-
-    fn build(&self) -> Option<CncBuild> {
-        let build = self
-            .options
-            .iter()
-            .find_map(|it| it.strip_prefix("--build "));
-        build.map(|build| build.parse().expect("a build"))
     }
 }
 
@@ -204,7 +198,7 @@ impl Document {
     }
 }
 
-/// Each of the texts between blank lines, with what it shows below it.
+/// Writes below each of the texts between blank lines what it shows.
 fn results(lines: &[&str], show: impl Fn(&str) -> String) -> String {
     let shown = lines.split(|line| line.is_empty()).map(|part| {
         let is_own = |line: &&str| !line.starts_with(RESULT);

@@ -9,7 +9,7 @@ use frictcomp::machine::check_configuration;
 use frictcomp::session::{Findings, allow_here};
 use frictcomp::text::SourceFile;
 
-use super::runs::message;
+use super::runs::{is_main, message};
 use crate::support::{Lists, MACHINE, SourceMode};
 use crate::{Case, PLACE};
 
@@ -19,22 +19,18 @@ pub(crate) type Texts = BTreeMap<String, String>;
 /// The name of the configuration.
 const CONFIGURATION: &str = "frictcomp.toml";
 
-/// Messages on a program, each with its fixes or with the comment that allows it, and where CRLF changes them.
+/// Shows the messages on a program, each with its fixes or with the comment that allows it, and what differs with CRLF.
 pub(crate) fn shown(case: &Case, part: &str, parts: &str) -> String {
-    let mut programs: Vec<String> = (case.programs.iter())
-        .map(|program| program.replace(PLACE, part))
-        .collect();
+    let programs = case.programs.iter();
+    let mut programs: Vec<String> = programs.map(|it| it.replace(PLACE, part)).collect();
     if programs == case.programs {
         programs.push(part.to_owned());
     }
     let mut texts = case.files.clone();
     let machine = case.machine.as_deref().unwrap_or(MACHINE);
     texts.insert(CONFIGURATION.to_owned(), machine.to_owned());
-    texts.extend(
-        ('a'..)
-            .zip(programs)
-            .map(|(at, text)| (format!("{at}.nc"), text)),
-    );
+    let names = ('a'..).map(|letter| format!("{letter}.nc"));
+    texts.extend(names.zip(programs));
     let mut shown = of_texts(case, parts, &texts);
     for text in texts.values_mut() {
         *text = text.replace('\n', "\r\n");
@@ -47,7 +43,7 @@ pub(crate) fn shown(case: &Case, part: &str, parts: &str) -> String {
 }
 
 fn of_texts(case: &Case, parts: &str, texts: &Texts) -> String {
-    let programs = texts.keys().filter(|name| is_program(name));
+    let programs = texts.keys().filter(|name| is_main(name));
     let last = programs.max().expect("a program").as_str();
     let say = |texts: &Texts| messages(case, texts);
     let mut shown = String::new();
@@ -68,15 +64,11 @@ fn of_texts(case: &Case, parts: &str, texts: &Texts) -> String {
     shown
 }
 
-fn is_program(name: &str) -> bool {
-    matches!(name.as_bytes(), [b'a'..=b'z', b'.', b'n', b'c'])
-}
-
 /// Runs the programs among the texts, and returns the messages about them and about the lists.
 fn messages(case: &Case, texts: &Texts) -> Vec<Diagnostic> {
     let mut case = case.clone();
     case.machine = texts.get(CONFIGURATION).cloned();
-    let programs = texts.iter().filter(|(name, _)| is_program(name));
+    let programs = texts.iter().filter(|(name, _)| is_main(name));
     let programs: Vec<&str> = programs.map(|(_, text)| text.as_str()).collect();
     case.files.clone_from(texts);
     let bench = case.bench();
@@ -88,7 +80,7 @@ fn messages(case: &Case, texts: &Texts) -> Vec<Diagnostic> {
     found.diagnostics().cloned().chain(lists).collect()
 }
 
-/// The lines that a fix changes, and what is said after it unless only its message is gone.
+/// Shows the lines that a fix changes, and what is said after it unless only its message is gone.
 pub(crate) fn mended(
     said: &Diagnostic,
     fix: &Fix,
@@ -109,11 +101,8 @@ pub(crate) fn mended(
     if let (Some(left), Some(all)) = (is.get(&said.code), was.get(&said.code)) {
         writeln!(shown, "    still {left} of {all} {}", said.code).expect("text");
     }
-    let others = was
-        .keys()
-        .chain(is.keys())
-        .filter(|code| **code != said.code);
-    for code in others.collect::<BTreeSet<_>>() {
+    let codes: BTreeSet<_> = was.keys().chain(is.keys()).collect();
+    for code in codes.into_iter().filter(|code| **code != said.code) {
         match is.get(code).cmp(&was.get(code)) {
             Ordering::Less => writeln!(shown, "    without {code}").expect("text"),
             Ordering::Greater => writeln!(shown, "    then {code}").expect("text"),
@@ -123,7 +112,7 @@ pub(crate) fn mended(
     shown
 }
 
-/// How often each code is said.
+/// Counts the messages of each code.
 fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
     let mut counts = BTreeMap::new();
     for said in said {
@@ -132,7 +121,7 @@ fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
     counts
 }
 
-/// The lines between the first and the last difference, with their numbers.
+/// Shows the lines between the first and the last difference, with their numbers.
 fn difference(before: &str, after: &str) -> String {
     let line_end = if before.contains("\r\n") {
         "\r\n"

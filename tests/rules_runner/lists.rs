@@ -23,10 +23,10 @@ use crate::{Case, PLACE};
 /// The list that is read as the start-up list, whatever it is.
 const START_UP: &str = "hochlauf.lis";
 
-/// Widest line of the parameters.
+/// Number of columns of the parameters.
 const WIDTH: usize = 100;
 
-/// Messages on a list, and what it gives.
+/// Shows the messages on a list, and what it gives.
 pub(crate) fn shown(case: &Case, list: &str, parts: &str) -> String {
     let mut parts: Vec<&str> = parts.split(' ').collect();
     let named = parts.iter().position(|part| part.contains('.'));
@@ -42,7 +42,7 @@ pub(crate) fn shown(case: &Case, list: &str, parts: &str) -> String {
     let name = name.to_owned();
     files.entry(name.clone()).or_insert_with(|| list.to_owned());
     let checked = Checked {
-        build: case.build(),
+        build: case.bench().machine.build,
         name: &name,
         files: &files,
     };
@@ -114,7 +114,7 @@ impl Checked<'_> {
         report
     }
 
-    /// The machine of a start-up list or a configuration.
+    /// Returns the machine of a start-up list or a configuration.
     fn machine(&self, report: &ListsReport) -> Option<Configuration> {
         let files = &mut Lists(self.files);
         if is_configuration(self.name) {
@@ -202,7 +202,7 @@ fn of_axis(axis: &Axis) -> String {
     parts.join(", ")
 }
 
-/// Each entry with the forms in which its value can be read.
+/// Shows each entry with the forms in which its value can be read.
 fn entries(text: &str) -> String {
     let entries = Entries::parse(&Arc::new(SourceFile::new("a.lis", text)));
     let mut shown = String::new();
@@ -230,7 +230,7 @@ fn of_entry(entry: &Entry) -> String {
     format!("{}: {}", entry.key(), forms.join(", "))
 }
 
-/// What each axis of a report sends to its drive and hears from it.
+/// Shows what each axis of a report sends to its drive and receives from it.
 fn drives(name: &str, report: &ListsReport) -> String {
     let mut text = String::new();
     for axis in &report.reports {

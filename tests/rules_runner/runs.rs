@@ -75,7 +75,7 @@ impl Shown {
     }
 }
 
-/// A message with its place, which names its file unless that is the own one.
+/// Shows a message with its place, which names its file unless that is the own one.
 pub(crate) fn message(said: &Diagnostic, own: &str) -> String {
     let place = &said.place;
     let (start, end) = (place.start(), place.end());
@@ -98,7 +98,7 @@ pub(crate) fn message(said: &Diagnostic, own: &str) -> String {
     format!("{code}{severity} {file}{start}-{end} {message}")
 }
 
-/// The advice and the further places of a message.
+/// Returns the advice and the further places of a message.
 pub(crate) fn advice(said: &Diagnostic) -> Vec<String> {
     let help = said.help().into_iter().map(|help| format!("help: {help}"));
     let labels = said.labels.iter();

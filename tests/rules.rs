@@ -217,8 +217,8 @@ fn joined(lines: &[&str]) -> String {
     lines.iter().flat_map(|line| [line, "\n"]).collect()
 }
 
-/// What a program shows, in the place of `@` or after the others, and what it shows handed over line by line where
-/// that differs.
+/// Shows what a program does, in the place of `@` or after the others, and what it does handed over line by line or
+/// with other line ends where that differs.
 fn shown(bench: &Bench, programs: &[String], part: &str, parts: &str) -> String {
     let place = programs
         .iter()
@@ -232,11 +232,22 @@ fn shown(bench: &Bench, programs: &[String], part: &str, parts: &str) -> String 
         return bench.positions(&all.concat());
     }
     let rows = place.map_or(0..usize::MAX, |at| at..at + part.lines().count());
-    let [mut whole, by_line] = [SourceMode::Whole, SourceMode::LineByLine]
-        .map(|handed| Shown::of(bench, (&all, handed), parts, &rows));
-    if by_line != whole {
-        writeln!(whole, "line by line").expect("text");
-        for line in by_line.lines() {
+    let shown_of = |programs: &[&str], handed| Shown::of(bench, (programs, handed), parts, &rows);
+    let mut whole = shown_of(&all, SourceMode::Whole);
+    let [with_crlf, with_cr] = ["\r\n", "\r"].map(|line_end| {
+        let texts: Vec<String> = all.iter().map(|it| it.replace('\n', line_end)).collect();
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        shown_of(&texts, SourceMode::Whole)
+    });
+    let others = [
+        ("line by line", shown_of(&all, SourceMode::LineByLine)),
+        ("with CRLF", with_crlf),
+        ("with CR", with_cr),
+    ];
+    let alone = whole.clone();
+    for (how, other) in others.iter().filter(|(_, other)| *other != alone) {
+        writeln!(whole, "{how}").expect("text");
+        for line in other.lines() {
             writeln!(whole, "  {line}").expect("text");
         }
     }

@@ -46,17 +46,32 @@ pub(crate) fn shown(case: &Case, list: &str, parts: &str) -> String {
         name: &name,
         files: &files,
     };
+    let mut shown = of_list(checked, &parts);
+    let mut with_returns = files.clone();
+    for text in with_returns.values_mut() {
+        *text = text.replace('\n', "\r\n");
+    }
+    let files = &with_returns;
+    let other = of_list(Checked { files, ..checked }, &parts);
+    if other != shown {
+        write!(shown, "with CRLF\n{other}").expect("text");
+    }
+    shown
+}
+
+fn of_list(checked: Checked<'_>, parts: &[&str]) -> String {
+    let Checked { name, files, .. } = checked;
     let has = |part: &str| parts.contains(&part);
     if has("entries") {
-        return entries(&files[&name]);
+        return entries(&files[name]);
     }
     let report = checked.report();
     if has("drive") {
-        return drives(&name, &report);
+        return drives(name, &report);
     }
     let mut text = String::new();
     for said in &report.diagnostics {
-        writeln!(text, "{}", message(said, &name)).expect("text");
+        writeln!(text, "{}", message(said, name)).expect("text");
         if has("help") {
             let axis = said.axis.iter().map(|axis| format!("axis {axis}"));
             for line in axis.chain(advice(said)) {
@@ -72,7 +87,7 @@ pub(crate) fn shown(case: &Case, list: &str, parts: &str) -> String {
                 again.report().diagnostics
             };
             for fix in &said.fixes {
-                text.push_str(&mended(said, fix, &files, &say));
+                text.push_str(&mended(said, fix, files, &say));
             }
         }
     }

@@ -1,17 +1,16 @@
 //! The rules by example. Each case of `tests/rules` runs its programs, and what they show is written below them;
 //! `UPDATE_DOCS=1` writes it again. `tests/rules/README.md` says how a case is written.
 
+mod rules_runner;
 mod support;
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 
-use frictcomp::comp::{Compensation, Kind};
-use frictcomp::diagnostic::Diagnostic;
-use frictcomp::timeline::{Record, Sink, StateView};
-use support::{Bench, SourceMode};
+use rules_runner::{fixes, lists, runs::Shown};
+use support::{Bench, MACHINE, SourceMode};
 
 /// Set to write what the cases show.
 const UPDATE: &str = "UPDATE_DOCS";
@@ -73,6 +72,9 @@ fn first_difference(text: &str, fresh: &str) -> String {
     format!("line {}\n{}{}", at + 1, part(&old, "-"), part(&new, "+"))
 }
 
+/// The line in whose place each text of a block stands.
+const PLACE: &str = "@\n";
+
 /// Begins a line of a result.
 const RESULT: &str = ">";
 
@@ -86,15 +88,31 @@ struct Document {
 }
 
 /// What the next result is made of: everything since the heading or the last result.
-#[derive(Default)]
+#[derive(Debug, Clone, Default)]
 struct Case {
     machine: Option<String>,
     /// Options that its sentences name.
     options: Vec<String>,
     /// Programs that run before, or that hold the place of the shown ones.
     programs: Vec<String>,
-    /// Files that programs may call.
-    files: Vec<(String, String)>,
+    /// Programs that may be called, and lists.
+    files: BTreeMap<String, String>,
+}
+
+impl Case {
+    fn bench(&self) -> Bench {
+        let bench = match self.machine.as_deref() {
+            Some("") => {
+                let mut bench = Bench::undescribed();
+                bench.files.clone_from(&self.files);
+                bench
+            }
+            machine => Bench::configured(machine.unwrap_or(MACHINE), self.files.clone()),
+        };
+        self.options
+            .iter()
+            .fold(bench, |bench, option| with_option(bench, option))
+    }
 }
 
 impl Document {
@@ -129,32 +147,45 @@ impl Document {
     /// Takes a block in, and returns it with its current results.
     fn block(&mut self, info: &str, lines: &[&str]) -> String {
         let whole = joined(lines);
+        let (kind, parts) = info.split_once(' ').unwrap_or((info, ""));
         let case = &mut self.case;
-        match info.split_once(' ').unwrap_or((info, "")) {
-            ("toml", "") if self.in_cases => case.machine = Some(whole.clone()),
-            ("toml", "") => self.machine = Some(whole.clone()),
-            ("program", "") => case.programs.push(whole.clone()),
-            ("file", name) => case.files.push((name.to_owned(), whole.clone())),
-            ("nc", parts) => return self.results(lines, parts),
-            ("expressions", "") => return self.values(lines),
+        match kind {
+            "toml" if self.in_cases => case.machine = Some(whole.clone()),
+            "toml" => self.machine = Some(whole.clone()),
+            "program" => case.programs.push(whole.clone()),
+            "file" => {
+                case.files.insert(parts.to_owned(), whole.clone());
+            }
+            "nc" => {
+                let case = self.taken();
+                if ["fixes", "allow"].contains(&parts) {
+                    return results(lines, |program| fixes::shown(&case, program, parts));
+                }
+                let bench = case.bench();
+                return results(lines, |program| {
+                    shown(&bench, &case.programs, program, parts)
+                });
+            }
+            "list" => {
+                let case = self.taken();
+                return results(lines, |list| lists::shown(&case, list, parts));
+            }
+            "expressions" => return self.values(lines),
             _ => panic!("a block of `{info}` is not known"),
         }
         whole
     }
 
-    fn bench(&mut self) -> Bench {
-        let mut bench = match self.case.machine.as_ref().or(self.machine.as_ref()) {
-            Some(machine) if machine.is_empty() => Bench::undescribed(),
-            Some(machine) => Bench::on(machine),
-            None => Bench::new(),
+    /// Takes what the next result is made of; the machine holds for the whole case.
+    fn taken(&mut self) -> Case {
+        let machine = self.case.machine.clone();
+        let kept = Case {
+            machine: machine.clone(),
+            ..Case::default()
         };
-        for option in std::mem::take(&mut self.case.options) {
-            bench = with_option(bench, &option);
-        }
-        for (file, text) in std::mem::take(&mut self.case.files) {
-            bench = bench.file(&file, &text);
-        }
-        bench
+        let mut case = std::mem::replace(&mut self.case, kept);
+        case.machine = machine.or_else(|| self.machine.clone());
+        case
     }
 
     fn values(&mut self, lines: &[&str]) -> String {
@@ -162,42 +193,37 @@ impl Document {
             .iter()
             .map(|line| line.split(" -> ").next().unwrap_or(line));
         let expressions: Vec<&str> = expressions.collect();
-        let programs = std::mem::take(&mut self.case.programs);
-        self.bench().values(&programs.concat(), &expressions)
+        let case = self.taken();
+        case.bench().values(&case.programs.concat(), &expressions)
     }
+}
 
-    /// Runs each of the programs between blank lines.
-    fn results(&mut self, lines: &[&str], parts: &str) -> String {
-        let bench = self.bench();
-        let programs = std::mem::take(&mut self.case.programs);
-        let shown = lines.split(|line| line.is_empty()).map(|program| {
-            let program: Vec<&str> = program
-                .iter()
-                .copied()
-                .filter(|line| !line.starts_with(RESULT))
-                .collect();
-            let part = joined(&program);
-            let mut text = part.clone();
-            for line in shown(&bench, &programs, &part, parts).lines() {
-                writeln!(text, "{RESULT} {line}").expect("text");
-            }
-            text
-        });
-        shown.collect::<Vec<_>>().join("\n")
-    }
+/// Writes below each of the texts between blank lines what it shows.
+fn results(lines: &[&str], show: impl Fn(&str) -> String) -> String {
+    let shown = lines.split(|line| line.is_empty()).map(|part| {
+        let is_own = |line: &&str| !line.starts_with(RESULT);
+        let part: Vec<&str> = part.iter().copied().filter(is_own).collect();
+        let part = joined(&part);
+        let mut text = part.clone();
+        for line in show(&part).lines() {
+            writeln!(text, "{RESULT} {line}").expect("text");
+        }
+        text
+    });
+    shown.collect::<Vec<_>>().join("\n")
 }
 
 fn joined(lines: &[&str]) -> String {
     lines.iter().flat_map(|line| [line, "\n"]).collect()
 }
 
-/// What a program shows, in the place of `@` or after the others, and what it shows handed over line by line where
-/// that differs.
+/// Shows what a program does, in the place of `@` or after the others, and what it does handed over line by line or
+/// with other line ends where that differs.
 fn shown(bench: &Bench, programs: &[String], part: &str, parts: &str) -> String {
     let place = programs
         .iter()
         .find_map(|program| program.lines().position(|it| it == "@"));
-    let mut all: Vec<String> = programs.iter().map(|it| it.replace("@\n", part)).collect();
+    let mut all: Vec<String> = programs.iter().map(|it| it.replace(PLACE, part)).collect();
     if place.is_none() && !part.is_empty() {
         all.push(part.to_owned());
     }
@@ -206,11 +232,22 @@ fn shown(bench: &Bench, programs: &[String], part: &str, parts: &str) -> String 
         return bench.positions(&all.concat());
     }
     let rows = place.map_or(0..usize::MAX, |at| at..at + part.lines().count());
-    let [mut whole, by_line] = [SourceMode::Whole, SourceMode::LineByLine]
-        .map(|handed| Shown::of(bench, (&all, handed), parts, &rows));
-    if by_line != whole {
-        writeln!(whole, "line by line").expect("text");
-        for line in by_line.lines() {
+    let shown_of = |programs: &[&str], handed| Shown::of(bench, (programs, handed), parts, &rows);
+    let mut whole = shown_of(&all, SourceMode::Whole);
+    let [with_crlf, with_cr] = ["\r\n", "\r"].map(|line_end| {
+        let texts: Vec<String> = all.iter().map(|it| it.replace('\n', line_end)).collect();
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        shown_of(&texts, SourceMode::Whole)
+    });
+    let others = [
+        ("line by line", shown_of(&all, SourceMode::LineByLine)),
+        ("with CRLF", with_crlf),
+        ("with CR", with_cr),
+    ];
+    let alone = whole.clone();
+    for (how, other) in others.iter().filter(|(_, other)| *other != alone) {
+        writeln!(whole, "{how}").expect("text");
+        for line in other.lines() {
             writeln!(whole, "  {line}").expect("text");
         }
     }
@@ -230,168 +267,8 @@ fn with_option(bench: Bench, option: &str) -> Bench {
             }
         }
         "--check" => bench.check_all(),
+        "--build" => bench.build(value),
         "--drive" => bench.passing_branches(),
         _ => panic!("the option `{option}` is not known"),
-    }
-}
-
-/// What a run shows: changes and messages by line, and the state that each program leaves.
-struct Shown {
-    text: String,
-    start_up: Compensation,
-    /// Every executed block is shown.
-    with_blocks: bool,
-    /// Advice and labels are shown.
-    with_help: bool,
-    is_one_of_several: bool,
-    /// The lines that count; of others only messages are shown.
-    rows: Range<usize>,
-}
-
-impl Shown {
-    fn of(
-        bench: &Bench,
-        (programs, handed): (&[&str], SourceMode),
-        parts: &str,
-        rows: &Range<usize>,
-    ) -> String {
-        let mut shown = Self {
-            rows: rows.clone(),
-            text: String::new(),
-            start_up: bench.machine.compensation(),
-            with_blocks: parts == "blocks",
-            with_help: parts == "help",
-            is_one_of_several: programs.len() > 1,
-        };
-        bench.run_into(&mut bench.session(), (programs, handed), &mut shown);
-        shown.text
-    }
-
-    fn said(&mut self, said: &Diagnostic) {
-        let place = &said.place;
-        let (start, end) = (place.start(), place.end());
-        let end = if end.line == start.line {
-            end.column.to_string()
-        } else {
-            end.to_string()
-        };
-        let file = if is_main(&place.file) {
-            ""
-        } else {
-            &*place.file
-        };
-        let file = if file.is_empty() {
-            String::new()
-        } else {
-            format!("{file}:")
-        };
-        let (code, message) = (said.code, &said.message);
-        let severity = if said.severity == code.severity() {
-            String::new()
-        } else {
-            format!(" {}", said.severity)
-        };
-        writeln!(
-            self.text,
-            "    {code}{severity} {file}{start}-{end} {message}"
-        )
-        .expect("text");
-        if self.with_help {
-            for help in said.help() {
-                writeln!(self.text, "        help: {help}").expect("text");
-            }
-            for label in &said.labels {
-                writeln!(self.text, "        {}: {}", label.place.start(), label.text)
-                    .expect("text");
-            }
-        }
-    }
-
-    /// The kinds of axes away from the start of the control, with the ways that lead there.
-    fn left(&self, view: StateView<'_>) -> String {
-        let mut left = Vec::new();
-        for (axis, name) in view.axes() {
-            for kind in Kind::ALL {
-                let state = view.state(axis, kind);
-                if state == self.start_up.state(axis, kind) {
-                    continue;
-                }
-                let words = match view.possible_of(axis, kind) {
-                    Some(possible) => possible.in_words("a.nc"),
-                    None => state.as_str().to_owned(),
-                };
-                left.push(format!("{} {words}", of_kind(name, kind)));
-            }
-        }
-        if left.is_empty() {
-            left.push("as at the start".to_owned());
-        }
-        left.join("; ")
-    }
-}
-
-/// Whether it is one of the programs that are run, not one that they call.
-fn is_main(file: &str) -> bool {
-    matches!(file.as_bytes(), [b'a'..=b'z', b'.', b'n', b'c'])
-}
-
-/// An axis, with the kind of compensation where it is not friction.
-fn of_kind(axis: &str, kind: Kind) -> String {
-    match kind {
-        Kind::Frict => axis.to_owned(),
-        kind => format!("{axis} {}", kind.as_str()),
-    }
-}
-
-impl Sink for Shown {
-    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        match record {
-            Record::Machine(said) => self.said(said),
-            Record::Program { file, .. } if self.is_one_of_several => {
-                writeln!(self.text, "{file}").expect("text");
-            }
-            Record::Block(row) => {
-                let changes: Vec<String> = (row.changes.iter())
-                    .map(|change| {
-                        let axis = of_kind(row.state.name(change.axis), change.kind);
-                        format!("{axis} {}", change.to.as_str())
-                    })
-                    .collect();
-                let file = if is_main(row.file) { "" } else { row.file };
-                let counts = !file.is_empty() || self.rows.contains(&(row.line as usize - 1));
-                let is_shown = self.with_blocks || !changes.is_empty() && counts;
-                if is_shown || !row.diagnostics.is_empty() {
-                    let line = format!(
-                        "{file}{}{}",
-                        if file.is_empty() { "" } else { ":" },
-                        row.line
-                    );
-                    let changes = changes.join(", ");
-                    writeln!(self.text, "{}", format!("{line:>3}  {changes}").trim_end())
-                        .expect("text");
-                }
-                for said in row.diagnostics {
-                    self.said(said);
-                }
-            }
-            Record::End(end) => {
-                for note in end.notes {
-                    self.said(&note.diagnostic);
-                }
-                for repeat in end.repeated {
-                    let (code, line, times) = (repeat.code, repeat.line, repeat.times);
-                    writeln!(self.text, "    {code} in line {line}, {times} times").expect("text");
-                }
-                let left = self.left(end.state);
-                writeln!(self.text, "{}  {left}", end.by.as_str()).expect("text");
-            }
-            Record::Summary(summary) => {
-                for (word, times) in summary.opaque {
-                    writeln!(self.text, "passed over: {word}, {times} times").expect("text");
-                }
-            }
-            _ => {}
-        }
-        ControlFlow::Continue(())
     }
 }

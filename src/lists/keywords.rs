@@ -167,33 +167,3 @@ fn blanked_length(pattern: &str, line: &str) -> Option<usize> {
     let ends = rest.is_empty() || rest.starts_with(is_blank);
     (is_lost && ends).then_some(line.len() - rest.len())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_are_known_without_their_underscores() {
-        // R3.5
-        for (line, key) in [
-            ("frict comp.mode   3", "frict_comp.mode"),
-            ("frict comp.table entries 3", "frict_comp.table_entries"),
-            ("frict comp.table[ 0].in\t0", "frict_comp.table[].in"),
-            ("kopf.achs nr", "kopf.achs_nr"),
-            ("lr param.frict_comp 1", "lr_param.frict_comp"),
-            ("achs mds[0] x.lis", "achs_mds[]"),
-        ] {
-            let found = blanked(line).map(|found| found.pattern);
-            assert_eq!(found, Some(key), "{line}");
-        }
-        for line in [
-            "frict_comp.mode 3",
-            "frict",
-            "kopf.achs nrx 1",
-            "mode 3",
-            "",
-        ] {
-            assert_eq!(blanked(line), None, "{line}");
-        }
-    }
-}

@@ -146,33 +146,3 @@ impl Given<bool> {
         Fix::guess(place, word)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_the_forms_of_the_lists() {
-        // R3.4
-        let cases = [
-            ("12", Some(Number::Integer(12))),
-            ("-3", Some(Number::Integer(-3))),
-            ("+3", Some(Number::Integer(3))),
-            ("0x1F", Some(Number::Integer(31))),
-            ("1.5", Some(Number::Real(1.5))),
-            ("-2e3", Some(Number::Real(-2000.0))),
-            ("", None),
-            ("-", None),
-            ("0x", None),
-            ("0x-1", None),
-            ("inf", None),
-            ("NaN", None),
-            ("1e999", None),
-            ("99999999999999999999", None),
-            ("3;", None),
-        ];
-        for (text, expected) in cases {
-            assert_eq!(Number::parse(text), expected, "{text}");
-        }
-    }
-}

@@ -147,25 +147,3 @@ fn holds_command(text: &str) -> bool {
         name.is_some_and(|name| name.ends_with(|it: char| it.is_ascii_alphanumeric() || it == '_'))
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn commands_are_told_from_words_about_them() {
-        // R18.7
-        for text in ["( X[COMP OFF FRICT]", "(a Q_1 [ comp ON", "( x[COMP"] {
-            assert!(holds_command(text), "{text}");
-        }
-        for text in [
-            "(COMP OFF",
-            "( [COMP OFF]",
-            "X[COMPENSATION]",
-            "X[OFF COMP]",
-            "X[XCOMP]",
-        ] {
-            assert!(!holds_command(text), "{text}");
-        }
-    }
-}

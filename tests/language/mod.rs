@@ -1,12 +1,8 @@
 mod budgets;
-mod exchange;
-mod feeds;
+mod comp;
 mod flow;
-mod hidden_code;
 mod known_words;
-mod plc;
 mod programs;
-mod skipping;
+mod readings;
 mod text;
-mod unknown;
-mod words;
+mod verdicts;

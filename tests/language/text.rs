@@ -22,15 +22,6 @@ fn text_of_any_editor() {
     ] {
         assert_eq!(run(text), expected, "{text:?}");
     }
-    assert_snapshot!(run("N10 X1 \u{dc}\nN20 V.P.S = \"\u{dc}\"\nN30 M30"), @"
-    start X:active Y:active Z:unconfigured B:ineffective
-    a.nc -
-      1 line 1 N10
-        FC101 1:8-9
-      2 line 2 N20
-      3 line 3 N30
-      end 3 M30 X:active Y:active Z:unconfigured B:ineffective
-    ");
 }
 
 #[test]
@@ -69,35 +60,4 @@ fn words_need_no_blanks() {
     assert_snapshot!(words("G01 X 100 Y-.5Z+7."), @"G01 = 1, X 100 = 100, Y-.5 = -0.5, Z+7. = 7");
     assert_snapshot!(words("g1 X10 f200"), @"g1 = 1, X10 = 10, f200 = 200, FC404");
     assert_snapshot!(words("G1x10"), @"G1 = 1, x10 = 10");
-}
-
-#[test]
-fn comments() {
-    // R2.6
-    let program = "N10 (a (nested) one) X[COMP OFF FRICT] (and) Y(here)[COMP (there) OFF FRICT]\n\
-        N20 X[COMP ON FRICT] (not closed Y[COMP ON FRICT]\n\
-        N30 Y[COMP ON FRICT] ; X[COMP OFF FRICT] ( \n\
-        N40 #COMMENT BEGIN\nX[COMP OFF FRICT]\n#COMMENT END\n\
-        N50 V.P.S = \"; no ( comment\" X[COMP OFF FRICT]\n\
-        N60 X[COMP ON FRICT]\nM30";
-    assert_snapshot!(run(program), @"
-    start X:active Y:active Z:unconfigured B:ineffective
-    a.nc -
-      1 line 1 N10 X:active>inactive Y:active>inactive
-      2 line 2 N20 X:inactive>active
-        FC414 2:22-50
-      3 line 3 N30 Y:inactive>active
-      4 line 7 N50 X:active>inactive
-      5 line 8 N60 X:inactive>active
-      6 line 9 -
-      end 6 M30 X:active Y:active Z:unconfigured B:ineffective
-    ");
-    assert_snapshot!(run("X1\n#COMMENT BEGIN\nX[COMP OFF FRICT]\nM30"), @"
-    start X:active Y:active Z:unconfigured B:ineffective
-    a.nc -
-      1 line 1 -
-        FC310 1:1-3
-        FC414 2:1-15
-      end 1 end-of-file X:active Y:active Z:unconfigured B:ineffective
-    ");
 }

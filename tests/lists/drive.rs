@@ -1,26 +1,19 @@
-//! Chapter 7: whether the torque of friction compensation reaches the drive.
+//! Chapter 7: what a network of drives says about the torque of friction compensation.
 
 use std::fmt::Write as _;
 
 use frictcomp::drive_interface::{
     DriveReport, Evidence, Network, Presence, SlaveOfAxis, check_drive,
 };
-use frictcomp::lists::{FrictionList, TablePoint};
-use frictcomp::machine::{AxisReport, Parameterisation};
+use frictcomp::machine::{NoLists, check_list};
 use frictcomp::text::SourceFile;
 use frictcomp_drives::{read_devices, read_network};
-use frictcomp_physics::current::{AdditiveCurrent, Reading};
 
-use super::host::{judge, start};
-
-/// Returns the report of an axis list with these lines, for a configured axis.
-fn axis(lines: &str) -> AxisReport {
-    let text = format!("kopf.log_achs_name X\nlr_param.frict_comp 1\n{lines}\nEnde");
-    judge(&text).reports.remove(0)
-}
-
+/// Returns what is known of the drive of a configured axis whose list has these lines.
 fn drive(lines: &str, evidence: &Evidence) -> DriveReport {
-    check_drive(&axis(lines).listed_drive(None), evidence)
+    let text = format!("kopf.log_achs_name X\nlr_param.frict_comp 1\n{lines}\nEnde");
+    let report = check_list(SourceFile::new("a.lis", text), None, &mut NoLists);
+    check_drive(&report.reports[0].listed_drive(None), evidence)
 }
 
 /// Returns the codes, with those of open questions in brackets.
@@ -42,119 +35,6 @@ fn known(report: &DriveReport) -> String {
         .map(letter)
         .iter()
         .collect()
-}
-
-#[test]
-fn telegrams_of_sercos_are_read() {
-    // R7.1, R7.5
-    let both = "antr.sercos.mdt[1].nc_ref S-0-0081\nantr.sercos.at[1].nc_ref TORQUE_FEEDBACK_VALUE";
-    let cases = [
-        (both, "pp", ""),
-        (
-            "antr.sercos.mdt[3].ident_nr 81\nantr.sercos.at[0].ident_nr 84",
-            "pp",
-            "",
-        ),
-        (
-            "antr.sercos.mdt[0].nc_ref S_0_0081 (additive)\nantr.sercos.at[0].nc_ref \"STROMIST_WERT\"",
-            "pp",
-            "",
-        ),
-        (
-            "antr.sercos.mdt[0].nc_ref LAGESOLL_WERT\nantr.sercos.at[0].nc_ref MOMENT_IST_WERT",
-            "mp",
-            "FC501",
-        ),
-        (
-            "antr.sercos.mdt[0].nc_ref MOMENT_SOLL_WERT\nantr.sercos.at[0].nc_ref S-0-0051",
-            "mm",
-            "FC501 FC502",
-        ),
-        ("antr.sercos.mdt[0].nc_ref S-0-0081", "p?", "[FC504]"),
-        ("antr.sercos.ringnummer 1", "??", "[FC504] [FC504]"),
-        ("antr.sercos.mdt[0].nc_ref", "??", "[FC504] [FC504]"),
-    ];
-    for (lines, what, codes) in cases {
-        let report = drive(&format!("kenngr.antr_typ 2\n{lines}"), &Evidence::default());
-        assert_eq!(
-            (known(&report), said(&report)),
-            (what.into(), codes.into()),
-            "{lines}"
-        );
-    }
-    let command = drive(
-        "antr.sercos.mdt[0].nc_ref TORQUE_COMMAND_VALUE",
-        &Evidence::default(),
-    );
-    assert!(
-        command.diagnostics[0]
-            .message
-            .starts_with("this is the torque command itself")
-    );
-}
-
-#[test]
-fn telegrams_of_canopen_are_read() {
-    // R7.2
-    let cases = [
-        (
-            "antr.canopen.out[0].nc_ref 60B2_00\nantr.canopen.in[0].nc_ref TORQUE_ACT",
-            "pp",
-        ),
-        (
-            "antr.canopen.out[2].nc_ref 70B2_00\nantr.canopen.in[0].nc_ref 7077_00",
-            "pp",
-        ),
-        (
-            "antr.canopen.out[0].nc_ref POS_NOM\nantr.canopen.out[1].nc_ref 60b1_00",
-            "m?",
-        ),
-        (
-            "antr.canopen.out[0].nc_ref 60B3_00\nantr.canopen.in[0].nc_ref 6078_00",
-            "mm",
-        ),
-        (
-            "antr.canopen.out[0].nc_ref 6071_00\nantr.canopen.in[0].nc_ref 6077_00",
-            "mp",
-        ),
-    ];
-    for (lines, what) in cases {
-        let report = drive(&format!("kenngr.antr_typ 8\n{lines}"), &Evidence::default());
-        assert_eq!(known(&report), what, "{lines}");
-    }
-}
-
-#[test]
-fn drive_types_decide_whether_there_is_anything_to_ask() {
-    // R7.6
-    let cases = [
-        ("kenngr.antr_typ 4", "--", ""),
-        ("kenngr.antr_typ 0x10", "--", ""),
-        ("kenngr.antr_typ ANTR_TYP_VIRTUELL", "--", ""),
-        ("kenngr.antr_typ 2\nkenngr.drive_simulation 1", "--", ""),
-        ("kenngr.antr_typ 3", "--", "FC503"),
-        ("kenngr.antr_typ ANTR_TYP_LIGHTBUS", "--", "FC503"),
-        ("kenngr.antr_typ ANTR_TYP_SERCOS", "??", "[FC504] [FC504]"),
-        ("kenngr.antr_typ SERCOS", "??", "FC130 [FC504] [FC504]"),
-        ("kenngr.antr_typ 9", "??", "FC130 [FC504] [FC504]"),
-        ("", "??", "[FC504] [FC504]"),
-    ];
-    for (lines, what, codes) in cases {
-        let report = drive(lines, &Evidence::default());
-        assert_eq!(
-            (known(&report), said(&report)),
-            (what.into(), codes.into()),
-            "{lines}"
-        );
-    }
-    // Without P-AXIS-00522 nothing is sent, and nothing is missing.
-    let off = judge("kenngr.antr_typ 3\nlr_param.frict_comp 0\nEnde")
-        .reports
-        .remove(0);
-    assert_eq!(
-        said(&check_drive(&off.listed_drive(None), &Evidence::default())),
-        ""
-    );
 }
 
 /// Process data objects of a device: index, what they hold, whether they are assigned.
@@ -377,100 +257,4 @@ fn a_description_that_ends_anywhere_is_refused_at_its_end() {
         let read = read_network(&SourceFile::new("a.xml", &text[..end]));
         assert_eq!(read.is_ok(), end >= whole, "{end}");
     }
-}
-
-fn values(output: f64) -> FrictionList {
-    FrictionList {
-        position_delay: 0,
-        reversal_lookahead: 0,
-        scaling_factor: 2000,
-        delay_cycles: 0,
-        max_points: 20,
-        table: vec![TablePoint { input: 0.0, output }],
-    }
-}
-
-#[test]
-fn the_largest_torque_fits_the_interface() {
-    // R7.7
-    let sent = |lines: &str, output: f64| {
-        let axis = axis(lines);
-        let list = values(output);
-        let report = check_drive(&axis.listed_drive(Some(&list)), &Evidence::default());
-        let codes: Vec<_> = report
-            .diagnostics
-            .iter()
-            .map(|it| it.code.as_str())
-            .collect();
-        (report.largest_torque, codes)
-    };
-    let sercos = "kenngr.antr_typ 2";
-    assert_eq!(sent(sercos, -500.0), (Some(1000.0), vec![]));
-    assert_eq!(sent(sercos, 501.0), (Some(1002.0), vec!["FC132"]));
-    assert_eq!(sent("kenngr.antr_typ 8", 501.0), (Some(1002.0), vec![]));
-    let scaled = "kenngr.antr_typ 8\nantr.torque_scale_num 100\nantr.torque_scale_denom 3";
-    assert_eq!(sent(scaled, 600.0), (Some(40_000.0), vec!["FC137"]));
-}
-
-#[test]
-fn torque_parameters_are_checked_as_by_the_control() {
-    // R7.8
-    let cases = [
-        ("antr.torque_scale_num 3\nantr.torque_scale_denom 2", ""),
-        ("antr.torque_scale_denom 0", "P-ERR-110465"),
-        ("antr.torque_scale_denom -1", "FC130"),
-        ("antr.torque_scale_num 1.5", "FC130"),
-        (
-            "kenngr.antr_typ 4\ngetriebe[0].torque_offset 100",
-            "P-ERR-110464",
-        ),
-        ("kenngr.antr_typ 5\ngetriebe[1].torque_offset 100", "FC503"),
-        ("kenngr.antr_typ 4\ngetriebe[0].torque_offset 0", ""),
-        ("getriebe[0].torque_offset 100", ""),
-        ("getriebe[0].torque_offset -5", "FC132"),
-        ("getriebe[0].torque_offset 40000", "FC130"),
-    ];
-    for (lines, codes) in cases {
-        let report = drive(lines, &Evidence::default());
-        let found: Vec<_> = report
-            .diagnostics
-            .iter()
-            .map(|it| it.code.as_str())
-            .collect();
-        assert_eq!(found.join(" "), codes, "{lines}");
-    }
-}
-
-#[test]
-fn the_output_for_the_drive_is_scaled() {
-    // R7.8
-    let mut current = AdditiveCurrent::new(&values(50.0), Reading::default()).scaled(1.5);
-    let added = current.step(0.0, 1000.0, &[]);
-    assert!((added.current_units - 100.0).abs() < 1e-12);
-    assert_eq!(added.output, 150);
-    let machine = start(&[
-        (
-            "hochlauf.lis",
-            "achs_mds[0] x.lis\nachs_kw[0] c.lis\nachs_kw_log_ax_nr[0] 1\nEnde",
-        ),
-        (
-            "x.lis",
-            "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nkenngr.antr_typ 3\n\
-             antr.torque_scale_num 3\nantr.torque_scale_denom 2\nEnde",
-        ),
-        (
-            "c.lis",
-            "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].out 9\nEnde",
-        ),
-    ]);
-    let axis = &machine.machine.axes[0];
-    assert!((axis.torque_scale.factor() - 1.5).abs() < 1e-12);
-    assert!(matches!(axis.friction, Parameterisation::Accepted(_)));
-    // It is reported wherever the lists of a machine are read.
-    assert!(
-        machine
-            .diagnostics
-            .iter()
-            .any(|it| it.code.as_str() == "FC503")
-    );
 }

@@ -5,10 +5,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::interpreter::{Branches, Event, Interpreter, Options, PositionFrame, Value};
-use frictcomp::machine::{Machine, Setting};
+use frictcomp::machine::{Configuration, ListFiles, Machine, NoList, Setting};
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::{SourceFile, TextLines};
 use frictcomp::timeline::{Record, Sink, StateView};
@@ -44,7 +45,6 @@ pub(crate) struct Bench {
     pub(crate) machine: Machine,
     pub(crate) options: SessionOptions,
     pub(crate) files: BTreeMap<String, String>,
-    pub(crate) kinds: Vec<Kind>,
     handed: SourceMode,
 }
 
@@ -54,11 +54,21 @@ impl Bench {
     }
 
     pub(crate) fn on(toml: &str) -> Self {
+        Self::configured(toml, BTreeMap::new())
+    }
+
+    /// On the machine of a configuration and the lists that it names.
+    pub(crate) fn configured(toml: &str, files: BTreeMap<String, String>) -> Self {
+        let file = SourceFile::new("frictcomp.toml", toml);
+        let found = Configuration::from_toml(file, &mut Lists(&files)).expect("a machine");
+        let options = SessionOptions::default()
+            .with_levels(found.levels)
+            .with_settings(found.settings)
+            .with_wording(Some(frictcomp_report::command_line));
         Self {
-            machine: Machine::from_toml(toml).expect("the test's machine"),
-            options: SessionOptions::default().with_wording(Some(frictcomp_report::command_line)),
-            files: BTreeMap::new(),
-            kinds: vec![Kind::Frict],
+            machine: found.machine,
+            options,
+            files,
             handed: SourceMode::Whole,
         }
     }
@@ -97,6 +107,11 @@ impl Bench {
         self
     }
 
+    pub(crate) fn build(mut self, build: &str) -> Self {
+        self.machine.build = build.parse().ok();
+        self
+    }
+
     pub(crate) fn limits(mut self, limits: Limits) -> Self {
         self.options.run.limits = limits;
         self
@@ -110,11 +125,6 @@ impl Bench {
 
     pub(crate) fn file(mut self, name: &str, text: &str) -> Self {
         self.files.insert(name.to_owned(), text.to_owned());
-        self
-    }
-
-    pub(crate) fn kinds(mut self, kinds: &[Kind]) -> Self {
-        self.kinds = kinds.to_vec();
         self
     }
 
@@ -149,11 +159,6 @@ impl Bench {
 
     /// Returns the messages about a program, with advice and labels.
     pub(crate) fn said(&self, program: &str) -> String {
-        self.said_in_session(&[program])
-    }
-
-    /// Returns the messages about programs that run one after another.
-    pub(crate) fn said_in_session(&self, programs: &[&str]) -> String {
         struct Said(String);
         impl Sink for Said {
             fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
@@ -179,19 +184,8 @@ impl Bench {
             }
         }
         let mut said = Said(String::new());
-        let files = self.files.clone();
-        let mut find = move |name: &str, _: &str| {
-            let text = files.get(name)?;
-            Some(SourceFile::new(name, text.as_str()))
-        };
-        let mut session = self.session();
-        for (name, program) in ["a.nc", "b.nc", "c.nc", "d.nc"].into_iter().zip(programs) {
-            if name != "a.nc" {
-                writeln!(said.0, "{name}").expect("text");
-            }
-            let source = Program::Whole(SourceFile::new(name, *program));
-            let _ = session.program(name, source, &mut find, &mut said);
-        }
+        let handed = (&[program][..], SourceMode::Whole);
+        self.run_into(&mut self.session(), handed, &mut said);
         said.0
     }
 
@@ -245,7 +239,6 @@ impl Bench {
     pub(crate) fn run_in(&self, session: &mut Session, programs: &[&str]) -> String {
         let mut transcript = Transcript {
             text: String::new(),
-            kinds: self.kinds.clone(),
         };
         self.run_into(session, (programs, self.handed), &mut transcript);
         transcript.text
@@ -283,25 +276,38 @@ impl Bench {
     }
 }
 
+/// Lists by their paths, in which `..` leads to the folder above, before those of `programs/machines`.
+pub(crate) struct Lists<'a>(pub(crate) &'a BTreeMap<String, String>);
+
+impl ListFiles for Lists<'_> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let mut folders: Vec<&str> = Vec::new();
+        for part in path.split('/') {
+            if part == ".." && folders.last().is_some_and(|it| *it != "..") {
+                folders.pop();
+            } else {
+                folders.push(part);
+            }
+        }
+        let text = self.0.get(path).or_else(|| self.0.get(&folders.join("/")));
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/programs/machines");
+        let on_disk = || std::fs::read_to_string(Path::new(folder).join(path)).ok();
+        let text = text.cloned().or_else(on_disk).ok_or(NoList::Missing)?;
+        Ok(SourceFile::new(path, text))
+    }
+}
+
 struct Transcript {
     text: String,
-    kinds: Vec<Kind>,
 }
 
 impl Transcript {
-    fn states(&self, view: StateView<'_>) -> String {
-        let mut words = Vec::new();
-        for (axis, name) in view.axes() {
-            for &kind in &self.kinds {
-                let word = view.state(axis, kind).as_str();
-                if self.kinds.len() == 1 {
-                    words.push(format!("{name}:{word}"));
-                } else {
-                    words.push(format!("{name}.{}:{word}", kind.as_str()));
-                }
-            }
-        }
-        words.join(" ")
+    fn states(view: StateView<'_>) -> String {
+        let states = view.axes().map(|(axis, name)| {
+            let state = view.state(axis, Kind::Frict);
+            format!("{name}:{}", state.as_str())
+        });
+        states.collect::<Vec<_>>().join(" ")
     }
 
     fn diagnostic(&mut self, diagnostic: &frictcomp::diagnostic::Diagnostic) {
@@ -325,7 +331,7 @@ impl Sink for Transcript {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Session { state, .. } => {
-                let states = self.states(*state);
+                let states = Self::states(*state);
                 writeln!(self.text, "start {states}").expect("text");
             }
             Record::Machine(diagnostic) => self.diagnostic(diagnostic),
@@ -341,20 +347,10 @@ impl Sink for Transcript {
                     .map_or(String::new(), |level| format!(" level {level}"));
                 write!(self.text, "  {} line {} {number}{level}", row.seq, row.line).expect("text");
                 for change in row.changes {
-                    if self.kinds.contains(&change.kind) {
+                    if change.kind == Kind::Frict {
                         let axis = row.state.name(change.axis);
-                        let kind = if self.kinds.len() > 1 {
-                            change.kind.as_str()
-                        } else {
-                            ""
-                        };
-                        write!(
-                            self.text,
-                            " {axis}{kind}:{}>{}",
-                            change.from.as_str(),
-                            change.to.as_str()
-                        )
-                        .expect("text");
+                        let (from, to) = (change.from.as_str(), change.to.as_str());
+                        write!(self.text, " {axis}:{from}>{to}").expect("text");
                     }
                 }
                 self.text.push('\n');
@@ -374,7 +370,7 @@ impl Sink for Transcript {
                     )
                     .expect("text");
                 }
-                let states = self.states(end.state);
+                let states = Self::states(end.state);
                 writeln!(self.text, "  end {} {} {states}", end.seq, end.by.as_str())
                     .expect("text");
             }

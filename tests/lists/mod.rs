@@ -1,0 +1,6 @@
+mod config;
+mod drive;
+mod host;
+mod robust;
+mod values;
+mod written;

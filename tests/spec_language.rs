@@ -1,4 +1,0 @@
-//! Chapter 2: the language, rule by rule.
-
-mod language;
-mod support;

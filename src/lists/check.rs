@@ -167,7 +167,7 @@ impl Check<'_> {
                     Code::Fc130,
                     given.place(),
                     format!(
-                        "`frict_comp.{}` is {}, which is not a value of type {}",
+                        "`frict_comp.{}` is {}, which is not a permitted value of type {}",
                         field.name(),
                         quoted(&given.value.text),
                         field.type_name()
@@ -225,8 +225,7 @@ impl Check<'_> {
             return;
         }
         let message = format!(
-            "`frict_comp.table_entries` is {entries}, but `frict_comp.max_points` reserves \
-             {max_points} points"
+            "`frict_comp.table_entries` is {entries}, but `frict_comp.max_points` is {max_points}"
         );
         let diagnostic = Diagnostic::new(Code::Fc131, given.place(), message);
         self.diagnostics
@@ -340,7 +339,7 @@ impl Check<'_> {
             Code::Fc130,
             given.place(),
             format!(
-                "`frict_comp.table[{index}].{name}` is {}, which is not a value of type {types}",
+                "`frict_comp.table[{index}].{name}` is {}, which is not a permitted value of type {types}",
                 quoted(&given.value.text)
             ),
         );

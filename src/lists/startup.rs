@@ -95,12 +95,12 @@ impl ListKind {
         Some(row.0)
     }
 
-    /// Whether a list can serve as one of this kind: none of its keys identifies another kind, or
-    /// one of them identifies this kind.
+    /// Whether a list can serve as one of this kind: one of its keys identifies this kind, or none identifies
+    /// another one. A start-up list, with which everything begins, needs a key of its own.
     pub fn admits(self, list: &Entries) -> bool {
         let own = KEYS.iter().find(|(kind, _)| *kind == self);
         own.is_some_and(|(_, keys)| holds(list, keys))
-            || matches!(Self::detect(list), None | Some(Self::Head))
+            || (self != Self::Startup && matches!(Self::detect(list), None | Some(Self::Head)))
     }
 
     /// Returns the name with its article: `a start-up list`.

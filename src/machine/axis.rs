@@ -131,8 +131,8 @@ impl Axis {
             None => String::new(),
         };
         let message = format!(
-            "`{}` reserves {} points for axis `{}`{number}, but {earlier} were reserved at the \
-             start of the control; the list is not loaded, and the earlier one stays in force",
+            "`{}` sets `frict_comp.max_points` to {} for axis `{}`{number}, but it was {earlier} at the start of \
+             the control; the list is not loaded, and the earlier one stays in force",
             place.file, self.max_points, self.name
         );
         Some(

@@ -1,6 +1,7 @@
 //! Recognition of a file that is given in place of a list.
 
 use crate::lists::{Entries, Entry, ListKind};
+use crate::text::lines_of;
 
 /// Returns the kind of a file with its article: `a value list`, `a program`.
 pub(super) fn describe(entries: &Entries) -> &'static str {
@@ -8,8 +9,7 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
         return kind.noun();
     }
     let text = entries.source().text();
-    let first = text
-        .lines()
+    let first = lines_of(text)
         .map(str::trim)
         .find(|line| !line.is_empty() && !line.starts_with('#'));
     let Some(first) = first else {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::assemble::AxisDraft;
-use super::described::describe;
+use super::described::{describe, is_no_matter};
 use super::files::{ListFiles, NoList, folder, is_absolute, join};
 use super::missing::MissingLists;
 use super::value_list::ValueList;
@@ -81,7 +81,8 @@ impl<'f> Loader<'f> {
             Ok(file) => {
                 self.lookups.find(asked);
                 let entries = self.entries(&file.into());
-                if wanted.admits(&entries) {
+                let is_other = ListKind::detect(&entries).is_none() && is_no_matter(&entries);
+                if wanted.admits(&entries) && !is_other {
                     return Some(entries);
                 }
                 self.diagnostics.push(mistaken(asked, wanted, &entries));

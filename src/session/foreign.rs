@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::{Foreign, foreign};
-use crate::text::{Place, Span};
+use crate::text::{Place, Span, lines_of};
 
 /// Number of messages about such a file: this one and 20 others.
 pub(super) const MAX_SAID: usize = 21;
@@ -10,7 +10,7 @@ pub(super) const MAX_SAID: usize = 21;
 /// Looks at the head of a program.
 pub(super) fn look(file: &str, head: &str) -> Option<Diagnostic> {
     let found = foreign(head)?;
-    let mut lines = head.lines().zip(1..);
+    let mut lines = lines_of(head).zip(1..);
     let (line, number) = lines.find(|(line, _)| !line.trim().is_empty())?;
     let place = Place {
         file: file.into(),

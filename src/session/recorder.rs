@@ -12,7 +12,7 @@ use crate::lint::{LeftAwayNotice, Linter};
 use crate::machine::Machine;
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
-use crate::text::{Place, Position, Span};
+use crate::text::{Place, Position, Span, lines_of};
 use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Join, Record, Row, Sink, StateView};
 
 use super::message_dedup::{DedupVerdict, MessageDedup};
@@ -312,7 +312,7 @@ impl Recorder<'_> {
     fn note_allows(&mut self, executed: &Executed<'_>) {
         self.here.clear();
         if executed.comments == Comments::Possible && executed.text.contains(allow::MARK) {
-            let lines = executed.text.lines().zip(executed.line..);
+            let lines = lines_of(executed.text).zip(executed.line..);
             for (text, line) in lines.filter(|(text, _)| text.contains(allow::MARK)) {
                 self.note_allow(executed, text, line);
             }

@@ -2,6 +2,8 @@
 //!
 //! Only what no block can begin with counts: text that is merely not understood is reported block by block.
 
+use crate::text::lines_of;
+
 /// Number of bytes at the head of a file that are looked at.
 pub const HEAD: usize = 4096;
 
@@ -89,7 +91,7 @@ fn is_binary(head: &str) -> bool {
 /// Tables and keys of TOML, or sections of an INI file, and hardly anything else. A line `[LABEL]` alone shows
 /// nothing: it is a jump label.
 fn settings(head: &str) -> Option<&'static str> {
-    let lines = head.lines().map(str::trim);
+    let lines = lines_of(head).map(str::trim);
     let lines = lines.filter(|line| {
         let is_comment = line.starts_with(';') || line.strip_prefix('#').is_some_and(is_remark);
         !line.is_empty() && !is_comment

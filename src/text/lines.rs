@@ -96,6 +96,12 @@ impl<'a> TextLines<'a> {
     }
 }
 
+/// Returns the lines of a text without their ends: LF, CRLF, CR.
+pub(crate) fn lines_of(text: &str) -> impl Iterator<Item = &str> {
+    let mut lines = TextLines::starting_at(text, 0);
+    std::iter::from_fn(move || lines.advance().then(|| &text[lines.line.clone()]))
+}
+
 impl LineSource for TextLines<'_> {
     fn advance(&mut self) -> bool {
         let start = self.next;

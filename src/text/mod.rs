@@ -17,6 +17,7 @@ pub use hidden::shown_json;
 pub use hidden::{changed_direction, is_hidden};
 pub use index::{LineIndex, Utf16Position};
 pub use lines::line_end;
+pub(crate) use lines::lines_of;
 pub use lines::{LineSource, PhysicalLine, TextLines};
 pub use place::Place;
 pub(crate) use place::{MAX_WHOLE, StartsInOrder};

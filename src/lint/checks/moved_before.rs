@@ -7,6 +7,7 @@ use crate::lint::history::Maker;
 use crate::lint::linter::Linter;
 use crate::lint::memory::{Held, Touch, is_of_a_kind};
 use crate::syntax::code_of;
+use crate::text::lines_of;
 
 /// The most characters of a block that a message shows.
 const MAX_SHOWN: usize = 60;
@@ -138,7 +139,7 @@ fn way(kind: MotionKind) -> &'static str {
 
 /// Returns program, line and block in words.
 fn named(maker: &Maker) -> String {
-    let code: Vec<String> = maker.text.lines().map(code_of).collect();
+    let code: Vec<String> = lines_of(&maker.text).map(code_of).collect();
     let code = code.join(" ");
     let words: Vec<&str> = code.split_whitespace().collect();
     let text = words.join(" ");

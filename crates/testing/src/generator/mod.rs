@@ -607,3 +607,51 @@ fn between(first: Form, mut body: Vec<Statement>, last: Form) -> Vec<Statement> 
     body.push(last.into());
     body
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_profile_makes_a_program_of_no_choices_and_the_same_one_of_the_same_choices() {
+        for profile in [
+            Profile::ASKED_ONCE,
+            Profile::ASKED_AGAIN,
+            Profile::SHARED,
+            Profile::EXECUTED,
+            Profile::ARCHIVED,
+            Profile::HOSTILE,
+            Profile::GROWING,
+        ] {
+            let written = |mut choices: Choices<'_>| {
+                NcProgram::choose(&profile, &mut choices).write(Style::default())
+            };
+            assert!(!written(Choices::of_bytes(&[])).is_empty());
+            let [one, other] = [7, 7].map(|seed| written(Choices::of_seed(seed)));
+            assert_eq!(one, other);
+        }
+    }
+
+    #[test]
+    fn lines_of_statements_are_those_of_the_text() {
+        let mut choices = Choices::of_seed(3);
+        for _ in 0..100 {
+            let style = Style::choose(&mut choices);
+            let mut program = NcProgram::choose(&Profile::ARCHIVED, &mut choices);
+            let text = program.write(style);
+            for statement in &program.body {
+                let at = usize::try_from(statement.line).expect("a line") - 1;
+                let line = text.lines().nth(at).expect("a line");
+                let is_it = match &statement.form {
+                    Form::Block(block) if block.moves.is_empty() => line.contains("[COMP "),
+                    Form::Block(_) => line.contains("G0"),
+                    Form::If(..) => line.contains("$IF"),
+                    Form::For(..) => line.contains("$FOR"),
+                    Form::Call(..) => line.contains("LL "),
+                    _ => line.starts_with(';'),
+                };
+                assert!(is_it, "{line}\n{text}");
+            }
+        }
+    }
+}

@@ -158,7 +158,7 @@ impl Profile {
         leaves: &[(Shape::Comp, 1)],
         conditions: &[(Ask::NotOne, 1), (Ask::NotZero, 1), (Ask::One, 2)],
         branches: [33, 50],
-        program: [2, 6],
+        program: [2, 7],
         body: [1, 3],
         depth: [2, 3],
         subprograms: [0, 0],
@@ -212,7 +212,7 @@ impl Profile {
         branches: [36, 52],
         program: [3, 8],
         variables: 3,
-        reuse: 33,
+        reuse: 40,
         prelude: &["P1 = 0", "P2 = 0", "P3 = 0"],
         ..Self::ASKED_ONCE
     };

@@ -33,11 +33,13 @@ const PLC_ACTS: [&str; 8] = [
 ];
 
 /// Blocks at which the control stops.
-const ERRORS: [&str; 5] = [
+const ERRORS: [&str; 7] = [
     "#ERROR [ID=5 RC=2]",
     "#ERROR [RC[1+1], ID 7]",
     "#ERROR [ID1 RC 1 PV1=\"RC=0\"]",
     "W[COMP ON FRICT]",
+    "W[COMP ON FRICT]",
+    "L MISSING.NC",
     "L MISSING.NC",
 ];
 

@@ -22,7 +22,7 @@ const WAYS: u64 = 18;
 
 /// Decisions of the longest inputs: enough for a program of some kilobytes. The others have a
 /// half, a quarter or an eighth.
-const DECISIONS: usize = 240;
+const DECISIONS: usize = 260;
 
 /// The memory that an input may hold at a time, in bytes.
 const MOST_HELD: u64 = 32 << 20;

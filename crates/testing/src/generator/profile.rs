@@ -298,8 +298,16 @@ impl Profile {
             "%L A\nN1 X1\nM17\n%MAIN",
             "#VAR\nV.L.A=1\n#ENDVAR",
         ],
-        subprograms: [0, 1],
-        ends: &["", "M30", "M30"],
+        ends: &[
+            "",
+            "",
+            "M30",
+            "M30",
+            "M30",
+            "M30",
+            "M30\n%L A\nX1\nM17",
+            "%L A\nP1=P1\nLL A",
+        ],
         ..Self::ASKED_ONCE
     };
 

@@ -9,6 +9,7 @@ use frictcomp::syntax::ast::{Block, Item};
 use frictcomp::syntax::{BlockReader, FastPath, FlowScan, Stretch};
 use frictcomp::text::{SourceFile, Span, TextLines};
 use frictcomp::timeline::{Record, Sink};
+use frictcomp_testing::generator::{Choices, any_lines, plain_line, spaced_words};
 use proptest::prelude::*;
 
 /// A block as returned by its reader.
@@ -37,56 +38,15 @@ fn blocks(text: &str, fast_path: FastPath) -> Vec<Read> {
     found
 }
 
-/// Generates a piece that a mutation inserts into a line, or that a line is made of.
-fn piece() -> impl Strategy<Value = String> {
-    prop_oneof![
-        4 => "[A-Z]-?[0-9]{0,4}(\\.[0-9]{0,4})?",
-        3 => "[ \t]{1,2}",
-        2 => "N[0-9]{1,5}:?",
-        2 => "G[0-9]{1,3}",
-        1 => "[a-z][0-9]{0,3}",
-        2 => prop::sample::select(vec![
-            "X[COMP ON FRICT]", "Y[COMP OFF FRICT]", "X[COMP OFF_ALL]", "X[COMP ON FRIKT]",
-            "P1=3", "P2 = P1 * 2", "V.E.A = 1", "X[P1+1]", "X1=7", "M30", "M17", "#TIME 1",
-            "[LABEL]", "\"M\"=\"X1\"", "\"M\"", "L SUB.nc", "LL A", "G800[1,,2]", "/1", "MOD", "XOR",
-            "X=-5", "X+.5", "X5.", "; frictcomp: allow FC402", "(a (b) c)", "X1 MOD 2", "\\", "%A",
-            "+", "-", "*", "=", "[", "]", "(", ")", "\"", ";", ",", ".", "@", "Ü", "軸", "\u{0}",
-        ]).prop_map(str::to_owned),
-        1 => prop::sample::select(vec![
-            "$IF P1 > 2", "$ELSE", "$ENDIF", "$FOR P1 = 1, 3, 1", "$ENDFOR", "$WHILE P1 < 3",
-            "$ENDWHILE", "$GOTO N10", "$BREAK", "$REPEAT", "$UNTIL P1 > 3", "%L SUB",
-        ]).prop_map(str::to_owned),
-    ]
+/// Makes texts by choices, one for each byte, so that fewer bytes are a smaller text.
+fn made(text: fn(&mut Choices<'_>) -> String) -> impl Strategy<Value = String> {
+    let bytes = prop::collection::vec(any::<u8>(), 0..600);
+    bytes.prop_map(move |bytes| text(&mut Choices::of_bytes(&bytes)))
 }
 
+/// Makes lines of pieces of any kind.
 fn program() -> impl Strategy<Value = String> {
-    let line = prop::collection::vec(piece(), 0..8).prop_map(|pieces| pieces.concat());
-    let end = prop::sample::select(vec!["\n", "\n", "\r\n", "\r"]);
-    prop::collection::vec((line, end), 0..12).prop_map(|lines| {
-        lines
-            .into_iter()
-            .map(|(line, end)| line + end)
-            .collect::<String>()
-    })
-}
-
-/// Generates plain blocks, most of them with one character changed.
-fn plain() -> impl Strategy<Value = String> {
-    let word = "[A-Z][+-]?[0-9]{1,5}(\\.[0-9]{0,4})?[ ]?";
-    let change = (any::<prop::sample::Index>(), "[ -~\t]?");
-    (prop::collection::vec(word, 1..6), change).prop_map(|(words, (at, change))| {
-        let mut line = words.concat();
-        let at = at.index(line.len());
-        line.replace_range(at..=at, &change);
-        line
-    })
-}
-
-/// Generates plain words, with blanks of any width between them.
-fn spaced() -> impl Strategy<Value = String> {
-    let word = "[A-KM-OQ-Z][+-]?([0-9]{1,20}(\\.[0-9]{0,4})?|\\.[0-9]{1,4})[ ]{1,2}";
-    let word = prop_oneof![3 => word, 1 => "N[0-9]{1,5} "];
-    prop::collection::vec(word, 1..6).prop_map(|words| words.concat())
+    made(any_lines)
 }
 
 fn assert_inside(span: Span, text: &str) -> Result<(), TestCaseError> {
@@ -228,21 +188,17 @@ proptest! {
 
     #[test]
     fn any_program_is_parsed_with_spans_that_fit(text in program()) {
-        let by_grammar = blocks(&text, FastPath::Off);
-        for read in &by_grammar {
-            assert_spans(read)?;
-        }
-        prop_assert_eq!(blocks(&text, FastPath::On), by_grammar);
+        is_parsed(&text)?;
     }
 
     #[test]
-    fn the_fast_path_is_the_grammar_or_declines(line in plain()) {
+    fn the_fast_path_is_the_grammar_or_declines(line in made(plain_line)) {
         prop_assert_eq!(blocks(&line, FastPath::On), blocks(&line, FastPath::Off));
     }
 
     // Only with blanks between its words is a block one token.
     #[test]
-    fn blanks_may_be_tabs(line in spaced()) {
+    fn blanks_may_be_tabs(line in made(spaced_words)) {
         let tree = |text: &str| blocks(text, FastPath::Off).into_iter().map(|read| read.block);
         prop_assert!(tree(&line).eq(tree(&line.replace(' ', "\t"))));
     }
@@ -274,21 +230,63 @@ proptest! {
 
     #[test]
     fn a_streamed_program_runs_as_a_whole_one(text in program()) {
-        let refused = is_refused(&whole(&text, StopPolicy::FirstError));
-        for stop in POLICIES {
-            // A check reads the whole text in any case.
-            if !refused || stop == StopPolicy::CheckAll {
-                let whole = whole(&text, stop);
-                prop_assert_eq!(trimmed(streamed(&text, stop)), trimmed(whole));
-            }
-        }
+        is_streamed_as_whole(&text)?;
     }
 
     #[test]
     fn a_program_without_flow_is_never_refused(text in program()) {
-        if !has_flow(&text) && !text.contains(':') && !text.contains("[LABEL]") {
-            prop_assert!(!is_refused(&whole(&text, StopPolicy::FirstError)));
+        is_refused_only_with_flow(&text)?;
+    }
+}
+
+fn is_parsed(text: &str) -> Result<(), TestCaseError> {
+    let by_grammar = blocks(text, FastPath::Off);
+    for read in &by_grammar {
+        assert_spans(read)?;
+    }
+    prop_assert_eq!(blocks(text, FastPath::On), by_grammar);
+    Ok(())
+}
+
+fn is_streamed_as_whole(text: &str) -> Result<(), TestCaseError> {
+    let refused = is_refused(&whole(text, StopPolicy::FirstError));
+    for stop in POLICIES {
+        // A check reads the whole text in any case.
+        if !refused || stop == StopPolicy::CheckAll {
+            let whole = whole(text, stop);
+            prop_assert_eq!(trimmed(streamed(text, stop)), trimmed(whole));
         }
+    }
+    Ok(())
+}
+
+fn is_refused_only_with_flow(text: &str) -> Result<(), TestCaseError> {
+    if !has_flow(text) && !text.contains(':') && !text.contains("[LABEL]") {
+        prop_assert!(!is_refused(&whole(text, StopPolicy::FirstError)));
+    }
+    Ok(())
+}
+
+#[test]
+fn texts_for_which_a_property_once_failed_have_it() {
+    let texts = [
+        "M30\n$IF P1 > 2\n",
+        "$IF P1 > 2\nN0\\\n\n",
+        "$WHILE P1 < 3\\\r\nA\n",
+        "$FOR P1 = 1, 3, 1\t\n$BREAK\n",
+        "; frictcomp: allow FC402\n",
+        "/1G30\n",
+        "M30\nN0N0:\n%A\nA\n",
+        "; frictcomp: allow FC402\n\n$IF P1 > 2\n",
+        "G0\n; frictcomp: allow FC402\n%A\n",
+        "; frictcomp: allow FC402\n\nG0N0:\n",
+        "d\n%L SUBÜ\n",
+    ];
+    for text in texts {
+        let held = is_parsed(text)
+            .and_then(|()| is_streamed_as_whole(text))
+            .and_then(|()| is_refused_only_with_flow(text));
+        held.unwrap_or_else(|error| panic!("{text:?}: {error}"));
     }
 }
 

@@ -3,11 +3,11 @@
 
 use frictcomp::syntax::{BlockReader, FastPath, RawBlock, ast::Block};
 use frictcomp::text::{Span, TextLines};
-use frictcomp_fuzz::{Theme, text_of};
+use frictcomp_fuzz::{Profile, text_of};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|input: &[u8]| {
-    let Some(text) = text_of(input, Theme::Any) else {
+    let Some(text) = text_of(input, &Profile::HOSTILE) else {
         return;
     };
     let reader = |path| BlockReader::new(TextLines::new(&text), 1, path);

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::session::{Session, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
-use frictcomp_fuzz::{Bench, Files, Theme, machine, text_of};
+use frictcomp_fuzz::{Bench, Files, Profile, machine, text_of};
 use frictcomp_report::{Listing, ListingFormat, Look, Paint, render};
 use libfuzzer_sys::fuzz_target;
 
@@ -46,7 +46,7 @@ impl Sink for Places<'_> {
 }
 
 fuzz_target!(|input: &[u8]| {
-    let Some(text) = text_of(input, Theme::Any) else {
+    let Some(text) = text_of(input, &Profile::HOSTILE) else {
         return;
     };
     let bench = Bench {

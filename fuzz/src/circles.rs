@@ -10,19 +10,19 @@ use frictcomp_physics::circle::{
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Plant, STEP_S, plant_list};
 
-use crate::Dice;
+use crate::Choices;
 
 /// Simulates a circle on a plant, both with values from the whole accepted range.
-pub fn check_circle(dice: &mut Dice<'_>) {
-    let text = plant(dice);
+pub fn check_circle(choices: &mut Choices<'_>) {
+    let text = plant(choices);
     let plant = Plant::from_toml(SourceFile::new("plant.toml", text.as_str()))
         .unwrap_or_else(|error| panic!("a valid plant is refused: {error}\n{text}"));
-    let circle = circle(dice);
+    let circle = circle(choices);
     circle.check().expect("a valid circle");
     let test = CircularTest {
         circle,
-        compensation: compensation(dice, &plant),
-        model: [FrictionModel::Lugre, FrictionModel::Gms][dice.below(2)],
+        compensation: compensation(choices, &plant),
+        model: [FrictionModel::Lugre, FrictionModel::Gms][choices.below(2)],
         plant,
         reading: Reading::default(),
     };
@@ -50,15 +50,15 @@ pub fn check_circle(dice: &mut Dice<'_>) {
 }
 
 /// Returns a value between the ends, in equal steps of magnitude.
-fn between(dice: &mut Dice<'_>, [least, most]: [f64; 2]) -> f64 {
-    least * (most / least).powf(dice.share())
+fn between(choices: &mut Choices<'_>, [least, most]: [f64; 2]) -> f64 {
+    least * (most / least).powf(choices.share())
 }
 
-fn circle(dice: &mut Dice<'_>) -> Circle {
-    let cycle_time_s = 0.000_25 * [1.0, 4.0, 8.0, 40.0][dice.below(4)];
-    let radius_mm = between(dice, [0.1, 1e5]);
+fn circle(choices: &mut Choices<'_>) -> Circle {
+    let cycle_time_s = 0.000_25 * [1.0, 4.0, 8.0, 40.0][choices.below(4)];
+    let radius_mm = between(choices, [0.1, 1e5]);
     // The number of cycles in a turn.
-    let cycles = between(dice, [MIN_CYCLES * 1.01, 600.0]);
+    let cycles = between(choices, [MIN_CYCLES * 1.01, 600.0]);
     let turn_s = cycles * cycle_time_s;
     let feed = std::f64::consts::TAU * radius_mm / turn_s * 60.0;
     let feed_mm_per_min = feed.clamp(0.1, 1e6);
@@ -72,20 +72,20 @@ fn circle(dice: &mut Dice<'_>) -> Circle {
 }
 
 /// Returns the compensation of the plant, or value lists.
-fn compensation(dice: &mut Dice<'_>, plant: &Plant) -> [Option<Method>; 2] {
-    if dice.below(2) == 0 {
+fn compensation(choices: &mut Choices<'_>, plant: &Plant) -> [Option<Method>; 2] {
+    if choices.below(2) == 0 {
         return Method::of_plant(plant);
     }
-    let lists = [list(dice, plant_list(&plant.x)), plant_list(&plant.y)];
+    let lists = [list(choices, plant_list(&plant.x)), plant_list(&plant.y)];
     lists.map(|list| Some(list.into()))
 }
 
-fn list(dice: &mut Dice<'_>, mut list: FrictionList) -> FrictionList {
-    list.position_delay = [0, 1, 9, 10][dice.below(4)];
-    list.reversal_lookahead = [0, 1, 2, 4][dice.below(4)];
-    list.delay_cycles = [0, 1, 7, 248][dice.below(4)];
-    list.scaling_factor = [1000, 0, -32766, 32766][dice.below(4)];
-    match dice.below(4) {
+fn list(choices: &mut Choices<'_>, mut list: FrictionList) -> FrictionList {
+    list.position_delay = [0, 1, 9, 10][choices.below(4)];
+    list.reversal_lookahead = [0, 1, 2, 4][choices.below(4)];
+    list.delay_cycles = [0, 1, 7, 248][choices.below(4)];
+    list.scaling_factor = [1000, 0, -32766, 32766][choices.below(4)];
+    match choices.below(4) {
         0 => list.table.truncate(1),
         1 => {
             list.table = vec![
@@ -105,15 +105,15 @@ fn list(dice: &mut Dice<'_>, mut list: FrictionList) -> FrictionList {
 }
 
 /// Returns a plant file. Values that depend on each other are chosen to match.
-fn plant(dice: &mut Dice<'_>) -> String {
+fn plant(choices: &mut Choices<'_>) -> String {
     let mut text = String::new();
-    let mass = between(dice, [0.01, 1e6]);
-    let coulomb = [0.0, between(dice, [0.001, 1e6])][dice.below(2)];
-    let breakaway = coulomb * between(dice, [1.0, 10.0]);
-    let stiffness = between(dice, [1e3, 1e12_f64.min(mass / (STEP_S * STEP_S))]);
+    let mass = between(choices, [0.01, 1e6]);
+    let coulomb = [0.0, between(choices, [0.001, 1e6])][choices.below(2)];
+    let breakaway = coulomb * between(choices, [1.0, 10.0]);
+    let stiffness = between(choices, [1e3, 1e12_f64.min(mass / (STEP_S * STEP_S))]);
     let strongest = mass / STEP_S;
-    let damping = 0.4 * strongest * dice.share();
-    let viscous = (0.4 * strongest * dice.share() * dice.share()).min(1e8);
+    let damping = 0.4 * strongest * choices.share();
+    let viscous = (0.4 * strongest * choices.share() * choices.share()).min(1e8);
     let mut number = |key: &str, value: f64| {
         writeln!(text, "{key} = {value:e}").expect("a text takes everything");
     };
@@ -139,14 +139,14 @@ fn plant(dice: &mut Dice<'_>) -> String {
         ("gms_C", [1.0, 1e12]),
     ] {
         // Plants that keep some of their default values are stable more often.
-        if dice.below(3) == 0 {
-            number(key, between(dice, range));
+        if choices.below(3) == 0 {
+            number(key, between(choices, range));
         }
     }
-    if dice.below(3) == 0 {
-        number("Kp", between(dice, [0.1, 1e10]));
+    if choices.below(3) == 0 {
+        number("Kp", between(choices, [0.1, 1e10]));
     }
-    if dice.below(3) == 0 {
+    if choices.below(3) == 0 {
         text.push_str("[stiction]\n");
         for (key, range) in [
             ("mp1511", [1.0, 16_777_215.0]),
@@ -154,9 +154,9 @@ fn plant(dice: &mut Dice<'_>) -> String {
             ("gp", [1e-3, 1e4]),
             ("mp1513", [1e-3, 1000.0]),
         ] {
-            let _ = writeln!(text, "{key} = {}", between(dice, range));
+            let _ = writeln!(text, "{key} = {}", between(choices, range));
         }
-        let _ = writeln!(text, "tc = {}", 250 * [1, 4, 12, 400][dice.below(4)]);
+        let _ = writeln!(text, "tc = {}", 250 * [1, 4, 12, 400][choices.below(4)]);
     }
     text
 }

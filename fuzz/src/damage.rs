@@ -2,12 +2,12 @@
 
 use serde_json::{Map, Number, Value, json};
 
-use crate::Dice;
+use crate::Choices;
 
 /// Changes some places of a document, each usually into something of the same kind: a document of the right shape is
 /// read further.
-pub(crate) fn damage(document: &mut Value, dice: &mut Dice<'_>) {
-    for _ in 0..1 + dice.below(3) {
+pub(crate) fn damage(document: &mut Value, choices: &mut Choices<'_>) {
+    for _ in 0..1 + choices.below(3) {
         let mut place = &mut *document;
         loop {
             let children = match place {
@@ -16,10 +16,10 @@ pub(crate) fn damage(document: &mut Value, dice: &mut Dice<'_>) {
                 _ => 0,
             };
             // Descending into a member is far more likely than changing it.
-            if children == 0 || dice.below(12) == 1 {
+            if children == 0 || choices.below(12) == 1 {
                 break;
             }
-            let chosen = dice.below(children.min(256));
+            let chosen = choices.below(children.min(256));
             place = match place {
                 Value::Array(items) => &mut items[chosen],
                 Value::Object(fields) => {
@@ -28,32 +28,32 @@ pub(crate) fn damage(document: &mut Value, dice: &mut Dice<'_>) {
                 _ => return,
             };
         }
-        touch(place, dice);
+        touch(place, choices);
     }
 }
 
-fn touch(value: &mut Value, dice: &mut Dice<'_>) {
+fn touch(value: &mut Value, choices: &mut Choices<'_>) {
     match value {
-        Value::Number(_) => *value = Value::Number(number(dice)),
-        Value::String(text) => match dice.below(4) {
+        Value::Number(_) => *value = Value::Number(number(choices)),
+        Value::String(text) => match choices.below(4) {
             0 => text.clear(),
             1 => text.push('\u{202e}'),
             2 => {
-                *text = dice
+                *text = choices
                     .one_of(&["X", "Program", "other", "P1", "V.S.A", "On", "N10"])
                     .to_owned()
             }
             _ => *text = text.repeat(3),
         },
-        Value::Array(items) => match dice.below(3) {
+        Value::Array(items) => match choices.below(3) {
             0 => items.clear(),
             1 => items.extend(items.clone()),
             _ => drop(items.pop()),
         },
-        Value::Object(fields) => rename(fields, dice),
+        Value::Object(fields) => rename(fields, choices),
         Value::Bool(is) => *is = !*is,
         Value::Null => {
-            *value = match dice.below(5) {
+            *value = match choices.below(5) {
                 0 => json!(0),
                 1 => json!(""),
                 2 => json!([0, 0]),
@@ -64,10 +64,10 @@ fn touch(value: &mut Value, dice: &mut Dice<'_>) {
     }
 }
 
-fn rename(fields: &mut Map<String, Value>, dice: &mut Dice<'_>) {
+fn rename(fields: &mut Map<String, Value>, choices: &mut Choices<'_>) {
     let Some(name) = fields
         .keys()
-        .nth(dice.below(256) % fields.len().max(1))
+        .nth(choices.below(256) % fields.len().max(1))
         .cloned()
     else {
         return;
@@ -75,13 +75,13 @@ fn rename(fields: &mut Map<String, Value>, dice: &mut Dice<'_>) {
     let Some(value) = fields.remove(&name) else {
         return;
     };
-    let other = dice.one_of(&["", "0", "X", "-1", "4294967295", "V.S.A", "\u{7f}"]);
-    if dice.below(2) == 0 {
+    let other = choices.one_of(&["", "0", "X", "-1", "4294967295", "V.S.A", "\u{7f}"]);
+    if choices.below(2) == 0 {
         fields.insert(other.to_owned(), value);
     }
 }
 
-fn number(dice: &mut Dice<'_>) -> Number {
+fn number(choices: &mut Choices<'_>) -> Number {
     let whole = [
         0_i64,
         1,
@@ -96,7 +96,7 @@ fn number(dice: &mut Dice<'_>) -> Number {
         i64::MAX,
         i64::MIN,
     ];
-    match dice.below(whole.len() + 2) {
+    match choices.below(whole.len() + 2) {
         12 => Number::from(u64::MAX),
         13 => Number::from_f64(1e300).expect("a finite number"),
         place => Number::from(whole[place]),

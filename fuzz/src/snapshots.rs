@@ -6,20 +6,20 @@ use frictcomp::interpreter::{Event, Interpreter, RunOutcome, Snapshot};
 use frictcomp::text::SourceFile;
 
 use crate::damage::damage;
-use crate::{Bench, Dice, Files, MAIN, POLICIES, machine};
+use crate::{Bench, Choices, Files, MAIN, POLICIES, machine};
 
 /// Runs a program up to some block, and resumes it from the snapshot saved there: the unchanged one
 /// leads to the same end, a damaged one is refused or leads to some end.
-pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
+pub fn check_snapshot(files: Files<'_>, choices: &mut Choices<'_>) {
     let bench = Bench {
         files,
-        stop: POLICIES[dice.below(3)],
+        stop: POLICIES[choices.below(3)],
     };
     let options = bench.options().run;
     let machine = machine();
     let compensation = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), compensation, options);
-    let mut left = 1 + dice.below(20);
+    let mut left = 1 + choices.below(20);
     let outcome = run.program(files.source(), &mut { files }, &mut |_: Event<'_>| {
         // A run does not stop where ways meet.
         left = left.saturating_sub(1);
@@ -61,7 +61,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
     }
     assert_eq!(ends[0], ends[1], "the resumed run ends differently");
 
-    damage(&mut document, dice);
+    damage(&mut document, choices);
     let Ok(damaged) = serde_json::from_value::<Snapshot>(document) else {
         return;
     };

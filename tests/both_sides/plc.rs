@@ -2,7 +2,6 @@
 //! which states are left, and which of them only if a variable changes where the PLC does not act by design.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Kind, State};
@@ -10,42 +9,21 @@ use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options};
 use frictcomp::machine::Machine;
 use frictcomp::text::SourceFile;
 
-use crate::{AXES, XorShift, count};
+use frictcomp_testing::generator::{
+    Choices, Condition, Form, NcProgram, Operand, Profile, Statement, Style, Variable,
+};
 
-/// Blocks in which the PLC acts by design.
-const ACTS: [&str; 8] = [
-    "M0",
-    "M1",
-    "M26",
-    "G04 0.5",
-    "#TIME 0.1",
-    "#FLUSH WAIT",
-    "#MSG ACK [\"WAIT\"]",
-    "S[M5]",
-];
-
-/// Values of a variable that tests tell apart.
-const VALUES: u64 = 3;
-
-enum Statement {
-    Set(usize, u64),
-    Act(usize),
-    WaitFor(usize, u64),
-    Loop(usize, u64),
-    If(usize, u64, [Vec<Statement>; 2]),
-    Switch(usize, Vec<Statement>),
-    Comp(usize, bool),
-}
+use crate::{AXES, count};
 
 /// What the walker knows of a variable.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Known {
     /// The program set it, or waited for it, and the PLC has not acted since.
-    Set(u64),
+    Set(usize),
     /// Only the machine knows it.
     Open,
     /// A condition tells its value on this way; without that it is open, or set.
-    Told(u64, Option<u64>),
+    Told(usize, Option<usize>),
 }
 
 /// One way through a program.
@@ -57,60 +35,8 @@ struct Walk {
     changed: bool,
 }
 
-fn statements(random: &mut XorShift, depth: u32) -> Vec<Statement> {
-    let count = 1 + random.roll(4);
-    (0..count).map(|_| statement(random, depth)).collect()
-}
-
-fn statement(random: &mut XorShift, depth: u32) -> Statement {
-    let variable = random.pick(2);
-    let value = random.roll(VALUES);
-    match random.roll(if depth == 0 { 5 } else { 9 }) {
-        0 | 1 => Statement::Set(variable, value),
-        2 => Statement::Act(random.pick(ACTS.len())),
-        3 | 4 => Statement::Comp(random.pick(3), random.roll(2) == 0),
-        5 => Statement::Loop(variable, value),
-        6 => Statement::WaitFor(variable, value),
-        7 => Statement::Switch(variable, statements(random, depth - 1)),
-        _ => {
-            let both = [0, 1].map(|_| statements(random, depth - 1));
-            Statement::If(variable, value, both)
-        }
-    }
-}
-
-fn write(statements: &[Statement], text: &mut String) {
-    for statement in statements {
-        let line = match statement {
-            Statement::Set(variable, value) => format!("V.E.W{variable} = {value}"),
-            Statement::Act(act) => ACTS[*act].to_owned(),
-            Statement::WaitFor(variable, value) => format!("#WAIT FOR V.E.W{variable} == {value}"),
-            Statement::Loop(variable, value) => {
-                format!("$WHILE V.E.W{variable} != {value}\n$ENDWHILE")
-            }
-            Statement::Comp(axis, on) => {
-                let word = if *on { "ON" } else { "OFF" };
-                format!("{}[COMP {word} FRICT]", AXES[*axis])
-            }
-            Statement::If(variable, value, [yes, no]) => {
-                let _ = writeln!(text, "$IF V.E.W{variable} == {value}");
-                write(yes, text);
-                let _ = writeln!(text, "$ELSE");
-                write(no, text);
-                "$ENDIF".to_owned()
-            }
-            Statement::Switch(variable, inner) => {
-                let _ = writeln!(text, "$SWITCH V.E.W{variable}\n$CASE 1");
-                write(inner, text);
-                "$ENDSWITCH".to_owned()
-            }
-        };
-        let _ = writeln!(text, "{line}");
-    }
-}
-
 /// The ways on which a variable has a value and those on which it has another.
-fn ask(walk: &Walk, variable: usize, value: u64) -> Vec<(Walk, bool)> {
+fn ask(walk: &Walk, variable: usize, value: usize) -> Vec<(Walk, bool)> {
     match walk.known[variable] {
         Known::Open => {
             let mut holds = walk.clone();
@@ -151,45 +77,62 @@ fn meet(walks: BTreeSet<Walk>) -> BTreeSet<Walk> {
     walks.into_iter().map(forget).collect()
 }
 
+/// The variable of the machine and the value that a condition compares it with.
+fn compared(condition: &Condition) -> (usize, usize) {
+    match condition {
+        Condition::Compare(Variable::Machine(variable), _, Operand::Number(value)) => {
+            (*variable, *value)
+        }
+        other => panic!("{other}"),
+    }
+}
+
+/// The ways on which a condition holds through some statements, the others through some more.
+fn both(way: &Walk, asked: (usize, usize), [yes, no]: [&[Statement]; 2]) -> BTreeSet<Walk> {
+    let sides = ask(way, asked.0, asked.1).into_iter();
+    let sides =
+        sides.flat_map(|(way, holds)| walk(if holds { yes } else { no }, BTreeSet::from([way])));
+    sides.collect()
+}
+
 fn walk(statements: &[Statement], walks: BTreeSet<Walk>) -> BTreeSet<Walk> {
     statements.iter().fold(walks, |walks, statement| {
-        let branches = matches!(statement, Statement::If(..) | Statement::Switch(..));
-        let after = walks.into_iter().flat_map(|mut way| match statement {
-            Statement::Set(variable, value) => {
-                way.known[*variable] = Known::Set(*value);
-                BTreeSet::from([way])
+        let branches = matches!(statement.form, Form::If(..) | Form::Switch(..));
+        let after = walks.into_iter().flat_map(|mut way| {
+            match &statement.form {
+                Form::Assign(Variable::Machine(variable), Operand::Number(value)) => {
+                    way.known[*variable] = Known::Set(*value);
+                }
+                // A block in which the PLC acts.
+                Form::Text(_) => way.known.fill(Known::Open),
+                Form::WaitFor(condition) => {
+                    let (variable, value) = compared(condition);
+                    way.known.fill(Known::Open);
+                    way.known[variable] = Known::Set(value);
+                }
+                Form::While(condition, _) => {
+                    let (variable, value) = compared(condition);
+                    way.known[variable] = Known::Told(value, None);
+                }
+                Form::Block(block) => {
+                    for command in &block.commands {
+                        way.on[command.axis] = command.is_on;
+                    }
+                }
+                Form::If(branches, otherwise) => {
+                    let [(condition, yes)] = branches.as_slice() else {
+                        panic!("one branch");
+                    };
+                    let no = otherwise.as_deref().unwrap_or_default();
+                    return both(&way, compared(condition), [yes, no]);
+                }
+                Form::Switch(Operand::Of(Variable::Machine(variable), 0), cases, None) => {
+                    let asked = (*variable, cases[0].number);
+                    return both(&way, asked, [&cases[0].body, &[]]);
+                }
+                other => panic!("{other:?}"),
             }
-            Statement::Act(_) => {
-                way.known.fill(Known::Open);
-                BTreeSet::from([way])
-            }
-            Statement::WaitFor(variable, value) => {
-                way.known.fill(Known::Open);
-                way.known[*variable] = Known::Set(*value);
-                BTreeSet::from([way])
-            }
-            Statement::Loop(variable, value) => {
-                way.known[*variable] = Known::Told(*value, None);
-                BTreeSet::from([way])
-            }
-            Statement::Comp(axis, on) => {
-                way.on[*axis] = *on;
-                BTreeSet::from([way])
-            }
-            Statement::If(variable, value, [yes, no]) => {
-                let sides = ask(&way, *variable, *value).into_iter();
-                let sides = sides.flat_map(|(way, holds)| {
-                    walk(if holds { yes } else { no }, BTreeSet::from([way]))
-                });
-                sides.collect()
-            }
-            Statement::Switch(variable, inner) => {
-                let sides = ask(&way, *variable, 1).into_iter();
-                let sides = sides.flat_map(|(way, holds)| {
-                    walk(if holds { inner } else { &[] }, BTreeSet::from([way]))
-                });
-                sides.collect()
-            }
+            BTreeSet::from([way])
         });
         let after = after.collect();
         if branches { meet(after) } else { after }
@@ -227,20 +170,15 @@ fn possible(text: &str) -> Vec<BTreeMap<&'static str, bool>> {
 
 /// Compares a random program; returns whether a run names a state that no way leaves.
 fn names_too_much(seed: u64) -> bool {
-    let mut random = XorShift(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-    for _ in 0..8 {
-        random.roll(2);
-    }
-    let program = statements(&mut random, 3);
-    let mut text = "%MAIN\n".to_owned();
-    write(&program, &mut text);
-    text.push_str("M30\n");
+    let mut program = NcProgram::choose(&Profile::SHARED, &mut Choices::of_seed(seed));
+    let text = program.write(Style::default());
+    let program = &program.body;
     let start = Walk {
         known: vec![Known::Open; 2],
         on: [true; 3],
         changed: false,
     };
-    let ends = walk(&program, BTreeSet::from([start]));
+    let ends = walk(program, BTreeSet::from([start]));
     let possible = possible(&text);
     for (axis, states) in possible.iter().enumerate() {
         for end in &ends {
@@ -257,7 +195,7 @@ fn names_too_much(seed: u64) -> bool {
             );
             let is_info = found == Some(&true);
             // A way that asks an open variable twice is one that needs a change, too (R14.1).
-            let is_certain = !end.changed && !asks_twice(&program);
+            let is_certain = !end.changed && !asks_twice(program);
             assert!(
                 !(is_info && is_certain),
                 "seed {seed}: {} may be {state} without a change\n{text}",
@@ -277,9 +215,11 @@ fn names_too_much(seed: u64) -> bool {
 /// Whether a program has more than one condition.
 fn asks_twice(program: &[Statement]) -> bool {
     fn asks(program: &[Statement]) -> usize {
-        let of = |statement: &Statement| match statement {
-            Statement::If(_, _, [yes, no]) => 1 + asks(yes) + asks(no),
-            Statement::Switch(_, inner) => 1 + asks(inner),
+        let of = |statement: &Statement| match &statement.form {
+            Form::If(branches, otherwise) => {
+                1 + asks(&branches[0].1) + otherwise.as_deref().map_or(0, asks)
+            }
+            Form::Switch(_, cases, _) => 1 + asks(&cases[0].body),
             _ => 0,
         };
         program.iter().map(of).sum()

@@ -4,6 +4,8 @@
 //! A [`Program`] is read as text, a [`Control`] turns it into commanded positions with ramps of its own and adds
 //! the current of a [`ValueList`], an [`Axis`] follows them in steps of 31.25 µs, and a [`Recorder`] writes what
 //! a recording would hold.
+//!
+//! The [`generator`] makes NC programs of any kind, for tests and fuzzers.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -11,6 +13,8 @@
     clippy::cast_sign_loss,
     reason = "rows, cycles and times of recordings that the tests make themselves"
 )]
+
+pub mod generator;
 
 mod axis;
 mod control;

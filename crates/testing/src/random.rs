@@ -12,13 +12,18 @@ impl Random {
         Self(seed)
     }
 
-    /// A number from 0 to 1, by the steps of splitmix64.
-    pub fn uniform(&mut self) -> f64 {
+    /// 64 random bits, by the steps of splitmix64.
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut bits = self.0;
         bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        bits ^ (bits >> 31)
+    }
+
+    /// A number from 0 to 1.
+    pub fn uniform(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// A number between two others.

@@ -13,8 +13,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use frictcomp_fuzz::{
-    Dice, Files, Theme, check_circle, check_growth, check_run, check_saved, check_snapshot,
-    numbered, program,
+    Choices, Files, Profile, check_circle, check_growth, check_run, check_saved, check_snapshot,
+    program,
 };
 
 /// Ways to run a program: policies, formats, as a whole or line by line.
@@ -22,7 +22,7 @@ const WAYS: u64 = 18;
 
 /// Decisions of the longest inputs: enough for a program of some kilobytes. The others have a
 /// half, a quarter or an eighth.
-const DECISIONS: usize = 220;
+const DECISIONS: usize = 260;
 
 /// The memory that an input may hold at a time, in bytes.
 const MOST_HELD: u64 = 32 << 20;
@@ -99,17 +99,16 @@ fn watched() -> Arc<AtomicU64> {
 }
 
 fn input(target: &str, number: u64, tally: &mut Tally) {
-    let bytes = numbered(number, DECISIONS >> (number / WAYS % 4));
-    let mut dice = Dice::new(&bytes);
-    let theme = if target == "growth" {
-        Theme::Growth
+    let mut choices = Choices::limited(number, DECISIONS >> (number / WAYS % 4));
+    let profile = if target == "growth" {
+        &Profile::GROWING
     } else {
-        Theme::Any
+        &Profile::HOSTILE
     };
     let text = if target == "circle" {
         String::new()
     } else {
-        program(&mut dice, theme)
+        program(profile, &mut choices)
     };
     let way = usize::try_from(number % WAYS).expect("a small number");
     let start = Instant::now();
@@ -119,8 +118,8 @@ fn input(target: &str, number: u64, tally: &mut Tally) {
             "run" => check_run(Files::new(&text), way),
             "saved" => check_saved(Files::new(&text), way),
             "growth" => check_growth(Files::new(&text), way),
-            "snapshot" => check_snapshot(Files::new(&text), &mut Dice::new(&numbered(!number, 64))),
-            _ => check_circle(&mut dice),
+            "snapshot" => check_snapshot(Files::new(&text), &mut Choices::of_seed(!number)),
+            _ => check_circle(&mut choices),
         };
         went_well = catch_unwind(AssertUnwindSafe(check)).is_ok();
     });

@@ -1,6 +1,8 @@
 //! The lints on use once more, implemented as literally as the rules state them, for comparison.
 
-use super::program::{AXES, Block, Command, KINDS, Program};
+use frictcomp_testing::generator::{CompBlock, CompSwitch};
+
+use super::program::{AXES, KINDS, Program};
 
 /// A message: program, executed block, line, code, axis.
 pub(crate) type Said = (usize, u64, u32, &'static str, &'static str);
@@ -60,8 +62,8 @@ impl Model {
             moved: [None; 4],
             said: Vec::new(),
         };
-        for (seq, block) in (1..).zip(&program.executed) {
-            run.block(seq, block);
+        for (seq, (line, block)) in (1..).zip(&program.executed) {
+            run.block((seq, *line), block);
         }
         run.end();
     }
@@ -81,8 +83,7 @@ impl Run<'_> {
         self.model.said.push(entry);
     }
 
-    fn block(&mut self, seq: u64, block: &Block) {
-        let at = (seq, block.line);
+    fn block(&mut self, at: (u64, u32), block: &CompBlock) {
         for (place, command) in block.commands.iter().enumerate() {
             self.command(at, (place, command), block);
         }
@@ -90,34 +91,40 @@ impl Run<'_> {
             if self.moved[axis].is_some() {
                 continue;
             }
-            self.moved[axis] = Some(seq);
+            self.moved[axis] = Some(at.0);
             let depends =
                 self.kinds[axis][0].first.is_none() && self.model.on[axis][0] != start_up(axis, 0);
-            if depends && !block.allows.contains(&"FC403") {
+            if depends && block.allows != Some("FC403") {
                 self.say(at, "FC403", axis);
             }
         }
     }
 
-    fn command(&mut self, at: (u64, u32), (place, command): (usize, &Command), block: &Block) {
+    fn command(
+        &mut self,
+        at: (u64, u32),
+        (place, command): (usize, &CompSwitch),
+        block: &CompBlock,
+    ) {
         let axis = command.axis;
-        let kinds: Vec<usize> = match command.kinds.as_slice() {
-            [] => (0..KINDS.len()).collect(),
-            kinds => kinds.to_vec(),
-        };
-        if command.on && kinds.contains(&0) && !has(axis, 0) {
+        let is_named = |kind: &usize| command.kinds.contains(&KINDS[*kind]);
+        let kinds: Vec<usize> = (0..KINDS.len())
+            .filter(|kind| command.kinds.is_empty() || is_named(kind))
+            .collect();
+        if command.is_on && kinds.contains(&0) && !has(axis, 0) {
             return;
         }
         let repeats = |kind: &usize| {
             let last = self.kinds[axis][*kind].last;
-            last.is_some_and(|last| last.on == command.on) || (!command.on && !has(axis, *kind))
+            last.is_some_and(|last| last.on == command.is_on)
+                || (!command.is_on && !has(axis, *kind))
         };
         // Kinds of the control that this model leaves out are configured nowhere.
         // The axis was believed to have friction compensation (R18.3).
-        let believed = !command.on && !has(axis, 0) && command.kinds.contains(&0);
+        let believed = !command.is_on && !has(axis, 0) && command.kinds.contains(&"FRICT");
         let useless = believed || (self.commanded[axis] && kinds.iter().all(repeats));
         let once = (at.1, "FC402", place, axis);
-        if useless && !block.allows.contains(&"FC402") && !self.said.contains(&once) {
+        if useless && block.allows != Some("FC402") && !self.said.contains(&once) {
             self.said.push(once);
             self.say(at, "FC402", axis);
         }
@@ -128,11 +135,11 @@ impl Run<'_> {
             entry.last = Some(Done {
                 seq: at.0,
                 line: at.1,
-                on: command.on,
-                allows: ["FC401", "FC407"].map(|code| block.allows.contains(&code)),
+                on: command.is_on,
+                allows: ["FC401", "FC407"].map(|code| block.allows == Some(code)),
             });
             if has(axis, kind) {
-                self.model.on[axis][kind] = command.on;
+                self.model.on[axis][kind] = command.is_on;
             }
         }
     }

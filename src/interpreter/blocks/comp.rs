@@ -1,5 +1,6 @@
 //! COMP commands and the messages about them (chapter 1).
 
+use super::reported::StopScope;
 use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
 };
@@ -8,6 +9,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::cause::Unknown;
 use crate::language::{ChainStep, HashCommand};
 use crate::machine::{Axis, AxisSet, Origin, Parameterisation};
 use crate::readings::Question;
@@ -158,10 +160,11 @@ impl Interpreter {
             "whether axis `{name}` is in an active coupling is not known offline; if it is, the \
              control refuses this command, and what the command switches is unknown"
         );
-        let fault = Fault::new(Code::Fc902, command.span, message)
-            .with_help("release all couplings first, with `#DISABLE AX LINK ALL`");
+        let fault =
+            Fault::new(Code::Fc902, command.span, message).with_help(Unknown::Coupling.advice());
         let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-        self.scratch.diagnostics.push(diagnostic);
+        self.say_before_parting(diagnostic);
+        self.perhaps_stop((Unknown::Coupling, StopScope::Block), command.span, at);
     }
 
     /// FC411: the control may refuse COMP while a transformation is active; which ones is not

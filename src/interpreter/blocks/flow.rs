@@ -354,10 +354,12 @@ impl Interpreter {
             Value::Number(number) => LabelName::numbered(*number),
             Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
             Value::Unknown(cause) => {
-                if self.note_jump(&Exit::AnyLabel, cause) {
+                self.perhaps_stop((Unknown::MissingLabel, StopScope::Block), span, at);
+                if !self.part_at_target(target, cause, span, at)
+                    && self.note_jump(&Exit::AnyLabel, cause)
+                {
                     self.doubt_jump("where this jump goes", cause, span, at);
                 }
-                self.perhaps_stop((Unknown::MissingLabel, StopScope::Block), span, at);
                 return Ok(None);
             }
         };

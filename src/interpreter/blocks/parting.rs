@@ -7,7 +7,7 @@ use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::unit::Parsed;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
-use crate::interpreter::run::condition::ConditionKind;
+use crate::interpreter::run::condition::{ConditionKind, MAX_ANSWERS};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -161,6 +161,54 @@ impl Interpreter {
     pub(in crate::interpreter) fn jumps_back(&mut self, at: &BlockContext<'_>) -> bool {
         let next = self.state.control.frames.running().map_or(0, |it| it.next);
         self.only_jump(at).is_some_and(|(to, _)| to < next)
+    }
+
+    /// The run parts where a jump computes its target: one way for each label that it may mean.
+    pub(in crate::interpreter) fn part_at_target(
+        &mut self,
+        target: &BlockReference,
+        cause: &Unknown,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> bool {
+        let expression = match *target {
+            BlockReference::Number(Operand::Expression(number)) => number,
+            BlockReference::Variable(variable) => variable,
+            BlockReference::Number(Operand::Number(_)) | BlockReference::Label(_) => return false,
+        };
+        let Some(frame) = self.state.control.frames.running() else {
+            return false;
+        };
+        let index = self.programs.index(frame.unit);
+        let Some(mut labels) = index.few_labels(frame.section, MAX_ANSWERS) else {
+            return false;
+        };
+        if matches!(target, BlockReference::Number(_)) {
+            labels.retain(|(name, _)| matches!(name, LabelName::Number(_)));
+        }
+        let (subject, place) = text_of(at.block, at.text, expression);
+        let goals = labels
+            .iter()
+            .map(|(_, entry)| Goal::block(*entry))
+            .collect();
+        labels.pop();
+        let texts: Vec<Arc<str>> = labels
+            .iter()
+            .map(|(name, _)| match name {
+                LabelName::Number(number) => format!("{subject} == {number}").into(),
+                LabelName::Text(text) => format!("{subject} == \"{text}\"").into(),
+            })
+            .collect();
+        let asking = reads(at.block, at.text, expression, &self.externals);
+        let question = MachineQuestion {
+            kind: ConditionKind::Jump,
+            span: if place.end > place.start { place } else { span },
+            cause: cause.clone(),
+            reads: asking.map(|asking| asking.about(ConditionSubject::Cases(texts.clone()))),
+            texts,
+            kept: None,
+        };
+        self.part(question, goals, at)
     }
 
     /// The run parts where a probe answers, or does not (R2.91).

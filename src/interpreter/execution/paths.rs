@@ -244,6 +244,12 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
             "whether this jump is taken depends on {}",
             cause.seen_from(&condition.place.file)
         ),
+        ConditionKind::Jump => {
+            format!(
+                "where this jump goes depends on {}",
+                cause.seen_from(&condition.place.file)
+            )
+        }
         ConditionKind::Call(_) => {
             format!(
                 "what this call leaves depends on {}",

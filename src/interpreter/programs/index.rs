@@ -256,6 +256,19 @@ impl Index {
         self.labels.get(&(section, label)).copied()
     }
 
+    /// The jump labels of a section in the order of the text; `None` where there are more than a number of them.
+    pub(in crate::interpreter) fn few_labels(
+        &self,
+        section: usize,
+        most: usize,
+    ) -> Option<Vec<(&LabelName, EntryIndex)>> {
+        let labels = self.labels.iter().filter(|((of, _), _)| *of == section);
+        let labels = labels.map(|((_, name), entry)| (name, *entry));
+        let mut labels: Vec<_> = labels.take(most + 1).collect();
+        labels.sort_unstable_by_key(|(name, entry)| (*entry, name.to_string()));
+        (labels.len() <= most).then_some(labels)
+    }
+
     /// The blocks of a section that have jump labels.
     pub(in crate::interpreter) fn labels(
         &self,

@@ -235,6 +235,6 @@ pub(in crate::interpreter) fn clash<'a>(
 pub(in crate::interpreter) fn is_compared(kind: ConditionKind) -> bool {
     matches!(
         kind,
-        ConditionKind::Branch | ConditionKind::Case | ConditionKind::Skip(_)
+        ConditionKind::Branch | ConditionKind::Case | ConditionKind::Jump | ConditionKind::Skip(_)
     )
 }

@@ -20,6 +20,8 @@ pub(in crate::interpreter) enum ConditionKind {
     Branch,
     /// `$SWITCH`.
     Case,
+    /// The target of a jump.
+    Jump,
     /// Whether a loop is repeated.
     Loop,
     /// A skip level.

@@ -340,7 +340,7 @@ fn condition_of(
     };
     match condition.kind {
         ConditionKind::Branch => WayCondition::Condition(asked),
-        ConditionKind::Case => WayCondition::Case(asked),
+        ConditionKind::Case | ConditionKind::Jump => WayCondition::Case(asked),
         ConditionKind::Loop => WayCondition::Loop(asked),
         ConditionKind::Probe => WayCondition::Probe(asked),
         ConditionKind::Call(compensation) => {

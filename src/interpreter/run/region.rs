@@ -117,6 +117,18 @@ impl Region {
         }
     }
 
+    /// Whether it could define a coupling.
+    pub(in crate::interpreter) fn couples(&self) -> bool {
+        let mut effects = self.effects.iter();
+        effects.any(|effect| matches!(effect, RegionEffect::Coupling(_)))
+    }
+
+    /// Whether it could switch a compensation.
+    pub(in crate::interpreter) fn switches(&self) -> bool {
+        let mut effects = self.effects.iter();
+        effects.any(|effect| matches!(effect, RegionEffect::Compensation(..)))
+    }
+
     /// Whether it could move an axis.
     pub(in crate::interpreter) fn moves(&self) -> bool {
         let moves = |effect: &RegionEffect| {

@@ -46,7 +46,8 @@ impl Interpreter {
 
     /// The way that a refused command of a region ends; what is refused is reported at its block.
     fn note_refusal(&mut self, region: &Region, cause: &Unknown) {
-        if region.is_refused {
+        let is_coupled = self.state.control.couplings.len() > 0 || region.couples();
+        if region.is_refused || (is_coupled && region.switches()) {
             self.note_stop(cause);
         }
     }

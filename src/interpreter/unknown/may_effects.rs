@@ -247,7 +247,11 @@ impl MayEffects<'_> {
             Flow::Goto(BlockReference::Number(Operand::Number(number))) => {
                 self.exit(Exit::Label(LabelName::numbered(*number)));
             }
-            Flow::Goto(_) => self.exit(Exit::AnyLabel),
+            Flow::Goto(_) => {
+                // There may be no such label.
+                self.region.refuse_if(true, self.place);
+                self.exit(Exit::AnyLabel);
+            }
             Flow::Break if index.is_linked(entry) => {
                 self.exit(Exit::Block(index.links(entry).end + 1));
             }

@@ -33,6 +33,9 @@ pub enum Unknown {
     /// The reaction of the control to a feed move without a feed, error 20008 (R2.110).
     #[serde(rename = "error 20008")]
     MissingFeed,
+    /// A coupling that may be active, in which the control refuses COMP, error 21403 (R1.9).
+    #[serde(rename = "error 21403")]
+    Coupling,
     /// The number of passes of a loop (R14.3).
     #[serde(rename = "a loop that is repeated")]
     Passes,
@@ -144,7 +147,9 @@ impl Unknown {
             Self::Program(word) => format!("the program of `{word}`, which is missing"),
             Self::Changed(changed) => changed.seen_from(file),
             Self::RemedyClass => format!("what the control does at `{self}`"),
-            Self::MissingLabel | Self::MissingFeed => format!("what the control does at {self}"),
+            Self::MissingLabel | Self::MissingFeed | Self::Coupling => {
+                format!("what the control does at {self}")
+            }
             Self::Passes => "how often a loop is repeated".to_owned(),
             Self::Search => "whether the block search executes what it passes".to_owned(),
             Self::Cycle(name) => format!("whether the modal cycle `{name}` is in force"),
@@ -172,6 +177,7 @@ impl Unknown {
             Self::RemedyClass => "`RC=0` lets the program go on, `RC=2` stops it".into(),
             Self::MissingLabel => "write the label that the jump looks for".into(),
             Self::MissingFeed => "write a feed before the first feed move".into(),
+            Self::Coupling => "release all couplings first, with `#DISABLE AX LINK ALL`".into(),
             Self::Passes => "give the values that decide how often the loop is repeated".into(),
             Self::Ways => Advice::RaiseBudget(Budget::Ways),
             Self::Work => Advice::RaiseBudget(Budget::Work),
@@ -223,6 +229,7 @@ impl fmt::Display for Unknown {
             Self::RemedyClass => f.write_str("#ERROR"),
             Self::MissingLabel => f.write_str("a missing jump label"),
             Self::MissingFeed => f.write_str("error 20008"),
+            Self::Coupling => f.write_str("error 21403"),
             Self::Passes => f.write_str("a loop that is repeated"),
             Self::Ways => f.write_str("ways that are not followed"),
             Self::Work => f.write_str("the budget of work"),

@@ -36,13 +36,13 @@ pub(super) fn list() -> FrictionList {
 }
 
 fn band(from: f64, to: f64, state: BandState) -> Band {
-    let standing = match state {
+    let relation = match state {
         BandState::One(state) => StartUpRelation::of(state, State::Active),
         BandState::Changing => StartUpRelation::StartUp,
         other => panic!("{other:?}"),
     };
     Band {
-        standing,
+        relation,
         from,
         to,
         state,

@@ -95,7 +95,7 @@ impl Trail {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum OutputText {
     /// A message about the program.
-    Message(Diagnostic),
+    Message(Box<Diagnostic>),
     /// The text of a log point.
     Log {
         file: Arc<str>,
@@ -554,7 +554,9 @@ pub(super) fn unknown_names(block: &Executed<'_>) -> BTreeSet<String> {
 }
 
 fn messages(said: &[Diagnostic]) -> impl Iterator<Item = OutputText> {
-    said.iter().cloned().map(OutputText::Message)
+    said.iter()
+        .cloned()
+        .map(|said| OutputText::Message(Box::new(said)))
 }
 
 /// A message in one line: `P-ERR-70495: ...`.

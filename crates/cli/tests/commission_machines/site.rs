@@ -87,6 +87,17 @@ impl Site {
         site
     }
 
+    /// The same machine with a copy of the folder.
+    pub(crate) fn copied(&self) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        copy_folder(self.path(), folder.path());
+        Self {
+            folder,
+            machine: self.machine.clone(),
+            ..*self
+        }
+    }
+
     pub(crate) fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -368,4 +379,17 @@ pub(crate) fn said(output: &Output) -> String {
     let bytes = [&output.stdout[..], &output.stderr[..]].concat();
     let text = String::from_utf8_lossy(&bytes).into_owned();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn copy_folder(from: &Path, to: &Path) {
+    for entry in std::fs::read_dir(from).expect("a folder") {
+        let entry = entry.expect("an entry");
+        let copy = to.join(entry.file_name());
+        if entry.file_type().expect("a type").is_dir() {
+            std::fs::create_dir(&copy).expect("a folder");
+            copy_folder(&entry.path(), &copy);
+        } else {
+            std::fs::copy(entry.path(), copy).expect("a copy");
+        }
+    }
 }

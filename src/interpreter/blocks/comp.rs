@@ -150,7 +150,7 @@ impl Interpreter {
         }
     }
 
-    /// FC902: an axis that may be in a coupling, and COMP be refused (R1.9, R2.51).
+    /// FC902: an axis that may be in a coupling, and COMP be refused (TF5200 Diagnostics, ID 21403; R2.52).
     fn warn_coupled(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         if self.state.control.compensation.coupling(axis) != Coupling::Perhaps {
             return;

@@ -33,7 +33,7 @@ pub enum Unknown {
     /// The reaction of the control to a feed move without a feed, error 20008 (R2.110).
     #[serde(rename = "error 20008")]
     MissingFeed,
-    /// A coupling that may be active, in which the control refuses COMP, error 21403 (R1.9).
+    /// A coupling that may be active, in which the control refuses COMP (TF5200 Diagnostics, ID 21403).
     #[serde(rename = "error 21403")]
     Coupling,
     /// The number of passes of a loop (R14.3).

@@ -263,7 +263,7 @@ pub(crate) enum AxisOfVariable<'a> {
 }
 
 impl Subscripts {
-    /// The numbers of an element; `None` where a step is none.
+    /// The numbers that lead to an element; `None` where a step is a word or a field.
     pub(crate) fn numbers(&self) -> Option<Vec<i64>> {
         let number = |step: &Subscript| match step {
             Subscript::Number(number) => Some(*number),

@@ -23,6 +23,7 @@ use crate::interpreter::values::plain::{
     variable,
 };
 use crate::interpreter::values::value::{Value, same_case};
+use crate::interpreter::values::work_budget::ITEM;
 use crate::readings::Question as Open;
 use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
 use crate::syntax::{Fault, VariableFamily};
@@ -183,6 +184,7 @@ impl Interpreter {
         let Some(mut labels) = index.few_labels(frame.section, MAX_ANSWERS) else {
             return false;
         };
+        self.state.work.charge_region(ITEM * labels.len());
         if matches!(target, BlockReference::Number(_)) {
             labels.retain(|(name, _)| matches!(name, LabelName::Number(_)));
         }

@@ -15,7 +15,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Returns the program that a call statement names; `None` where the name is not known offline (R2.52).
-    pub(in crate::interpreter) fn wanted(
+    pub(crate) fn wanted(
         &mut self,
         call: &Call,
         at: &BlockContext<'_>,
@@ -58,7 +58,7 @@ impl Interpreter {
     }
 
     /// The name of a called program.
-    pub(in crate::interpreter) fn called_name(
+    pub(crate) fn called_name(
         &mut self,
         name: CallName,
         at: &BlockContext<'_>,

@@ -17,11 +17,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// A command in the bracket of an axis.
-    pub(in crate::interpreter) fn move_by_bracket(
-        &mut self,
-        bracket: AxisBracket<'_>,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn move_by_bracket(&mut self, bracket: AxisBracket<'_>, at: &BlockContext<'_>) {
         let Some(axis) = self.axis_named(bracket.name) else {
             return;
         };
@@ -47,7 +43,7 @@ impl Interpreter {
     }
 
     /// A `#` command that moves axes at once.
-    pub(in crate::interpreter) fn command_motion(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+    pub(crate) fn command_motion(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let row = hash.command.motion;
         let Some(row) = row.filter(|row| row.moves == Moves::NamedOrAll) else {
             return;
@@ -70,11 +66,7 @@ impl Interpreter {
 
     /// `#ROTATION ON [ANGLE=30]`: whether a motion along one axis of the plane certainly moves the other
     /// one, too.
-    pub(in crate::interpreter) fn rotate(
-        &mut self,
-        arguments: &BracketArguments,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn rotate(&mut self, arguments: &BracketArguments, at: &BlockContext<'_>) {
         let angle = arguments.after("ANGLE", at.text);
         let angle = angle.and_then(|angle| self.argument_number(angle, at));
         self.state.control.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
@@ -82,7 +74,7 @@ impl Interpreter {
 
     /// Notes the axes that move along with those that the block moves.
     #[inline]
-    pub(in crate::interpreter) fn carry_along(&mut self, words: AxisWords) {
+    pub(crate) fn carry_along(&mut self, words: AxisWords) {
         let carries = self.state.control.couplings.carry()
             || !self.state.control.modal.transformed.is_empty()
             || self.scratch.word_row.is_some();
@@ -141,7 +133,7 @@ impl Interpreter {
     }
 
     /// The axes of the active plane; all main axes where it is not known.
-    pub(in crate::interpreter) fn plane_axes(&self) -> Vec<AxisIndex> {
+    pub(crate) fn plane_axes(&self) -> Vec<AxisIndex> {
         match [self.main_axis(b'X'), self.main_axis(b'Y')] {
             [Some(first), Some(second)] => vec![first, second],
             _ => self.main_axes(),
@@ -210,7 +202,7 @@ impl Interpreter {
     }
 
     /// Axes that follow what the block moves.
-    pub(in crate::interpreter) fn move_followers(&mut self, words: AxisWords) {
+    pub(crate) fn move_followers(&mut self, words: AxisWords) {
         if !self.state.control.couplings.carry() {
             return;
         }

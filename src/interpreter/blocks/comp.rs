@@ -17,7 +17,7 @@ use crate::syntax::{Fault, is_axis_name};
 use crate::text::Span;
 
 impl Interpreter {
-    pub(in crate::interpreter) fn comp(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
+    pub(crate) fn comp(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let before = self.scratch.changes.len();
         let axis = match self.state.control.addressed(&command.axis) {
             Ok(Addressed::Axis(axis)) => Ok(axis),

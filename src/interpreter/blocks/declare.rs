@@ -12,11 +12,7 @@ use crate::syntax::ast::{Declaration, Hash, Operand};
 use crate::syntax::{Fault, Subscript, VariableFamily, VariableName};
 
 impl Interpreter {
-    pub(in crate::interpreter) fn delete(
-        &mut self,
-        hash: &Hash,
-        at: &BlockContext<'_>,
-    ) -> Result<(), Box<Fault>> {
+    pub(crate) fn delete(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         for argument in &hash.arguments {
             let Operand::Expression(place) = *argument else {
                 continue;
@@ -39,7 +35,7 @@ impl Interpreter {
         Ok(())
     }
 
-    pub(in crate::interpreter) fn declare(
+    pub(crate) fn declare(
         &mut self,
         declarations: &[Declaration],
         at: &BlockContext<'_>,

@@ -21,11 +21,7 @@ const PLC: &str = "unless the PLC gives the feed";
 impl Interpreter {
     /// Looks for a feed move that has no feed, or the feed 0, and for a negative feed.
     #[inline]
-    pub(in crate::interpreter) fn check_feed(
-        &mut self,
-        outcome: &BlockOutcome,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn check_feed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
         match outcome.feed {
             Feed::Absent if self.state.control.modal.functions.may_lack_feed() => {
                 self.move_without_feed(outcome, at);
@@ -130,7 +126,7 @@ impl Interpreter {
     /// Whether a block that comes next, or a program that it calls, may be a feed move without a feed: what the control
     /// does then depends on how the text ends.
     #[inline]
-    pub(in crate::interpreter) fn may_begin_without_feed(&self, block: &Block) -> bool {
+    pub(crate) fn may_begin_without_feed(&self, block: &Block) -> bool {
         self.state.control.modal.functions.has_no_feed() && self.may_move_or_call(block)
     }
 

@@ -34,7 +34,7 @@ struct Count {
 
 impl Interpreter {
     /// The condition of `$IF c $GOTO …`; `None` for any other statement.
-    pub(in crate::interpreter) fn one_line_condition(
+    pub(crate) fn one_line_condition(
         &mut self,
         flow: &Flow,
         span: Span,
@@ -67,7 +67,7 @@ impl Interpreter {
     }
 
     /// Executes a `$` statement.
-    pub(in crate::interpreter) fn flow(
+    pub(crate) fn flow(
         &mut self,
         flow: &Flow,
         span: Span,
@@ -390,12 +390,7 @@ impl Interpreter {
     }
 
     /// A jump that may be taken (R2.91): the dry run continues after it.
-    pub(in crate::interpreter) fn leave_jump(
-        &mut self,
-        cause: &Unknown,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn leave_jump(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
         if self.pass_jump(cause, span, at) {
             self.doubt_jump("whether this jump is taken", cause, span, at);
         }
@@ -403,12 +398,7 @@ impl Interpreter {
 
     /// Passes over the jump at a place of a block, or over those of the `$IF` there, up to the next one;
     /// they may be taken. Returns whether anything differs if they are.
-    pub(in crate::interpreter) fn pass_jump(
-        &mut self,
-        cause: &Unknown,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) -> bool {
+    pub(crate) fn pass_jump(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) -> bool {
         let items = &at.block.items;
         let first = items.partition_point(|item| item.span().start < span.start);
         let mut differs = false;
@@ -428,7 +418,7 @@ impl Interpreter {
     }
 
     /// Passes over the blocks that a statement whose operands cannot be computed decides on.
-    pub(in crate::interpreter) fn undecided(
+    pub(crate) fn undecided(
         &mut self,
         flow: &Flow,
         cause: &Unknown,

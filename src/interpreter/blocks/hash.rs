@@ -20,7 +20,7 @@ use crate::text::Span;
 const MAX_NAMED: usize = 8;
 
 impl Interpreter {
-    pub(in crate::interpreter) fn hash(
+    pub(crate) fn hash(
         &mut self,
         hash: &Hash,
         at: &BlockContext<'_>,

@@ -20,7 +20,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// An M, T or D word. A number that is not known offline may be any number.
-    pub(in crate::interpreter) fn function_word(
+    pub(crate) fn function_word(
         &mut self,
         word: FunctionWord,
         span: Span,
@@ -76,7 +76,7 @@ impl Interpreter {
     }
 
     /// A G function outside the groups: whether it calls a program.
-    pub(in crate::interpreter) fn g_program(
+    pub(crate) fn g_program(
         &mut self,
         number: u32,
         span: Span,
@@ -108,7 +108,7 @@ impl Interpreter {
         false
     }
 
-    pub(in crate::interpreter) fn g_call(
+    pub(crate) fn g_call(
         &mut self,
         call: &GCall,
         at: &BlockContext<'_>,
@@ -171,7 +171,7 @@ impl Interpreter {
     }
 
     /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
-    pub(in crate::interpreter) fn name_programs(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+    pub(crate) fn name_programs(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         for (word, name) in file_names(hash, at.text) {
             let value = match name {
                 FileName::Written(name) => Value::Text(name.into()),

@@ -20,11 +20,11 @@ use crate::syntax::{FastPath, Fault, hash_name};
 use crate::text::Span;
 
 /// Messages about one block that are reported one by one (R2.85).
-pub(in crate::interpreter) const MAX_SAID: usize = 1000;
+pub(crate) const MAX_SAID: usize = 1000;
 
 impl Interpreter {
     /// Returns the first place of the block that the control would refuse; nothing to its right is executed there.
-    pub(in crate::interpreter) fn first_refusal(&self, block: &Block) -> Option<u32> {
+    pub(crate) fn first_refusal(&self, block: &Block) -> Option<u32> {
         if self.options.stop == StopPolicy::KeepGoing {
             return None;
         }
@@ -36,7 +36,7 @@ impl Interpreter {
     }
 
     /// Adds the faults of the text, up to the first error if that stops the program.
-    pub(in crate::interpreter) fn take_faults(&mut self, at: &BlockContext<'_>, stopped: bool) {
+    pub(crate) fn take_faults(&mut self, at: &BlockContext<'_>, stopped: bool) {
         let error = |diagnostic: &&Diagnostic| stops(diagnostic);
         let executed = self
             .scratch
@@ -64,7 +64,7 @@ impl Interpreter {
         }
     }
 
-    pub(in crate::interpreter) fn items(
+    pub(crate) fn items(
         &mut self,
         at: &BlockContext<'_>,
         outcome: &mut BlockOutcome,
@@ -126,7 +126,7 @@ impl Interpreter {
     }
 
     /// Reports the number of messages about a block that are left out.
-    pub(in crate::interpreter) fn say_unsaid(&mut self, at: &BlockContext<'_>) {
+    pub(crate) fn say_unsaid(&mut self, at: &BlockContext<'_>) {
         if let Some((span, more)) = self.scratch.unsaid.take() {
             let message = format!(
                 "the first {MAX_SAID} messages about this block are shown; there are {more} more"
@@ -138,12 +138,12 @@ impl Interpreter {
 
     /// Whether the control stops at a message about the block.
     #[inline]
-    pub(in crate::interpreter) fn is_halted(&self) -> bool {
+    pub(crate) fn is_halted(&self) -> bool {
         self.options.stop == StopPolicy::FirstError && self.scratch.diagnostics.iter().any(stops)
     }
 
     #[inline(never)]
-    pub(in crate::interpreter) fn item(
+    pub(crate) fn item(
         &mut self,
         item: &Item,
         at: &BlockContext<'_>,
@@ -324,7 +324,7 @@ impl Interpreter {
         self.check_sharing(&code, span, at)
     }
 
-    pub(in crate::interpreter) fn block_number(&mut self, at: &BlockContext<'_>) -> Option<i64> {
+    pub(crate) fn block_number(&mut self, at: &BlockContext<'_>) -> Option<i64> {
         let number = at.block.number.as_ref()?;
         let value = match &number.value {
             Operand::Number(number) => return rounded(*number),
@@ -342,7 +342,7 @@ impl Interpreter {
 
 impl BlockScratch {
     #[cold]
-    pub(in crate::interpreter) fn complain(&mut self, fault: Fault, at: &BlockContext<'_>) {
+    pub(crate) fn complain(&mut self, fault: Fault, at: &BlockContext<'_>) {
         if self.diagnostics.len() < MAX_SAID || !self.diagnostics.iter().any(stops) {
             self.diagnostics.push(at.diagnostic(fault));
         } else {

@@ -11,7 +11,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Reports what shares the block with a macro and must not, or perhaps not.
-    pub(in crate::interpreter) fn check_sharing(
+    pub(crate) fn check_sharing(
         &mut self,
         code: &MacroCode<'_>,
         span: Span,
@@ -47,7 +47,7 @@ impl Interpreter {
     }
 
     /// A macro with unknown code, which may do anything (R2.51).
-    pub(in crate::interpreter) fn lost_macro(
+    pub(crate) fn lost_macro(
         &mut self,
         span: Span,
         name: &str,

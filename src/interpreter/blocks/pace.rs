@@ -18,19 +18,19 @@ const RAPID: &str = "RAPID_FACT";
 
 /// A command in the bracket of an axis or spindle.
 #[derive(Clone, Copy)]
-pub(in crate::interpreter) struct AxisBracket<'a> {
+pub(crate) struct AxisBracket<'a> {
     /// The name before the bracket.
-    pub(in crate::interpreter) name: &'a str,
-    pub(in crate::interpreter) command: AxisCommand,
-    pub(in crate::interpreter) arguments: &'a BracketArguments,
-    pub(in crate::interpreter) spindle: &'a [SpindleWord],
+    pub(crate) name: &'a str,
+    pub(crate) command: AxisCommand,
+    pub(crate) arguments: &'a BracketArguments,
+    pub(crate) spindle: &'a [SpindleWord],
     /// The whole of it.
-    pub(in crate::interpreter) span: Span,
+    pub(crate) span: Span,
 }
 
 impl Interpreter {
     /// Notes a command that a commanded trace does not follow in full.
-    pub(in crate::interpreter) fn simplify(&mut self, what: Simplification, holds: Holds) {
+    pub(crate) fn simplify(&mut self, what: Simplification, holds: Holds) {
         if holds == Holds::Once {
             let geometry = self.scratch.geometry();
             geometry.simplified = geometry.simplified.union(what.into());
@@ -40,11 +40,7 @@ impl Interpreter {
     }
 
     /// `G163=50`: the radius of circles, as R (R2.45). Returns whether there is a value.
-    pub(in crate::interpreter) fn radius_word(
-        &mut self,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) -> bool {
+    pub(crate) fn radius_word(&mut self, span: Span, at: &BlockContext<'_>) -> bool {
         let Some(value) = at.block.second_value(span) else {
             return false;
         };
@@ -54,7 +50,7 @@ impl Interpreter {
     }
 
     /// `G129=70` (PM/206578955)
-    pub(in crate::interpreter) fn weigh_rapid(&mut self, span: Span, at: &BlockContext<'_>) {
+    pub(crate) fn weigh_rapid(&mut self, span: Span, at: &BlockContext<'_>) {
         let value = at.block.second_value(span);
         let percent = value.and_then(|value| self.operand_number(value, at));
         let weight = percent.filter(|it| *it > 0.0).map(|it| it / 100.0);
@@ -62,7 +58,7 @@ impl Interpreter {
     }
 
     /// Applies a `#` command that changes the velocity of paths.
-    pub(in crate::interpreter) fn pace_command(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+    pub(crate) fn pace_command(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let (command, arguments) = (hash.command, &hash.brackets);
         match command.action {
             HashAction::Override => {
@@ -92,11 +88,7 @@ impl Interpreter {
     }
 
     /// A command in the bracket of an axis or spindle, `X[OVERRIDE FEED_FACT=20]`, `S[REV1200 M3]`.
-    pub(in crate::interpreter) fn bracket(
-        &mut self,
-        bracket: AxisBracket<'_>,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn bracket(&mut self, bracket: AxisBracket<'_>, at: &BlockContext<'_>) {
         let AxisBracket { name, command, .. } = bracket;
         let axis = self.axis_named(name);
         if name.starts_with('S') && axis.is_none() {

@@ -31,7 +31,7 @@ use crate::text::{Place, Span};
 
 impl Interpreter {
     /// The run parts at a condition: where it holds and where it does not. Whether it can.
-    pub(in crate::interpreter) fn part_at(
+    pub(crate) fn part_at(
         &mut self,
         condition: Operand,
         doubt: &Doubt,
@@ -125,7 +125,7 @@ impl Interpreter {
     }
 
     /// The same where a counter decides.
-    pub(in crate::interpreter) fn part_at_count(
+    pub(crate) fn part_at_count(
         &mut self,
         cause: &Unknown,
         span: Span,
@@ -144,7 +144,7 @@ impl Interpreter {
     }
 
     /// The run parts at `$IF … $GOTO`.
-    pub(in crate::interpreter) fn part_at_jump(
+    pub(crate) fn part_at_jump(
         &mut self,
         condition: Operand,
         doubt: &Doubt,
@@ -159,13 +159,13 @@ impl Interpreter {
     }
 
     /// Whether the one jump of a block goes back, so that its condition is that of a loop.
-    pub(in crate::interpreter) fn jumps_back(&mut self, at: &BlockContext<'_>) -> bool {
+    pub(crate) fn jumps_back(&mut self, at: &BlockContext<'_>) -> bool {
         let next = self.state.control.frames.running().map_or(0, |it| it.next);
         self.only_jump(at).is_some_and(|(to, _)| to < next)
     }
 
     /// The run parts where a jump computes its target: one way for each label that it may mean.
-    pub(in crate::interpreter) fn part_at_target(
+    pub(crate) fn part_at_target(
         &mut self,
         target: &BlockReference,
         cause: &Unknown,
@@ -214,7 +214,7 @@ impl Interpreter {
     }
 
     /// The run parts where a probe answers, or does not (R2.91).
-    pub(in crate::interpreter) fn part_at_probe(&mut self, at: &BlockContext<'_>) -> bool {
+    pub(crate) fn part_at_probe(&mut self, at: &BlockContext<'_>) -> bool {
         let Some((to, span)) = self.only_jump(at) else {
             return false;
         };
@@ -257,7 +257,7 @@ impl Interpreter {
     }
 
     /// Parts the run at a `$SWITCH`: one way for each case, and one for everything else.
-    pub(in crate::interpreter) fn part_at_cases(
+    pub(crate) fn part_at_cases(
         &mut self,
         operand: Operand,
         doubt: &Doubt,
@@ -344,7 +344,7 @@ impl Interpreter {
     /// Parts the run before a block with a skip mark: one way executes the adjacent blocks of the level,
     /// the other passes over them (R2.90). Returns whether it can.
     #[cold]
-    pub(in crate::interpreter) fn part_by_skip(&mut self, level: u8, parsed: &Parsed) -> bool {
+    pub(crate) fn part_by_skip(&mut self, level: u8, parsed: &Parsed) -> bool {
         let Some(frame) = self.state.control.frames.running() else {
             return false;
         };
@@ -421,7 +421,7 @@ impl Interpreter {
     }
 
     /// Returns the target of a jump that is not taken.
-    pub(in crate::interpreter) fn exit(
+    pub(crate) fn exit(
         &mut self,
         target: &BlockReference,
         at: &BlockContext<'_>,
@@ -439,7 +439,7 @@ impl Interpreter {
     }
 
     /// Notes the level as a value of the machine.
-    pub(in crate::interpreter) fn note_unknown(&mut self, cause: &Unknown, at: &BlockContext<'_>) {
+    pub(crate) fn note_unknown(&mut self, cause: &Unknown, at: &BlockContext<'_>) {
         if self.options.notes == Notes::Taken {
             let note = Note {
                 kind: NoteKind::Unknown,

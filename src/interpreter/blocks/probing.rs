@@ -8,11 +8,7 @@ use crate::syntax::ast::{Address, Item};
 
 impl Interpreter {
     /// Whether the jump of a block waits for the signal of a probe (R2.91).
-    pub(in crate::interpreter) fn jump_is_probed(
-        &mut self,
-        outcome: &BlockOutcome,
-        at: &BlockContext<'_>,
-    ) -> bool {
+    pub(crate) fn jump_is_probed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) -> bool {
         if outcome.probes {
             return true;
         }

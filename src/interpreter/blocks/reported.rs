@@ -37,7 +37,7 @@ enum RemedyClass {
 
 /// The blocks to which it applies whether an error ends the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum StopScope {
+pub(crate) enum StopScope {
     /// This block; each other one asks anew.
     Block,
     /// This block and all later ones.
@@ -46,7 +46,7 @@ pub(in crate::interpreter) enum StopScope {
 
 impl Interpreter {
     /// The program reports an error of its own. With the class 0 it goes on.
-    pub(in crate::interpreter) fn report_error(
+    pub(crate) fn report_error(
         &mut self,
         hash: &Hash,
         at: &BlockContext<'_>,
@@ -118,7 +118,7 @@ impl Interpreter {
     }
 
     /// Reports a message about all ways that lead to a block after which they part.
-    pub(in crate::interpreter) fn say_before_parting(&mut self, mut said: Diagnostic) {
+    pub(crate) fn say_before_parting(&mut self, mut said: Diagnostic) {
         let reach = &self.state.track.reach;
         if !reach.is_always() {
             limit_to(&mut said, &ways_of(reach, &self.state.conditions));
@@ -150,7 +150,7 @@ impl Interpreter {
 
     /// An error ends the program at the block, or it goes on, which only the machine knows: both ways are followed.
     /// Where they cannot be, it goes on.
-    pub(in crate::interpreter) fn perhaps_stop(
+    pub(crate) fn perhaps_stop(
         &mut self,
         (error, scope): (Unknown, StopScope),
         span: Span,
@@ -173,7 +173,7 @@ impl Interpreter {
 
     /// The program ends here on some ways that lead to the block, and goes on on the others; where they cannot be told
     /// apart, it may end (R2.52). Returns whether it ends on all ways.
-    pub(in crate::interpreter) fn perhaps_end(
+    pub(crate) fn perhaps_end(
         &mut self,
         ways: Option<[WaySet; 2]>,
         after: AfterError,

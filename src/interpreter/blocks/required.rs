@@ -54,7 +54,7 @@ impl Interpreter {
     }
 
     /// Notes that it matters whether a command acts before the motion of its block (R1.9).
-    pub(in crate::interpreter) fn note_command_with_motion(&mut self) {
+    pub(crate) fn note_command_with_motion(&mut self) {
         let is_taken = self.scratch.outcomes.iter().any(|it| it.result.is_ok());
         if is_taken && !self.scratch.moved.is_empty() {
             self.state.rests_on.insert(Question::WithMotion);
@@ -73,11 +73,7 @@ impl Interpreter {
     }
 
     /// P-ERR-70435: an axis moves without a compensation that it requires.
-    pub(in crate::interpreter) fn check_required(
-        &mut self,
-        words: AxisWords,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn check_required(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         if !self.any_required {
             return;
         }

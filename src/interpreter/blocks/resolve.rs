@@ -23,7 +23,7 @@ use crate::text::Span;
 impl Interpreter {
     /// Looks for the programs that a block calls.
     #[inline(never)]
-    pub(in crate::interpreter) fn resolve_all(
+    pub(crate) fn resolve_all(
         &mut self,
         calls: Vec<WantedCall>,
         at: &BlockContext<'_>,
@@ -41,7 +41,7 @@ impl Interpreter {
     }
 
     /// Looks for the program.
-    pub(in crate::interpreter) fn resolve(
+    pub(crate) fn resolve(
         &mut self,
         wanted: WantedCall,
         at: &BlockContext<'_>,
@@ -194,7 +194,7 @@ impl Interpreter {
 
     /// The calls of a block with the modal cycle after them, unless the block is one of the
     /// cycle's.
-    pub(in crate::interpreter) fn repetition(
+    pub(crate) fn repetition(
         &mut self,
         step: Option<ControlStep>,
         moved: bool,
@@ -260,7 +260,7 @@ impl Interpreter {
     }
 
     /// Whether a part belongs to the program being executed.
-    pub(in crate::interpreter) fn is_here(&self, wanted: &WantedCall) -> bool {
+    pub(crate) fn is_here(&self, wanted: &WantedCall) -> bool {
         let own_name = || {
             let found = self.state.control.frames.program()?;
             let index = self.programs.index(found.unit);
@@ -273,7 +273,7 @@ impl Interpreter {
     }
 
     /// The blocks that a call asks for; `Err` where they are not in the program.
-    pub(in crate::interpreter) fn passage(
+    pub(crate) fn passage(
         &mut self,
         wanted: &WantedCall,
         found: ProgramId,
@@ -344,7 +344,7 @@ impl Interpreter {
     }
 
     /// Ends the program, after the configured program that runs before its end (R2.15).
-    pub(in crate::interpreter) fn program_end(
+    pub(crate) fn program_end(
         &mut self,
         by: EndedBy,
         at: &BlockContext<'_>,

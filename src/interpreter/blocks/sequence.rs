@@ -19,7 +19,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// `L SEQUENCE […]`
-    pub(in crate::interpreter) fn sequence(
+    pub(crate) fn sequence(
         &mut self,
         sequence: &SequenceCall,
         at: &BlockContext<'_>,
@@ -143,7 +143,7 @@ impl Interpreter {
     }
 
     /// `M17 [MAIN [LABEL]]`
-    pub(in crate::interpreter) fn return_to(
+    pub(crate) fn return_to(
         &mut self,
         back: &Return,
         at: &BlockContext<'_>,

@@ -13,7 +13,7 @@ impl Interpreter {
     /// Passes over a block that the control may execute or skip: whatever it could change becomes
     /// unknown, and it may lead elsewhere.
     #[cold]
-    pub(in crate::interpreter) fn perhaps_execute(
+    pub(crate) fn perhaps_execute(
         &mut self,
         level: u8,
         at: &BlockContext<'_>,

@@ -17,12 +17,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// I, J, K or R of a circle.
-    pub(in crate::interpreter) fn circle_word(
-        &mut self,
-        letter: u8,
-        value: Option<f64>,
-        span: Span,
-    ) {
+    pub(crate) fn circle_word(&mut self, letter: u8, value: Option<f64>, span: Span) {
         let metric = self.state.control.modal.is_known(Group::Unit);
         let inch = self.state.control.modal.functions.inch;
         let value = value.filter(|_| metric);
@@ -38,7 +33,7 @@ impl Interpreter {
     /// A circle moves both axes of its plane, even without a word for them: `G2 I5` is a full circle
     /// (R2.46). Axes without a word end where they start.
     #[inline]
-    pub(in crate::interpreter) fn move_around(&mut self, words: AxisWords) {
+    pub(crate) fn move_around(&mut self, words: AxisWords) {
         let turns = self.state.control.modal.functions.is_arc();
         if (turns || self.scratch.geometry.is_some()) && words == AxisWords::Motion {
             self.move_around_in_plane(turns);
@@ -84,7 +79,7 @@ impl Interpreter {
     }
 
     /// `G04 P1`: the parameter holds the seconds (PM/206132747).
-    pub(in crate::interpreter) fn dwell_parameter(&mut self, index: Option<f64>) {
+    pub(crate) fn dwell_parameter(&mut self, index: Option<f64>) {
         let index = index
             .and_then(rounded)
             .and_then(|index| u32::try_from(index).ok());
@@ -95,11 +90,7 @@ impl Interpreter {
 
     /// Creates the motion of the block, which started at `from`.
     #[inline(never)]
-    pub(in crate::interpreter) fn take_motion(
-        &mut self,
-        from: Option<Vec<Option<f64>>>,
-        words: AxisWords,
-    ) {
+    pub(crate) fn take_motion(&mut self, from: Option<Vec<Option<f64>>>, words: AxisWords) {
         let geometry = self.scratch.geometry.take();
         if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {
             // The radius is modal (PM, radius programming).
@@ -285,13 +276,13 @@ impl Interpreter {
 impl BlockScratch {
     /// The words of the block that give axis targets.
     #[inline]
-    pub(in crate::interpreter) fn coordinates(&self) -> usize {
+    pub(crate) fn coordinates(&self) -> usize {
         let around = self.geometry.as_ref().map_or(0, |it| it.around);
         self.moved.len() - around
     }
 
     /// The geometry words of the block.
-    pub(in crate::interpreter) fn geometry(&mut self) -> &mut Geometry {
+    pub(crate) fn geometry(&mut self) -> &mut Geometry {
         self.geometry.get_or_insert_default()
     }
 }
@@ -317,7 +308,7 @@ impl ControlState {
     }
 
     /// The position of every axis, for a block that may move.
-    pub(in crate::interpreter) fn stand(&self) -> Vec<Option<f64>> {
+    pub(crate) fn stand(&self) -> Vec<Option<f64>> {
         self.modal.positions().to_vec()
     }
 }

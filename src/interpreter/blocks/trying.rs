@@ -13,11 +13,7 @@ use crate::syntax::control_part;
 
 impl Interpreter {
     /// Reports what the control refuses if it executes the block.
-    pub(in crate::interpreter) fn perhaps_refused(
-        &mut self,
-        cause: &Unknown,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn perhaps_refused(&mut self, cause: &Unknown, at: &BlockContext<'_>) {
         let said = self.try_out(cause, at, |run| {
             let mut outcome = BlockOutcome::default();
             for word in &at.block.words {
@@ -40,7 +36,7 @@ impl Interpreter {
 
     /// Reports what the control refuses if it executes the blocks that were passed over (R2.51), once for
     /// each of them. The parameters of called programs are not known, so only their COMP commands are tried.
-    pub(in crate::interpreter) fn try_passed(&mut self) {
+    pub(crate) fn try_passed(&mut self) {
         let passed = std::mem::take(&mut self.scratch.passed);
         if !self.options.follows_ways() {
             return;
@@ -97,7 +93,7 @@ impl Interpreter {
     }
 
     /// Takes the refusals kept for the end of the program that are in blocks that the dry run did not execute.
-    pub(in crate::interpreter) fn take_held(&mut self) -> Vec<Diagnostic> {
+    pub(crate) fn take_held(&mut self) -> Vec<Diagnostic> {
         let held = std::mem::take(&mut self.held).into_iter();
         let unread = held.filter(|((unit, entry), _)| !self.programs.was_read(*unit, *entry));
         unread.map(|(_, said)| said).collect()

@@ -13,7 +13,7 @@ use crate::syntax::ast::{Hash, Operand};
 
 impl Interpreter {
     /// The condition holds after the block, and its plain conclusions are held as values that the program set.
-    pub(in crate::interpreter) fn wait_for(
+    pub(crate) fn wait_for(
         &mut self,
         hash: &Hash,
         at: &BlockContext<'_>,

@@ -31,7 +31,7 @@ struct LetterWord {
 }
 
 impl Interpreter {
-    pub(in crate::interpreter) fn word(
+    pub(crate) fn word(
         &mut self,
         word: &Word,
         at: &BlockContext<'_>,
@@ -110,7 +110,7 @@ impl Interpreter {
 
     /// Takes a word of an axis that the program exchanged. Returns whether it is one.
     #[cold]
-    pub(in crate::interpreter) fn exchanged_word(
+    pub(crate) fn exchanged_word(
         &mut self,
         (name, value): (&str, Option<f64>),
         span: Span,
@@ -159,7 +159,7 @@ impl Interpreter {
 
     /// FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
     #[cold]
-    pub(in crate::interpreter) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
+    pub(crate) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         for (name, span) in std::mem::take(&mut self.scratch.lacking) {
             let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
             if !moves || !self.state.is_new_word(&name) {
@@ -192,11 +192,7 @@ impl Interpreter {
     /// Takes a word of the kind that most blocks consist of and that needs no message: a coordinate, a
     /// feed, a G function of a group, each with a plain number. Any other is left to [`Self::word`].
     #[inline]
-    pub(in crate::interpreter) fn plain_word(
-        &mut self,
-        word: &Word,
-        outcome: &mut BlockOutcome,
-    ) -> bool {
+    pub(crate) fn plain_word(&mut self, word: &Word, outcome: &mut BlockOutcome) -> bool {
         let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
             return false;
         };
@@ -221,12 +217,7 @@ impl Interpreter {
     }
 
     #[inline]
-    pub(in crate::interpreter) fn axis_word(
-        &mut self,
-        axis: AxisIndex,
-        span: Span,
-        value: Option<f64>,
-    ) {
+    pub(crate) fn axis_word(&mut self, axis: AxisIndex, span: Span, value: Option<f64>) {
         self.see(axis);
         let bit = 1 << (axis.get() % 64);
         self.scratch.again |= self.scratch.seen & bit;
@@ -240,11 +231,7 @@ impl Interpreter {
     }
 
     /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
-    pub(in crate::interpreter) fn refuse_repeated_axes(
-        &mut self,
-        words: AxisWords,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn refuse_repeated_axes(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         let modal = &self.state.control.modal;
         let absolute = modal.functions.absolute && modal.is_known(Group::Distance);
         if !absolute || words == AxisWords::Other {
@@ -459,11 +446,7 @@ impl Interpreter {
 
     /// Turns axis words into positions when the whole block is known: G90, G91, G70 and G92 apply
     /// wherever they are in the block, and F belongs to the feed mode of its block.
-    pub(in crate::interpreter) fn move_axes(
-        &mut self,
-        outcome: &BlockOutcome,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn move_axes(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
         if let Feed::Given(feed) = outcome.feed {
             self.state.control.modal.set_feed(feed);
         }

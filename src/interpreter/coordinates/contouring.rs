@@ -45,7 +45,7 @@ impl ContouringCommand {
     /// Returns the parameters in the bracket of the command; `number` gives the value of an expression.
     /// A value that is not named is that of `before`; in a bracket of `#CONTOUR MODE` with a mode, and in
     /// any bracket of `#HSC`, it is the default.
-    pub(in crate::interpreter) fn parameters(
+    pub(crate) fn parameters(
         self,
         before: Contouring,
         (arguments, text): (&BracketArguments, &str),
@@ -131,7 +131,7 @@ impl Default for Contouring {
 
 impl Contouring {
     /// `#HSC ON` without parameters: `OPMODE 1` (PM/207285131).
-    pub(in crate::interpreter) fn high_speed() -> Self {
+    pub(crate) fn high_speed() -> Self {
         Self {
             tolerance_mm: Some(CONTOUR_ERROR_MM),
             joining: Joining::WithinTolerance,
@@ -140,7 +140,7 @@ impl Contouring {
     }
 
     /// Parameters that are not known: nothing is rounded.
-    pub(in crate::interpreter) fn unknown(self) -> Self {
+    pub(crate) fn unknown(self) -> Self {
         Self {
             tolerance_mm: Some(0.0),
             ..self

@@ -84,13 +84,13 @@ impl GFunctions {
 
     /// Whether G01, G02 or G03 is in force and may have no feed, or the feed 0 (R2.110).
     #[inline]
-    pub(in crate::interpreter) fn may_lack_feed(&self) -> bool {
+    pub(crate) fn may_lack_feed(&self) -> bool {
         self.is_feed_move() && self.has_no_feed()
     }
 
     /// Whether the mode in force may have no feed, or the feed 0.
     #[inline]
-    pub(in crate::interpreter) fn has_no_feed(&self) -> bool {
+    pub(crate) fn has_no_feed(&self) -> bool {
         self.lacking.contains(self.feed_place())
     }
 
@@ -102,27 +102,27 @@ impl GFunctions {
 
     /// Whether G02 or G03 was programmed last.
     #[inline]
-    pub(in crate::interpreter) fn is_arc(&self) -> bool {
+    pub(crate) fn is_arc(&self) -> bool {
         GFunction::is_arc(self.motion)
     }
 
     /// Whether the program has certainly given no feed so far, and G94 is in force.
-    pub(in crate::interpreter) fn is_first_without_feed(&self) -> bool {
+    pub(crate) fn is_first_without_feed(&self) -> bool {
         self.feed_mode == 94 && !self.unknown.contains(Group::Feed) && self.lacking.is_certain()
     }
 
     /// The feed of the mode in force, as the program gives it.
-    pub(in crate::interpreter) fn programmed_feed(&self) -> Option<f64> {
+    pub(crate) fn programmed_feed(&self) -> Option<f64> {
         self.feeds[self.feed_place()].map(|feed| feed.value)
     }
 
     /// The mode in force has a feed that the program does not say.
-    pub(in crate::interpreter) fn give_feed(&mut self) {
+    pub(crate) fn give_feed(&mut self) {
         self.lacking.give(self.feed_place());
     }
 
     /// Any mode may have a feed that the program does not say.
-    pub(in crate::interpreter) fn perhaps_give_feeds(&mut self) {
+    pub(crate) fn perhaps_give_feeds(&mut self) {
         self.lacking = LackingFeeds::default();
     }
 }

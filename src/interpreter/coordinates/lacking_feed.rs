@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// The modes of F that lack a feed or have the feed 0, a bit each in the order of
 /// [`super::g_functions::GFunctions::feeds`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct LackingFeeds {
+pub(crate) struct LackingFeeds {
     /// Those that certainly do.
     certain: u8,
     /// Those that may.

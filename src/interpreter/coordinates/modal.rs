@@ -64,10 +64,10 @@ pub struct Modal {
     #[serde(default)]
     slope: Option<SlopeProfile>,
     /// State that turns F into the velocity of the path.
-    pub(in crate::interpreter) pace: Pace,
+    pub(crate) pace: Pace,
     /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
     #[serde(default)]
-    pub(in crate::interpreter) skewed: bool,
+    pub(crate) skewed: bool,
     /// Whether coordinates count from an origin other than that at the start of the program.
     origin_moved: bool,
     /// Absolute positions: the programmed coordinate and the offset of G92.
@@ -99,7 +99,7 @@ impl Modal {
     }
 
     /// The state at program start in a channel.
-    pub(in crate::interpreter) fn at_start(axes: usize, channel: &ChannelSettings) -> Self {
+    pub(crate) fn at_start(axes: usize, channel: &ChannelSettings) -> Self {
         let mut modal = Self {
             pace: Pace::new(channel.feed_unit.in_mm()),
             ..Self::new(axes)
@@ -127,7 +127,7 @@ impl Modal {
     }
 
     /// The state at the start of the next program: the axes stay where they are.
-    pub(in crate::interpreter) fn next_program(&self, channel: &ChannelSettings) -> Self {
+    pub(crate) fn next_program(&self, channel: &ChannelSettings) -> Self {
         Self {
             positions: self.positions.clone(),
             ..Self::at_start(self.positions.len(), channel)
@@ -135,7 +135,7 @@ impl Modal {
     }
 
     /// Whether it describes a number of axes.
-    pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
+    pub(crate) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
         [self.positions.len(), self.references.len(), suspended] == [axes; 3]
     }
@@ -147,7 +147,7 @@ impl Modal {
 
     /// The axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is
     /// not known.
-    pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<u8> {
+    pub(crate) fn main_axis(&self, letter: u8) -> Option<u8> {
         let place = usize::from(letter.checked_sub(b'X')?);
         let axes = match self.functions.plane {
             _ if !self.is_known(Group::Plane) => return None,
@@ -160,7 +160,7 @@ impl Modal {
 
     /// Puts a G function of a group into force.
     #[inline]
-    pub(in crate::interpreter) fn set(&mut self, group: Group, number: u32) {
+    pub(crate) fn set(&mut self, group: Group, number: u32) {
         self.functions.unknown.remove(group);
         match group {
             Group::Motion => self.functions.motion = number,
@@ -186,7 +186,7 @@ impl Modal {
     }
 
     /// A command or function that a commanded trace does not follow in full.
-    pub(in crate::interpreter) fn simplify(&mut self, what: Simplification, holds: Holds) {
+    pub(crate) fn simplify(&mut self, what: Simplification, holds: Holds) {
         self.simplified = match holds {
             Holds::On => self.simplified.union(what.into()),
             Holds::Off => self.simplified.without(what.into()),
@@ -195,10 +195,7 @@ impl Modal {
     }
 
     /// The parameters that a command sets.
-    pub(in crate::interpreter) fn contouring_of(
-        &mut self,
-        command: ContouringCommand,
-    ) -> &mut Contouring {
+    pub(crate) fn contouring_of(&mut self, command: ContouringCommand) -> &mut Contouring {
         match command {
             ContouringCommand::Contour => &mut self.contour,
             ContouringCommand::HighSpeed => &mut self.high_speed,
@@ -206,7 +203,7 @@ impl Modal {
     }
 
     /// Returns the rounding of the transition after a block; `once` applies only in the block.
-    pub(in crate::interpreter) fn contouring(&self, once: Simplifications) -> Option<Contouring> {
+    pub(crate) fn contouring(&self, once: Simplifications) -> Option<Contouring> {
         let holds = self.simplified.union(once);
         if holds.contains(Simplification::HighSpeed) {
             return Some(self.high_speed);
@@ -215,12 +212,12 @@ impl Modal {
     }
 
     /// The profile of the acceleration; `None` is that of the channel.
-    pub(in crate::interpreter) fn slope(&self) -> Option<SlopeProfile> {
+    pub(crate) fn slope(&self) -> Option<SlopeProfile> {
         self.slope
     }
 
     /// Puts a profile of the acceleration into force.
-    pub(in crate::interpreter) fn select_slope(&mut self, selection: SlopeSelection) {
+    pub(crate) fn select_slope(&mut self, selection: SlopeSelection) {
         let (slope, holds) = match selection {
             SlopeSelection::Channel => (None, Holds::Off),
             SlopeSelection::Program(profile) => (Some(profile), Holds::Off),
@@ -231,7 +228,7 @@ impl Modal {
     }
 
     /// Something may have been put into force: its rounding is not known.
-    pub(in crate::interpreter) fn perhaps_simplify(&mut self, what: Simplification) {
+    pub(crate) fn perhaps_simplify(&mut self, what: Simplification) {
         self.simplify(what, Holds::On);
         match what {
             Simplification::Contouring => self.contour = self.contour.unknown(),
@@ -262,7 +259,7 @@ impl Modal {
     }
 
     /// Applies a `#` command to the coordinate chain.
-    pub(in crate::interpreter) fn hash(&mut self, command: HashWords) {
+    pub(crate) fn hash(&mut self, command: HashWords) {
         let switch = if command.is_off() {
             OnOff::Off
         } else {
@@ -274,7 +271,7 @@ impl Modal {
     }
 
     /// Applies a step of a name to the coordinate chain.
-    pub(in crate::interpreter) fn chain(&mut self, (step, name, switch): (ChainStep, &str, OnOff)) {
+    pub(crate) fn chain(&mut self, (step, name, switch): (ChainStep, &str, OnOff)) {
         match step {
             ChainStep::Coordinates | ChainStep::Kinematics => {
                 self.transform(name, switch == OnOff::On);
@@ -305,7 +302,7 @@ impl Modal {
     }
 
     /// Whether offsets may be switched off.
-    pub(in crate::interpreter) fn are_offsets_suspended(&self) -> bool {
+    pub(crate) fn are_offsets_suspended(&self) -> bool {
         let mut rows = self
             .transformed
             .iter()
@@ -314,14 +311,14 @@ impl Modal {
     }
 
     /// Positions are in program coordinates from here on.
-    pub(in crate::interpreter) fn note_transformed(&mut self, name: &str) {
+    pub(crate) fn note_transformed(&mut self, name: &str) {
         if !self.transformed.contains(name) {
             self.transformed.insert(name.to_owned());
         }
     }
 
     /// A `#` command that may or may not have been executed.
-    pub(in crate::interpreter) fn havoc_hash(&mut self, command: HashWords) {
+    pub(crate) fn havoc_hash(&mut self, command: HashWords) {
         self.skewed &= command.action != HashAction::Rotate;
         let mut after = self.clone();
         after.hash(command);
@@ -341,7 +338,7 @@ impl Modal {
     }
 
     /// Ends a contour description: whether its G functions and feeds apply after it is not documented (R2.81).
-    pub(in crate::interpreter) fn end_description(&mut self, before: &Self) {
+    pub(crate) fn end_description(&mut self, before: &Self) {
         self.join_functions(before);
         for (feed, before) in self.functions.feeds.iter_mut().zip(before.functions.feeds) {
             *feed = feed.filter(|_| *feed == before);
@@ -370,13 +367,13 @@ impl Modal {
 
     /// Whether it is known that two states have different functions of a group in force, or unknown
     /// in one of them only.
-    pub(in crate::interpreter) fn differs_in(&self, other: &Self, group: Group) -> bool {
+    pub(crate) fn differs_in(&self, other: &Self, group: Group) -> bool {
         let (mine, theirs) = (self.is_known(group), other.is_known(group));
         mine != theirs || (mine && self.value(group) != other.value(group))
     }
 
     /// Selects the tool data of a D word; `None` if its number is not known, or if it may not have been executed.
-    pub(in crate::interpreter) fn select_tool_data(&mut self, number: Option<i64>) {
+    pub(crate) fn select_tool_data(&mut self, number: Option<i64>) {
         self.functions.tool_data = number.and_then(|it| u32::try_from(it).ok());
     }
 
@@ -403,7 +400,7 @@ impl Modal {
     }
 
     /// Moves axes to programmed coordinates. The words keep the previous axis positions.
-    pub(in crate::interpreter) fn move_axes(&mut self, words: &mut [AxisWord]) {
+    pub(crate) fn move_axes(&mut self, words: &mut [AxisWord]) {
         let scale = self.scale();
         for word in words {
             let axis = word.axis.get();
@@ -419,7 +416,7 @@ impl Modal {
 
     /// G92: offsets for the absolute coordinates that follow; in G91 they add to those in force
     /// (PM/206145291). The axes do not move.
-    pub(in crate::interpreter) fn set_references(&mut self, words: &[AxisWord]) {
+    pub(crate) fn set_references(&mut self, words: &[AxisWord]) {
         let scale = self.scale();
         for word in words {
             let axis = word.axis.get();
@@ -444,12 +441,12 @@ impl Modal {
     }
 
     /// Forgets what G92 set for an axis.
-    pub(in crate::interpreter) fn havoc_reference(&mut self, axis: AxisIndex) {
+    pub(crate) fn havoc_reference(&mut self, axis: AxisIndex) {
         self.references[axis.get()] = None;
     }
 
     /// Any word may have been executed.
-    pub(in crate::interpreter) fn havoc_words(&mut self) {
+    pub(crate) fn havoc_words(&mut self) {
         self.havoc_g(None);
         self.havoc_feeds();
         self.select_tool_data(None);
@@ -458,7 +455,7 @@ impl Modal {
     }
 
     /// A G function that may or may not have been executed; `None` for one that is not known.
-    pub(in crate::interpreter) fn havoc_g(&mut self, number: Option<i64>) {
+    pub(crate) fn havoc_g(&mut self, number: Option<i64>) {
         let Some(number) = number.and_then(|number| u32::try_from(number).ok()) else {
             self.functions.unknown = Group::ALL.into_iter().collect();
             self.havoc_positions();
@@ -493,7 +490,7 @@ impl Modal {
     }
 
     /// Makes unknown what differs between two states.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+    pub(crate) fn join(&mut self, other: &Self) {
         self.join_functions(other);
         for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
             *mine = mine.filter(|_| *mine == theirs);
@@ -552,34 +549,34 @@ impl Modal {
     }
 
     /// Any feed may have been programmed.
-    pub(in crate::interpreter) fn havoc_feeds(&mut self) {
+    pub(crate) fn havoc_feeds(&mut self) {
         self.functions.feeds = [None; 4];
         self.functions.perhaps_give_feeds();
     }
 
     /// The unit in mm/min that an E word has.
-    pub(in crate::interpreter) fn unit_per_min(&self) -> Option<f64> {
+    pub(crate) fn unit_per_min(&self) -> Option<f64> {
         self.pace.unit_per_min(self.metric())
     }
 
     /// The programmed coordinate, without the offset of G92.
-    pub(in crate::interpreter) fn programmed(&self, axis: AxisIndex) -> Option<f64> {
+    pub(crate) fn programmed(&self, axis: AxisIndex) -> Option<f64> {
         let position = self.positions[axis.get()].zip(self.references[axis.get()]);
         position.map(|(position, reference)| position - reference)
     }
 
     /// Returns the positions of the axes: the programmed coordinate with the offset of G92.
-    pub(in crate::interpreter) fn positions(&self) -> &[Option<f64>] {
+    pub(crate) fn positions(&self) -> &[Option<f64>] {
         &self.positions
     }
 
     /// The offset of G92 of an axis; `None` where it is not known.
-    pub(in crate::interpreter) fn reference(&self, axis: AxisIndex) -> Option<f64> {
+    pub(crate) fn reference(&self, axis: AxisIndex) -> Option<f64> {
         self.references[axis.get()]
     }
 
     /// Takes over the position of an axis.
-    pub(in crate::interpreter) fn place(&mut self, axis: AxisIndex, position: Option<f64>) {
+    pub(crate) fn place(&mut self, axis: AxisIndex, position: Option<f64>) {
         self.positions[axis.get()] = position;
     }
 
@@ -600,7 +597,7 @@ impl Modal {
 
     /// The side of the programmed contour on which the tool follows it, where that is known; `None` without
     /// tool radius compensation.
-    pub(in crate::interpreter) fn tool_side(&self) -> Option<ToolSide> {
+    pub(crate) fn tool_side(&self) -> Option<ToolSide> {
         match self.functions.tool_side {
             _ if !self.is_known(Group::CutterRadius) => None,
             41 => Some(ToolSide::Left),
@@ -626,6 +623,6 @@ fn frame_of(name: &str) -> PositionFrame {
 
 /// Whether an M function is known not to move an origin: those of DIN 66025-2 and of the manual's overview
 /// (tccncprogramming/15557312651).
-pub(in crate::interpreter) fn is_named_m(number: i64) -> bool {
+pub(crate) fn is_named_m(number: i64) -> bool {
     matches!(number, 0..=17 | 19 | 29..=31 | 40..=49 | 60)
 }

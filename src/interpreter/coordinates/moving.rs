@@ -22,7 +22,7 @@ pub struct MovedAxis {
 impl MovedAxis {
     /// The motion of an axis word.
     #[inline]
-    pub(in crate::interpreter) fn of_word(word: &AxisWord, kind: MotionKind) -> Self {
+    pub(crate) fn of_word(word: &AxisWord, kind: MotionKind) -> Self {
         Self {
             axis: word.axis,
             span: word.span,

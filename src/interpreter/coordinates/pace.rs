@@ -20,11 +20,11 @@ pub struct ProgrammedFeed {
 /// Effect of a command on the speed of paths, as shares of the programmed one; `None` where it is not
 /// known.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Factors {
+pub(crate) struct Factors {
     /// With G01, G02, G03.
-    pub(in crate::interpreter) feed: Option<f64>,
+    pub(crate) feed: Option<f64>,
     /// With G00.
-    pub(in crate::interpreter) rapid: Option<f64>,
+    pub(crate) rapid: Option<f64>,
 }
 
 impl Default for Factors {
@@ -38,7 +38,7 @@ impl Default for Factors {
 
 /// Whether a motion is a rapid one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Haste {
+pub(crate) enum Haste {
     /// G00.
     Rapid,
     /// G01, G02, G03.
@@ -78,7 +78,7 @@ struct Spindle {
 
 /// State that turns a programmed F into the velocity of the path.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Pace {
+pub(crate) struct Pace {
     /// The unit of F in mm/min (P-CHAN-00108), where it is known.
     feed_unit_mm: Option<f64>,
     spindle: Spindle,
@@ -87,7 +87,7 @@ pub(in crate::interpreter) struct Pace {
 }
 
 impl Pace {
-    pub(in crate::interpreter) fn new(feed_unit_mm: Option<f64>) -> Self {
+    pub(crate) fn new(feed_unit_mm: Option<f64>) -> Self {
         Self {
             feed_unit_mm,
             spindle: Spindle::default(),
@@ -97,7 +97,7 @@ impl Pace {
 
     /// The unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; its
     /// effect on m/min is not documented.
-    pub(in crate::interpreter) fn unit_per_min(&self, length_mm: Option<f64>) -> Option<f64> {
+    pub(crate) fn unit_per_min(&self, length_mm: Option<f64>) -> Option<f64> {
         let (unit, length) = (self.feed_unit_mm?, length_mm?);
         #[allow(clippy::float_cmp)] // both are constants
         let plain = unit == 1.0 || length == 1.0;
@@ -105,18 +105,18 @@ impl Pace {
     }
 
     /// An S word of the main spindle.
-    pub(in crate::interpreter) fn speed(&mut self, value: Option<f64>) {
+    pub(crate) fn speed(&mut self, value: Option<f64>) {
         self.spindle.speed_per_min = value.filter(|_| !self.spindle.cuts);
     }
 
     /// G96, G97: the meaning of S.
-    pub(in crate::interpreter) fn cut(&mut self, cuts: bool) {
+    pub(crate) fn cut(&mut self, cuts: bool) {
         self.spindle.cuts = cuts;
         self.spindle.speed_per_min = None;
     }
 
     /// An M function of the main spindle.
-    pub(in crate::interpreter) fn m(&mut self, number: i64) {
+    pub(crate) fn m(&mut self, number: i64) {
         match number {
             3 | 4 => self.spindle.stands = false,
             5 | 19 => self.spindle.stands = true,
@@ -125,7 +125,7 @@ impl Pace {
     }
 
     /// Another spindle became the main one, or the speed may be any.
-    pub(in crate::interpreter) fn havoc_spindle(&mut self) {
+    pub(crate) fn havoc_spindle(&mut self) {
         self.spindle = Spindle::default();
     }
 
@@ -133,7 +133,7 @@ impl Pace {
     ///
     /// # Errors
     /// The reason why they are not known.
-    pub(in crate::interpreter) fn per_minute(&self) -> Result<f64, &'static str> {
+    pub(crate) fn per_minute(&self) -> Result<f64, &'static str> {
         match self.spindle {
             Spindle { stands: true, .. } => Err("G95 needs a spindle that turns"),
             Spindle { cuts: true, .. } => Err("with G96 the spindle speed follows the diameter"),
@@ -144,28 +144,24 @@ impl Pace {
     }
 
     /// `#OVERRIDE`: changes the overrides that it names.
-    pub(in crate::interpreter) fn override_path(&mut self, change: impl FnOnce(&mut Factors)) {
+    pub(crate) fn override_path(&mut self, change: impl FnOnce(&mut Factors)) {
         change(&mut self.overrides.get_or_insert_default().path);
     }
 
     /// `X[OVERRIDE …]`
-    pub(in crate::interpreter) fn override_axis(
-        &mut self,
-        axis: AxisIndex,
-        change: impl FnOnce(&mut Factors),
-    ) {
+    pub(crate) fn override_axis(&mut self, axis: AxisIndex, change: impl FnOnce(&mut Factors)) {
         let overrides = self.overrides.get_or_insert_default();
         change(overrides.axes.entry(axis.get()).or_default());
     }
 
     /// G129: the weight of rapid motions.
-    pub(in crate::interpreter) fn weigh_rapid(&mut self, weight: Option<f64>) {
+    pub(crate) fn weigh_rapid(&mut self, weight: Option<f64>) {
         self.overrides.get_or_insert_default().rapid.rapid = weight;
     }
 
     /// Returns the share of the velocity that overrides leave to a motion of some axes: that of the path
     /// times the least of the axes; G166 makes it 1. `None` where it is not known.
-    pub(in crate::interpreter) fn share(
+    pub(crate) fn share(
         &self,
         haste: Haste,
         moving: impl Iterator<Item = AxisIndex>,
@@ -184,13 +180,13 @@ impl Pace {
     }
 
     /// The weight of G129 alone, which G166 does not suppress.
-    pub(in crate::interpreter) fn weight(&self, haste: Haste) -> Option<f64> {
+    pub(crate) fn weight(&self, haste: Haste) -> Option<f64> {
         let overrides = self.overrides.as_ref();
         overrides.map_or(Some(1.0), |it| it.rapid.of(haste))
     }
 
     /// Overrides may have been changed in any way.
-    pub(in crate::interpreter) fn havoc_overrides(&mut self) {
+    pub(crate) fn havoc_overrides(&mut self) {
         self.overrides.get_or_insert_default().path = Factors {
             feed: None,
             rapid: None,
@@ -198,13 +194,13 @@ impl Pace {
     }
 
     /// Everything may have been changed in any way.
-    pub(in crate::interpreter) fn havoc(&mut self) {
+    pub(crate) fn havoc(&mut self) {
         self.havoc_spindle();
         self.havoc_overrides();
     }
 
     /// Makes unknown what differs between two states.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+    pub(crate) fn join(&mut self, other: &Self) {
         if self.spindle != other.spindle {
             self.havoc_spindle();
         }

@@ -11,14 +11,14 @@ const TRANSFORMING: [&str; 2] = ["G41", "G21"];
 
 /// G functions and feeds before a cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Saved {
+pub(crate) struct Saved {
     functions: GFunctions,
     transformed: [bool; 2],
 }
 
 impl Saved {
     /// Makes unknown what differs between two saved states.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+    pub(crate) fn join(&mut self, other: &Self) {
         if self == other {
             return;
         }
@@ -37,7 +37,7 @@ impl Saved {
 
 impl Modal {
     /// Saves the state that a cycle may change and its end restores.
-    pub(in crate::interpreter) fn save(&self) -> Saved {
+    pub(crate) fn save(&self) -> Saved {
         Saved {
             functions: self.functions.clone(),
             transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
@@ -45,7 +45,7 @@ impl Modal {
     }
 
     /// The end of a cycle.
-    pub(in crate::interpreter) fn restore(&mut self, saved: &Saved) {
+    pub(crate) fn restore(&mut self, saved: &Saved) {
         if self.functions.offset != saved.functions.offset {
             self.havoc_positions();
         }

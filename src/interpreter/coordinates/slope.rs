@@ -8,7 +8,7 @@ use crate::syntax::ast::{Argument, BracketArguments};
 
 /// A selection of the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum SlopeSelection {
+pub(crate) enum SlopeSelection {
     /// The profile of the channel list, as at the start of a program.
     Channel,
     /// A profile that the command names.
@@ -27,7 +27,7 @@ const PROFILES: [(&str, SlopeProfile); 4] = [
 
 impl SlopeSelection {
     /// The selection of a command; `None` where its bracket names no profile.
-    pub(in crate::interpreter) fn of(
+    pub(crate) fn of(
         form: SlopeForm,
         (arguments, text): (&BracketArguments, &str),
         mut number: impl FnMut(&Argument) -> Option<f64>,

@@ -15,7 +15,7 @@ use crate::syntax::ast::CallScope;
 use crate::text::Span;
 
 /// Program configured for a word.
-pub(in crate::interpreter) enum Configured {
+pub(crate) enum Configured {
     /// Nothing.
     None,
     /// A program.
@@ -26,7 +26,7 @@ pub(in crate::interpreter) enum Configured {
 
 impl Interpreter {
     /// The program for a word, `G80`, `M6`, else for its letter.
-    pub(in crate::interpreter) fn configured(&self, word: FunctionWord) -> Configured {
+    pub(crate) fn configured(&self, word: FunctionWord) -> Configured {
         let letter = char::from(word.letter);
         let word = word.number.map(|number| format!("{letter}{number}"));
         let words = word.into_iter().chain([letter.to_string()]);
@@ -45,7 +45,7 @@ impl Interpreter {
     }
 
     /// The programs that words with a letter call.
-    pub(in crate::interpreter) fn programs_of_words(&self, letter: u8) -> Vec<String> {
+    pub(crate) fn programs_of_words(&self, letter: u8) -> Vec<String> {
         let letter = char::from(letter);
         let configured = self.machine.programs.words.iter();
         let configured = configured.map(|(word, name)| (word, name.clone()));
@@ -61,17 +61,12 @@ impl Interpreter {
 
     /// Whether any word calls a program.
     #[inline]
-    pub(in crate::interpreter) fn calls_by_words(&self) -> bool {
+    pub(crate) fn calls_by_words(&self) -> bool {
         !self.machine.programs.words.is_empty() || !self.state.control.named.is_empty()
     }
 
     /// A word with an unknown number: it may call any program.
-    pub(in crate::interpreter) fn unknown_word(
-        &mut self,
-        letter: &str,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn unknown_word(&mut self, letter: &str, span: Span, at: &BlockContext<'_>) {
         let cause = Unknown::text(letter);
         self.havoc_by_call(&cause);
         if let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) {
@@ -93,7 +88,7 @@ impl Interpreter {
     }
 
     /// Passes over a call of which `what` depends on a value that only the machine knows.
-    pub(in crate::interpreter) fn unknown_call(
+    pub(crate) fn unknown_call(
         &mut self,
         what: &str,
         cause: &Unknown,
@@ -106,11 +101,7 @@ impl Interpreter {
 
     /// FC210: calls in the block of a jump, a program end or a return. Whether the control makes them is not
     /// documented, so that everything that a program could change is unknown (R2.52).
-    pub(in crate::interpreter) fn pass_over_calls(
-        &mut self,
-        outcome: &mut BlockOutcome,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn pass_over_calls(&mut self, outcome: &mut BlockOutcome, at: &BlockContext<'_>) {
         let calls = std::mem::take(&mut outcome.calls);
         let Some(call) = calls.first() else {
             return;
@@ -127,7 +118,7 @@ impl Interpreter {
     }
 
     /// FC902: `what` depends on a value that only the machine knows.
-    pub(in crate::interpreter) fn tell_unknown(
+    pub(crate) fn tell_unknown(
         &mut self,
         what: &str,
         then: &str,
@@ -144,7 +135,7 @@ impl Interpreter {
     }
 
     /// A harmless implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
-    pub(in crate::interpreter) fn pass_over_implicit(&mut self, number: u32) {
+    pub(crate) fn pass_over_implicit(&mut self, number: u32) {
         self.state.control.modal.havoc_positions();
         self.perhaps_move_all();
         self.state
@@ -154,12 +145,7 @@ impl Interpreter {
     }
 
     /// A call that may be of any local subprogram: looks for what the control refuses there.
-    pub(in crate::interpreter) fn look_through_locals(
-        &mut self,
-        span: Span,
-        unit: usize,
-        cause: &Unknown,
-    ) {
+    pub(crate) fn look_through_locals(&mut self, span: Span, unit: usize, cause: &Unknown) {
         let calling = self.programs.unit_mut(unit);
         if calling.open_calls.insert(b'L') {
             let names = calling.index.local_names().map(str::to_owned).collect();
@@ -193,12 +179,7 @@ impl Interpreter {
     }
 
     /// A word in a region that may or may not be executed.
-    pub(in crate::interpreter) fn havoc_function(
-        &mut self,
-        word: FunctionWord,
-        unit: usize,
-        cause: &Unknown,
-    ) {
+    pub(crate) fn havoc_function(&mut self, word: FunctionWord, unit: usize, cause: &Unknown) {
         let mut configured = vec![self.configured(word)];
         let has_program = !matches!(configured[0], Configured::None);
         let gives_data = word.letter == b'T' && self.machine.programs.data_with_tool;

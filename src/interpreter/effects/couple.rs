@@ -8,7 +8,7 @@ use crate::language::{FurtherWord, Holds, MembersBy, Moves, OnOff, Simplificatio
 use crate::syntax::ast::{Argument, BracketArguments, Hash};
 
 impl Interpreter {
-    pub(in crate::interpreter) fn define_coupling(
+    pub(crate) fn define_coupling(
         &mut self,
         hash: &Hash,
         axes: Vec<AxisIndex>,
@@ -20,7 +20,7 @@ impl Interpreter {
         self.state.control.mark_coupled(changed);
     }
 
-    pub(in crate::interpreter) fn enable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+    pub(crate) fn enable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let group = self.group_of(hash, at);
         self.simplify(Simplification::Coupling, Holds::On);
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
@@ -30,7 +30,7 @@ impl Interpreter {
     }
 
     /// Without a group the last one that was enabled is released.
-    pub(in crate::interpreter) fn disable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+    pub(crate) fn disable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let group = self.group_of(hash, at);
         let changed = if group.is_empty() {
             self.state.control.couplings.release_last()
@@ -44,14 +44,14 @@ impl Interpreter {
     }
 
     /// Couplings end with the program unless P-CHAN-00105 says otherwise; their definitions stay.
-    pub(in crate::interpreter) fn release_couplings(&mut self) {
+    pub(crate) fn release_couplings(&mut self) {
         let changed = self.state.control.couplings.release_all();
         self.state.control.mark_coupled(changed);
         self.simplify(Simplification::Coupling, Holds::Off);
     }
 
     /// Any coupling may be in force, or none.
-    pub(in crate::interpreter) fn havoc_couplings(&mut self) {
+    pub(crate) fn havoc_couplings(&mut self) {
         let changed = self.state.control.couplings.havoc();
         self.state.control.couplings.havoc_followers(&[]);
         if !changed.is_empty() {
@@ -64,7 +64,7 @@ impl Interpreter {
     }
 
     /// Commands by which an axis follows others, apart from the coupling groups (R10.7).
-    pub(in crate::interpreter) fn couple_by(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+    pub(crate) fn couple_by(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let command = hash.command;
         let Some(motion) = command.motion else {
             return;
@@ -126,7 +126,7 @@ impl Interpreter {
     }
 
     /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531).
-    pub(in crate::interpreter) fn gear_in(
+    pub(crate) fn gear_in(
         &mut self,
         axis: AxisIndex,
         arguments: &BracketArguments,
@@ -153,7 +153,7 @@ impl Interpreter {
     }
 
     /// The axes that a definition of a coupling group names.
-    pub(in crate::interpreter) fn members(
+    pub(crate) fn members(
         &self,
         by: MembersBy,
         arguments: &BracketArguments,
@@ -177,11 +177,7 @@ impl Interpreter {
     }
 
     /// The axes that a command names, or else all.
-    pub(in crate::interpreter) fn axes_or_all(
-        &self,
-        arguments: &BracketArguments,
-        text: &str,
-    ) -> Vec<AxisIndex> {
+    pub(crate) fn axes_or_all(&self, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
         let named = self.axes_in(arguments, text);
         if named.is_empty() {
             (0..self.machine.axes.len()).map(AxisIndex::new).collect()
@@ -190,11 +186,7 @@ impl Interpreter {
         }
     }
 
-    pub(in crate::interpreter) fn axes_in(
-        &self,
-        arguments: &BracketArguments,
-        text: &str,
-    ) -> Vec<AxisIndex> {
+    pub(crate) fn axes_in(&self, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
         let words = arguments.words(text);
         words.filter_map(|word| self.axis_now(word)).collect()
     }
@@ -211,7 +203,7 @@ impl Interpreter {
 
 impl ControlState {
     /// These axes may be coupled by groups whose members are unknown.
-    pub(in crate::interpreter) fn havoc_definitions(&mut self, axes: &[AxisIndex]) {
+    pub(crate) fn havoc_definitions(&mut self, axes: &[AxisIndex]) {
         let changed = self.couplings.havoc_definitions(axes);
         self.mark_coupled(changed);
     }
@@ -235,7 +227,7 @@ impl ControlState {
 }
 
 /// Returns the name of the gear of an axis.
-pub(in crate::interpreter) fn gear_of(axis: AxisIndex) -> String {
+pub(crate) fn gear_of(axis: AxisIndex) -> String {
     format!("gear {}", axis.get())
 }
 

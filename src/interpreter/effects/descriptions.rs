@@ -8,7 +8,7 @@ use crate::syntax::ast::Hash;
 
 impl ControlState {
     /// The blocks up to the end describe geometry.
-    pub(in crate::interpreter) fn describe(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+    pub(crate) fn describe(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         if self.described.is_none() {
             self.described = Some(Box::new(Description {
                 opener: hash.command.row(),
@@ -19,7 +19,7 @@ impl ControlState {
     }
 
     /// A command ends the description that it belongs to, where that is open. Returns whether it does.
-    pub(in crate::interpreter) fn end_description(&mut self, end: &str) -> bool {
+    pub(crate) fn end_description(&mut self, end: &str) -> bool {
         let open = self
             .described
             .take_if(|open| open.opener.until == Some(end));
@@ -30,7 +30,7 @@ impl ControlState {
     }
 
     /// FC208: the program ends inside a description.
-    pub(in crate::interpreter) fn open_description(&mut self) -> Option<Diagnostic> {
+    pub(crate) fn open_description(&mut self) -> Option<Diagnostic> {
         let open = self.described.take()?;
         let end = open.opener.until?;
         let message = format!("`{}` has no `{end}`", open.opener.words);

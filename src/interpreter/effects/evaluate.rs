@@ -42,7 +42,7 @@ enum OwnVariable {
 
 impl Interpreter {
     /// The value of an operand.
-    pub(in crate::interpreter) fn value(
+    pub(crate) fn value(
         &mut self,
         operand: Operand,
         at: &BlockContext<'_>,
@@ -60,7 +60,7 @@ impl Interpreter {
     }
 
     /// Notes the values of the machine that a block would read.
-    pub(in crate::interpreter) fn note_reads(&self, at: &BlockContext<'_>) {
+    pub(crate) fn note_reads(&self, at: &BlockContext<'_>) {
         if self.options.notes == Notes::None {
             return;
         }
@@ -76,7 +76,7 @@ impl Interpreter {
         }
     }
 
-    pub(in crate::interpreter) fn with_evaluator<T>(
+    pub(crate) fn with_evaluator<T>(
         &self,
         at: &BlockContext<'_>,
         evaluate: impl FnOnce(&Evaluator<'_>) -> T,
@@ -124,12 +124,7 @@ impl Interpreter {
     }
 
     /// Counts something that was accepted and passed over.
-    pub(in crate::interpreter) fn pass_over(
-        &mut self,
-        word: &str,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn pass_over(&mut self, word: &str, span: Span, at: &BlockContext<'_>) {
         let counts = &mut self.state.opaque;
         let full = counts.len() >= MAX_OPAQUE && !counts.contains_key(word);
         let word_or_rest = if full { OTHER_WORDS } else { word };
@@ -185,15 +180,12 @@ impl Interpreter {
     }
 
     /// Whether the value of a variable follows from the state of the run.
-    pub(in crate::interpreter) fn is_own(&self, name: &VariableName) -> bool {
+    pub(crate) fn is_own(&self, name: &VariableName) -> bool {
         self.own_variable(name).is_some()
     }
 
     /// The kind of an axis whose state a variable shows.
-    pub(in crate::interpreter) fn active_variable(
-        &self,
-        name: &VariableName,
-    ) -> Option<(AxisIndex, Kind)> {
+    pub(crate) fn active_variable(&self, name: &VariableName) -> Option<(AxisIndex, Kind)> {
         match self.own_variable(name)? {
             OwnVariable::Active(axis, kind) => Some((axis, kind)),
             _ => None,
@@ -226,12 +218,7 @@ impl Interpreter {
     }
 
     /// FC322: the effect of an assignment to such a variable is not known.
-    pub(in crate::interpreter) fn warn_own(
-        &mut self,
-        place: Option<&Denoted>,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn warn_own(&mut self, place: Option<&Denoted>, span: Span, at: &BlockContext<'_>) {
         let Some(name) = place.and_then(Denoted::variable) else {
             return;
         };
@@ -275,7 +262,7 @@ impl Interpreter {
         }
     }
 
-    pub(in crate::interpreter) fn assign(
+    pub(crate) fn assign(
         &mut self,
         assignment: Assignment,
         at: &BlockContext<'_>,
@@ -300,7 +287,7 @@ impl Interpreter {
         Ok(())
     }
 
-    pub(in crate::interpreter) fn target_place(
+    pub(crate) fn target_place(
         &mut self,
         place: Expression,
         at: &BlockContext<'_>,
@@ -311,7 +298,7 @@ impl Interpreter {
         found
     }
 
-    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: Value) {
+    pub(crate) fn write(&mut self, location: &Location, value: Value) {
         if let Location::Variable(name) = location
             && let Some(own) = self.own_variable(name)
         {
@@ -337,12 +324,7 @@ impl Interpreter {
     }
 
     /// Writes a value that a block sets.
-    pub(in crate::interpreter) fn set_by(
-        &mut self,
-        place: Option<Denoted>,
-        value: Value,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn set_by(&mut self, place: Option<Denoted>, value: Value, at: &BlockContext<'_>) {
         let Some((location, value)) = place.map(|place| place.assigned(value)) else {
             return;
         };
@@ -369,7 +351,7 @@ impl Interpreter {
     }
 
     /// The number that an operand is, if it is known; FC312 for a string (R2.37).
-    pub(in crate::interpreter) fn number(
+    pub(crate) fn number(
         &mut self,
         operand: Operand,
         span: Span,
@@ -379,7 +361,7 @@ impl Interpreter {
     }
 
     /// The number that an argument of a command means; `None` where it is not known.
-    pub(in crate::interpreter) fn argument_number(
+    pub(crate) fn argument_number(
         &mut self,
         argument: &Argument,
         at: &BlockContext<'_>,
@@ -388,11 +370,7 @@ impl Interpreter {
     }
 
     /// The number of a value; `None` where it is not known.
-    pub(in crate::interpreter) fn operand_number(
-        &mut self,
-        value: Operand,
-        at: &BlockContext<'_>,
-    ) -> Option<f64> {
+    pub(crate) fn operand_number(&mut self, value: Operand, at: &BlockContext<'_>) -> Option<f64> {
         match self.value(value, at) {
             Ok(Value::Number(number)) => Some(number),
             _ => None,
@@ -456,7 +434,7 @@ fn reads_itself(assignment: Assignment, name: &VariableName, at: &BlockContext<'
 }
 
 /// Whether an assignment counts: `P1 = P1 + 1`.
-pub(in crate::interpreter) fn only_counts(
+pub(crate) fn only_counts(
     assignment: Assignment,
     location: &Location,
     at: &BlockContext<'_>,

@@ -22,12 +22,7 @@ use crate::syntax::ast::{Argument, BracketArguments, Hash};
 
 impl Interpreter {
     /// Executes an exchange command.
-    pub(in crate::interpreter) fn exchange_axes(
-        &mut self,
-        exchange: Exchange,
-        hash: &Hash,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn exchange_axes(&mut self, exchange: Exchange, hash: &Hash, at: &BlockContext<'_>) {
         self.state.control.modal.hash(hash.command);
         let command = hash.command;
         if command.has(FurtherWord::Default) {
@@ -102,7 +97,7 @@ impl Interpreter {
 
     /// Friction compensation of an axis is that of the start of the control, where the machine is read
     /// so.
-    pub(in crate::interpreter) fn return_to_start(&mut self, axis: AxisIndex) {
+    pub(crate) fn return_to_start(&mut self, axis: AxisIndex) {
         let start = self.machine.compensation();
         let kinds = KindSet::of(Kind::Frict);
         let control = &mut self.state.control;
@@ -162,10 +157,7 @@ impl Interpreter {
 
 impl ControlState {
     /// The axis that a COMP command switches under the current names.
-    pub(in crate::interpreter) fn addressed(
-        &self,
-        name: &str,
-    ) -> Result<Addressed, CompensationError> {
+    pub(crate) fn addressed(&self, name: &str) -> Result<Addressed, CompensationError> {
         Ok(match self.channel_axes.meaning(name) {
             None => Addressed::Axis(self.compensation.resolve(name)?),
             Some(AxisNameMeaning::Axis(axis)) => Addressed::Axis(axis),
@@ -175,7 +167,7 @@ impl ControlState {
     }
 
     /// An exchange that may or may not have been executed.
-    pub(in crate::interpreter) fn havoc_exchange(&mut self) {
+    pub(crate) fn havoc_exchange(&mut self) {
         self.channel_axes.doubtful = true;
     }
 

@@ -7,13 +7,13 @@ use crate::syntax::ast::CallScope;
 
 impl Interpreter {
     /// Whether only the machine has the program.
-    pub(in crate::interpreter) fn is_external(&self, wanted: &WantedCall) -> bool {
+    pub(crate) fn is_external(&self, wanted: &WantedCall) -> bool {
         wanted.word.is_some()
             || wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
     }
 
     /// Makes unknown what a program that only the machine has does not keep.
-    pub(in crate::interpreter) fn leave_to_machine(&mut self, program: &MissingProgram) {
+    pub(crate) fn leave_to_machine(&mut self, program: &MissingProgram) {
         let name = program.to_string();
         let keeps = self.machine.programs.keeps(&name);
         self.scratch.plc_acts = true;

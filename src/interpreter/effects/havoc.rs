@@ -16,7 +16,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Makes unknown what text of unknown meaning could change (R2.70).
-    pub(in crate::interpreter) fn havoc_unread(&mut self, effect: Unread, cause: &Unknown) {
+    pub(crate) fn havoc_unread(&mut self, effect: Unread, cause: &Unknown) {
         match effect {
             Unread::Everything => self.havoc_by_call(cause),
             Unread::Parameters => {
@@ -28,7 +28,7 @@ impl Interpreter {
 
     /// Everything that a program could change becomes unknown: every kind of every axis, positions and
     /// modal words, parameters and variables (R2.52).
-    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Unknown) {
+    pub(crate) fn havoc_all(&mut self, cause: &Unknown) {
         if let Some(undecided) = &mut self.scratch.undecided {
             undecided
                 .differing
@@ -44,14 +44,14 @@ impl Interpreter {
 
     /// A part of the block that may call any program: everything becomes unknown, and once more after the
     /// words of the block, since programs are called after them.
-    pub(in crate::interpreter) fn havoc_by_call(&mut self, cause: &Unknown) {
+    pub(crate) fn havoc_by_call(&mut self, cause: &Unknown) {
         self.havoc_all(cause);
         let calls = &mut self.scratch.unknown_call;
         calls.get_or_insert_with(|| cause.clone());
     }
 
     /// It is not known whether any axis moves.
-    pub(in crate::interpreter) fn perhaps_move_all(&mut self) {
+    pub(crate) fn perhaps_move_all(&mut self) {
         let count = self.machine.axes.len();
         let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
         if self.scratch.also_moved.iter().filter(possible).count() < count {
@@ -62,7 +62,7 @@ impl Interpreter {
     }
 
     /// Every parameter and variable becomes unknown.
-    pub(in crate::interpreter) fn havoc_memory(&mut self, cause: &Unknown) {
+    pub(crate) fn havoc_memory(&mut self, cause: &Unknown) {
         self.journal.begin_anew();
         self.scratch.plc_acts = true;
         self.scratch.wrote = true;
@@ -74,7 +74,7 @@ impl Interpreter {
     }
 
     /// Every kind of every axis becomes unknown.
-    pub(in crate::interpreter) fn havoc_compensation(&mut self) {
+    pub(crate) fn havoc_compensation(&mut self) {
         self.state.control.possible.clear();
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);
@@ -86,7 +86,7 @@ impl Interpreter {
     }
 
     /// The macros of programs may be gone; those of the machine remain as the machine defines them.
-    pub(in crate::interpreter) fn havoc_macros(&mut self, cause: &Unknown) {
+    pub(crate) fn havoc_macros(&mut self, cause: &Unknown) {
         let machine = &self.machine.programs.macros;
         let stays = |name: &str, code: &str| {
             let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
@@ -96,14 +96,14 @@ impl Interpreter {
     }
 
     /// A COMP command switched kinds of an axis, but it is not known which axis.
-    pub(in crate::interpreter) fn havoc_any_axis(&mut self, kinds: KindSet) {
+    pub(crate) fn havoc_any_axis(&mut self, kinds: KindSet) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
             self.havoc(axis, kinds);
         }
     }
 
     /// A command that may or may not have been executed (R2.51).
-    pub(in crate::interpreter) fn havoc_hash(&mut self, command: HashWords, cause: &Unknown) {
+    pub(crate) fn havoc_hash(&mut self, command: HashWords, cause: &Unknown) {
         match command.action {
             HashAction::EndModalCycles => self.state.control.cycles.havoc(),
             HashAction::ForgetMacros => self.havoc_macros(cause),
@@ -136,7 +136,7 @@ impl Interpreter {
 
 impl BlockScratch {
     /// It is not known whether an axis moves.
-    pub(in crate::interpreter) fn perhaps_move(&mut self, axis: AxisIndex) {
+    pub(crate) fn perhaps_move(&mut self, axis: AxisIndex) {
         self.also_moved.push(MovedAxis {
             axis,
             span: Span::default(),

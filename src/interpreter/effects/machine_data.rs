@@ -10,7 +10,7 @@ use crate::syntax::ast::{BracketArguments, Hash, Operand};
 
 /// Target of a write to the machine data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum WriteTarget {
+pub(crate) enum WriteTarget {
     /// A parameter of friction compensation.
     Friction,
     /// Another parameter.
@@ -18,7 +18,7 @@ pub(in crate::interpreter) enum WriteTarget {
 }
 
 /// Returns the target of a command.
-pub(in crate::interpreter) fn written(arguments: &BracketArguments, text: &str) -> WriteTarget {
+pub(crate) fn written(arguments: &BracketArguments, text: &str) -> WriteTarget {
     let is_friction = |key| arguments.mention(key, text);
     if FRICTION_KEYS.into_iter().any(is_friction) {
         WriteTarget::Friction
@@ -31,7 +31,7 @@ pub(in crate::interpreter) fn written(arguments: &BracketArguments, text: &str) 
 const FRICTION_KEYS: [&str; 2] = ["frict_comp", "p-axis-00522"];
 
 /// Whether a command sets P-AXIS-00522 to 1.
-pub(in crate::interpreter) fn enables(arguments: &BracketArguments, text: &str) -> bool {
+pub(crate) fn enables(arguments: &BracketArguments, text: &str) -> bool {
     let keys = ["P-AXIS-00522", "lr_param.frict_comp"];
     let value = keys.iter().find_map(|key| arguments.after(key, text));
     value.is_some_and(|value| value.value == Some(Operand::Number(1.0)))
@@ -40,7 +40,7 @@ pub(in crate::interpreter) fn enables(arguments: &BracketArguments, text: &str) 
 impl Interpreter {
     /// The axes whose list a command transfers again, with the kinds that NC commands have set there:
     /// all kinds where it writes a parameter of friction compensation.
-    pub(in crate::interpreter) fn transferred(
+    pub(crate) fn transferred(
         &mut self,
         hash: &Hash,
         at: &BlockContext<'_>,
@@ -68,7 +68,7 @@ impl Interpreter {
     }
 
     /// The axes that the command may name in a region that may or may not be executed.
-    pub(in crate::interpreter) fn perhaps_transferred(
+    pub(crate) fn perhaps_transferred(
         &self,
         arguments: &BracketArguments,
         text: &str,

@@ -19,18 +19,18 @@ use crate::syntax::{Fault, VariableName};
 
 /// A value that the program set and that decides a condition.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct KeptValue {
+pub(crate) struct KeptValue {
     /// The variables.
-    pub(in crate::interpreter) names: Arc<[VariableName]>,
+    pub(crate) names: Arc<[VariableName]>,
     /// The block that set it.
-    pub(in crate::interpreter) set: SetAt,
+    pub(crate) set: SetAt,
     /// The value of the condition.
-    pub(in crate::interpreter) value: Value,
+    pub(crate) value: Value,
 }
 
 /// Reason why a condition has more than one answer.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) enum Doubt {
+pub(crate) enum Doubt {
     /// A value that only the machine knows.
     Unknown(Unknown),
     /// A value that the program set and that the PLC may change.
@@ -39,7 +39,7 @@ pub(in crate::interpreter) enum Doubt {
 
 impl Doubt {
     /// The doubt about a value that is not known.
-    pub(in crate::interpreter) fn of(value: &Value) -> Option<Self> {
+    pub(crate) fn of(value: &Value) -> Option<Self> {
         match value {
             Value::Unknown(cause) => Some(Self::Unknown(cause.clone())),
             Value::Number(_) | Value::Text(_) => None,
@@ -47,7 +47,7 @@ impl Doubt {
     }
 
     /// The value that decides.
-    pub(in crate::interpreter) fn cause(&self) -> Unknown {
+    pub(crate) fn cause(&self) -> Unknown {
         match self {
             Self::Unknown(cause) => cause.clone(),
             Self::Kept(kept) => {
@@ -58,10 +58,7 @@ impl Doubt {
     }
 
     /// The answer that the program set, by its place among the answers.
-    pub(in crate::interpreter) fn kept_answer(
-        &self,
-        place: impl FnOnce(&Value) -> usize,
-    ) -> Option<KeptAnswer> {
+    pub(crate) fn kept_answer(&self, place: impl FnOnce(&Value) -> usize) -> Option<KeptAnswer> {
         let Self::Kept(kept) = self else {
             return None;
         };
@@ -76,7 +73,7 @@ impl Doubt {
 impl Interpreter {
     /// Whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
     /// P-CHAN-00041, P-CHAN-00027.
-    pub(in crate::interpreter) fn may_acknowledge(&self, letter: u8, number: Option<i64>) -> bool {
+    pub(crate) fn may_acknowledge(&self, letter: u8, number: Option<i64>) -> bool {
         let number = number.and_then(|number| u32::try_from(number).ok());
         let Some(number) = number.filter(|_| self.state.control.memory.holds_any()) else {
             return true;
@@ -90,7 +87,7 @@ impl Interpreter {
     }
 
     /// Whether the PLC acts by design at a word that may be executed: an M or H function but an end, a dwell.
-    pub(in crate::interpreter) fn lets_plc_act_at(&self, letter: u8, number: Option<i64>) -> bool {
+    pub(crate) fn lets_plc_act_at(&self, letter: u8, number: Option<i64>) -> bool {
         match letter {
             b'M' if matches!(number, Some(2 | 17 | 29 | 30)) => false,
             b'M' | b'H' => self.may_acknowledge(letter, number),
@@ -101,7 +98,7 @@ impl Interpreter {
 
     /// The PLC acts by design: every value that the program shares with it may be another one.
     #[inline]
-    pub(in crate::interpreter) fn let_plc_act(&mut self) {
+    pub(crate) fn let_plc_act(&mut self) {
         let State { control, track, .. } = &self.state;
         if control.memory.holds_any() || !track.assumed.is_empty() {
             self.let_plc_write(|_| true);
@@ -111,7 +108,7 @@ impl Interpreter {
 
     /// The PLC may write variables.
     #[cold]
-    pub(in crate::interpreter) fn let_plc_write(&mut self, is_it: impl Fn(&VariableName) -> bool) {
+    pub(crate) fn let_plc_write(&mut self, is_it: impl Fn(&VariableName) -> bool) {
         let State { control, track, .. } = &mut self.state;
         track.assumed.undo_external(&is_it, &mut control.memory);
         let changed = control.memory.let_change(is_it);
@@ -122,7 +119,7 @@ impl Interpreter {
     }
 
     /// The value of a condition, and what the program set that decides it.
-    pub(in crate::interpreter) fn asked_value(
+    pub(crate) fn asked_value(
         &mut self,
         condition: Operand,
         at: &BlockContext<'_>,
@@ -157,7 +154,7 @@ impl Interpreter {
     }
 
     /// The value of the condition of a loop: the PLC may write the variables that it asks for.
-    pub(in crate::interpreter) fn loop_value(
+    pub(crate) fn loop_value(
         &mut self,
         condition: Operand,
         at: &BlockContext<'_>,

@@ -6,7 +6,7 @@ use crate::readings::Question;
 
 impl Interpreter {
     /// Resets friction compensation, where the machine is read so (R1.28).
-    pub(in crate::interpreter) fn reset_friction(&mut self) {
+    pub(crate) fn reset_friction(&mut self) {
         if self.machine.readings.takes_second(Question::Reset) {
             for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
                 self.return_to_start(axis);

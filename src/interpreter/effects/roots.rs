@@ -10,7 +10,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Adds a message about an unknown value once per program (FC902); again only where `what` differs.
-    pub(in crate::interpreter) fn tell_once(
+    pub(crate) fn tell_once(
         &mut self,
         cause: &Unknown,
         what: &str,
@@ -35,17 +35,12 @@ impl Interpreter {
 
 impl MentionedUnknowns {
     /// Remembers where an unknown value first occurred.
-    pub(in crate::interpreter) fn enter_root(
-        &mut self,
-        cause: &Unknown,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn enter_root(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
         self.enter(cause, || at.place(at.in_block(span)));
     }
 
     /// Adds to the message the block where the value first occurred, unless its own block shows it.
-    pub(in crate::interpreter) fn with_origin(
+    pub(crate) fn with_origin(
         &self,
         said: Diagnostic,
         cause: &Unknown,

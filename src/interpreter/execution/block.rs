@@ -110,7 +110,7 @@ impl Interpreter {
     }
 
     /// Executes a block and informs the observer. `Continue` where the next block follows.
-    pub(in crate::interpreter) fn execute(
+    pub(crate) fn execute(
         &mut self,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,

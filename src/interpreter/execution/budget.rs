@@ -11,7 +11,7 @@ use crate::text::Span;
 impl Interpreter {
     /// FC910 when the next block may not be executed any more.
     #[inline]
-    pub(in crate::interpreter) fn over_budget(&self, at: &BlockContext<'_>) -> Option<Diagnostic> {
+    pub(crate) fn over_budget(&self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let limits = &self.options.limits;
         if self.state.blocks >= limits.blocks {
             return Some(too_many_blocks(limits.blocks, at));
@@ -22,7 +22,7 @@ impl Interpreter {
 
     /// FC919, FC908 or FC918 when the block exceeded a budget. Whatever else it could have changed is then unknown:
     /// the run did not reach its end.
-    pub(in crate::interpreter) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
+    pub(crate) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.scratch.wrote);
         if self.is_past_regions() {
             self.havoc_all(&Unknown::Work);
@@ -63,7 +63,7 @@ impl Interpreter {
     }
 
     /// The budget's message with the loop that used it up.
-    pub(in crate::interpreter) fn with_loop(
+    pub(crate) fn with_loop(
         &self,
         diagnostic: Diagnostic,
         unit: usize,

@@ -22,7 +22,7 @@ impl Interpreter {
         is_kept.then(|| holds_program_end(index.text_from(frame.section, frame.next)))
     }
 
-    pub(in crate::interpreter) fn push_call(&mut self, request: Request) {
+    pub(crate) fn push_call(&mut self, request: Request) {
         let ProgramId { unit, section } = request.found;
         let level = self.state.control.frames.level() + 1;
         self.state
@@ -54,7 +54,7 @@ impl Interpreter {
         });
     }
 
-    pub(in crate::interpreter) fn leave(&mut self) {
+    pub(crate) fn leave(&mut self) {
         if let Some(frame) = self.state.control.frames.pop() {
             self.journal.begin_anew();
             let depth = self.state.control.frames.depth();
@@ -80,7 +80,7 @@ impl Interpreter {
 
     /// Calls the next of several programs that one block calls.
     #[cold]
-    pub(in crate::interpreter) fn call_waiting(&mut self) {
+    pub(crate) fn call_waiting(&mut self) {
         let frame = self.state.control.frames.running_mut();
         if let Some(request) = frame.and_then(|frame| frame.waiting.pop()) {
             self.push_call(request);
@@ -88,7 +88,7 @@ impl Interpreter {
     }
 
     /// Begins a part of a program once more, or leaves a program.
-    pub(in crate::interpreter) fn end_of_pass(&mut self) {
+    pub(crate) fn end_of_pass(&mut self) {
         let executed = self.state.seq;
         let frame = self.state.control.frames.running_mut();
         let again = frame.and_then(|frame| {
@@ -123,7 +123,7 @@ impl Interpreter {
     }
 
     /// Leaves programs down to the one that is returned to.
-    pub(in crate::interpreter) fn go_back(&mut self, to: &Destination) {
+    pub(crate) fn go_back(&mut self, to: &Destination) {
         while self
             .state
             .control
@@ -142,7 +142,7 @@ impl Interpreter {
         }
     }
 
-    pub(in crate::interpreter) fn enter(&mut self, unit: usize, section: usize) {
+    pub(crate) fn enter(&mut self, unit: usize, section: usize) {
         let next = self.programs.section(ProgramId { unit, section }).start;
         self.state.control.frames.push(CallFrame {
             unit,
@@ -160,7 +160,7 @@ impl Interpreter {
     }
 
     /// Executes the step that a block requested. `Break` when the program ends.
-    pub(in crate::interpreter) fn follow(&mut self, step: ControlStep) -> ControlFlow<EndedBy> {
+    pub(crate) fn follow(&mut self, step: ControlStep) -> ControlFlow<EndedBy> {
         match step {
             // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
             ControlStep::Begin => {}

@@ -18,7 +18,7 @@ const PAIR: u64 = 20;
 
 impl Interpreter {
     /// Counts the work of copying a state, or of comparing it with another one.
-    pub(in crate::interpreter) fn charge_copies(&self, control: &ControlState, reach: &WaySet) {
+    pub(crate) fn charge_copies(&self, control: &ControlState, reach: &WaySet) {
         let levels = LEVEL.saturating_mul(control.frames.depth() as u64);
         let pairs = PAIR.saturating_mul(control.pairs(reach));
         let axes = 20 * self.machine.axes.len() as u64;
@@ -27,7 +27,7 @@ impl Interpreter {
     }
 
     /// Counts the work of a block that is executed while other ways wait.
-    pub(in crate::interpreter) fn charge_block(&self, weight: u64) {
+    pub(crate) fn charge_block(&self, weight: u64) {
         let compared = 20 * self.state.control.frames.depth() as u64;
         let units = BLOCK.saturating_add(weight).saturating_add(compared);
         self.state.work.charge_ways(units);

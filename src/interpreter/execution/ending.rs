@@ -26,22 +26,18 @@ use crate::text::{Place, Span};
 
 impl Interpreter {
     /// Whether faults of the main program keep it from running.
-    pub(in crate::interpreter) fn is_refused(&self) -> bool {
+    pub(crate) fn is_refused(&self) -> bool {
         !self.programs.refused().is_empty() && self.options.stop == StopPolicy::FirstError
     }
 
     /// Ends a program that does not run.
-    pub(in crate::interpreter) fn refuse(&mut self, observer: &mut dyn Observer) -> RunOutcome {
+    pub(crate) fn refuse(&mut self, observer: &mut dyn Observer) -> RunOutcome {
         let refused = self.programs.refused();
         self.ended(ended_by(&refused.said), &refused, observer)
     }
 
     /// Ends a program whose text is in memory.
-    pub(in crate::interpreter) fn close(
-        &mut self,
-        outcome: RunOutcome,
-        observer: &mut dyn Observer,
-    ) -> RunOutcome {
+    pub(crate) fn close(&mut self, outcome: RunOutcome, observer: &mut dyn Observer) -> RunOutcome {
         let RunOutcome::Ended(by) = outcome else {
             return outcome;
         };
@@ -56,7 +52,7 @@ impl Interpreter {
         self.ended(by, &notes, observer)
     }
 
-    pub(in crate::interpreter) fn ended(
+    pub(crate) fn ended(
         &mut self,
         by: EndedBy,
         notes: &Collected,
@@ -166,7 +162,7 @@ impl Interpreter {
     }
 
     /// Blocks that no run of the program and of the files that it calls reached, for their syntax.
-    pub(in crate::interpreter) fn check_all_unexecuted(&self, notes: &mut Collected) {
+    pub(crate) fn check_all_unexecuted(&self, notes: &mut Collected) {
         for (number, unit) in self.programs.units().iter().enumerate() {
             let others = unit.index.other_mains().filter(|_| number == 0);
             self.check_unexecuted_of(unit, others, notes);
@@ -211,7 +207,7 @@ impl Interpreter {
         }
     }
 
-    pub(in crate::interpreter) fn check_unexecuted(
+    pub(crate) fn check_unexecuted(
         &self,
         file: &Arc<str>,
         raw: &RawBlock<'_>,
@@ -246,7 +242,7 @@ impl ProgramStore {
     }
 
     /// Returns the faults that keep the main program from running at all.
-    pub(in crate::interpreter) fn refused(&self) -> Collected {
+    pub(crate) fn refused(&self) -> Collected {
         let main = self.units().first();
         main.map_or(Collected::default(), |unit| unit.index.refused.clone())
     }

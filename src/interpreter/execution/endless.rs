@@ -67,7 +67,7 @@ enum Enough {
 impl Interpreter {
     /// Returns the next step where a block jumps back; it leaves a loop that only a value of the machine
     /// ends.
-    pub(in crate::interpreter) fn come_round(
+    pub(crate) fn come_round(
         &mut self,
         target: EntryIndex,
         at: &BlockContext<'_>,
@@ -100,11 +100,7 @@ impl Interpreter {
     }
 
     /// Returns the next step where a way that only the machine decides leads back.
-    pub(in crate::interpreter) fn come_back(
-        &mut self,
-        target: EntryIndex,
-        finder: &mut dyn Finder,
-    ) -> ControlStep {
+    pub(crate) fn come_back(&mut self, target: EntryIndex, finder: &mut dyn Finder) -> ControlStep {
         let _ = self.note_pass(target);
         self.follow_loop(target, Repeats::Unknown, finder)
     }
@@ -304,7 +300,7 @@ impl Interpreter {
     }
 
     /// FC910 where the innermost loop is known to be endless.
-    pub(in crate::interpreter) fn endless_loop(&self) -> Option<Diagnostic> {
+    pub(crate) fn endless_loop(&self) -> Option<Diagnostic> {
         let known = self.state.track.loops.last()?;
         let counters = known.endless.as_ref()?;
         Some(self.programs.endless(known, counters))
@@ -397,7 +393,7 @@ impl RunTrack {
     }
 
     /// Returns the number of repetitions of the loop that begins at a block.
-    pub(in crate::interpreter) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
+    pub(crate) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
         let loops = self.loops.iter().rev();
         let mut known = loops.filter(|known| known.unit == unit);
         let found = known.find(|known| known.head == opener);

@@ -11,16 +11,16 @@ use serde::{Deserialize, Serialize};
 /// every version. It shows what changed by mistake; it does not protect against forgery.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
-pub(in crate::interpreter) struct Fingerprint(u64);
+pub(crate) struct Fingerprint(u64);
 
 /// A text that is not a fingerprint.
 #[derive(Debug, thiserror::Error)]
 #[error("a fingerprint has 16 hexadecimal digits")]
-pub(in crate::interpreter) struct NoFingerprint;
+pub(crate) struct NoFingerprint;
 
 impl Fingerprint {
     /// The fingerprint of a text.
-    pub(in crate::interpreter) fn of_text(text: &str) -> Self {
+    pub(crate) fn of_text(text: &str) -> Self {
         let mut hasher = FnvHasher::default();
         hasher.write(text.as_bytes());
         Self(hasher.finish())
@@ -28,7 +28,7 @@ impl Fingerprint {
 
     /// The fingerprint of data, computed over its serialised bytes. `None` for data that cannot be
     /// serialised.
-    pub(in crate::interpreter) fn of_data(data: &impl Serialize) -> Option<Self> {
+    pub(crate) fn of_data(data: &impl Serialize) -> Option<Self> {
         let bytes = Bytes(FnvHasher::default());
         postcard::serialize_with_flavor(data, bytes).ok()
     }

@@ -14,7 +14,7 @@ use crate::interpreter::values::cause::Unknown;
 impl Interpreter {
     /// Ends a way. Returns the end of the run if no other way continues.
     #[cold]
-    pub(in crate::interpreter) fn end_path(&mut self, by: EndedBy) -> Option<EndedBy> {
+    pub(crate) fn end_path(&mut self, by: EndedBy) -> Option<EndedBy> {
         let is_covered = std::mem::take(&mut self.scratch.covered);
         let is_alone = self.state.waiting.is_empty() && self.state.ended.is_empty();
         let waits_for_lines = by == EndedBy::EndOfFile
@@ -67,7 +67,7 @@ impl Interpreter {
     /// The ways through the program meet at its end. Where the run has gone on after errors, one that an error has
     /// ended counts only if no other went on, and the states at the errors are apart (R9.20).
     #[cold]
-    pub(in crate::interpreter) fn meet_ended(&mut self, by: EndedBy) -> MetWays {
+    pub(crate) fn meet_ended(&mut self, by: EndedBy) -> MetWays {
         if !std::mem::take(&mut self.scratch.covered) {
             let own = self.ended_path(by);
             self.state.ended.push(own);
@@ -112,12 +112,12 @@ impl Interpreter {
 }
 
 /// The end of a program on whose ways it ended differently.
-pub(in crate::interpreter) struct MetWays {
-    pub(in crate::interpreter) by: EndedBy,
+pub(crate) struct MetWays {
+    pub(crate) by: EndedBy,
     /// Each end, that of the dry run first.
-    pub(in crate::interpreter) ends: Vec<ProgramEnd>,
+    pub(crate) ends: Vec<ProgramEnd>,
     /// The state at the errors after which the run went on.
-    pub(in crate::interpreter) stopped: Option<StoppedState>,
+    pub(crate) stopped: Option<StoppedState>,
 }
 
 impl State {
@@ -174,7 +174,7 @@ impl State {
 
 impl State {
     /// FC310 at the last executed block; a program without any block is reported as such (R18.6).
-    pub(in crate::interpreter) fn missing_end(&self) -> Option<Diagnostic> {
+    pub(crate) fn missing_end(&self) -> Option<Diagnostic> {
         let place = self.last.as_ref()?.place();
         let message = "the program ends here without M30 or M02";
         Some(Diagnostic::new(Code::Fc310, place, message).with_help("end it with `M30`"))

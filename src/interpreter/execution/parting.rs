@@ -13,11 +13,7 @@ use crate::interpreter::run::step::ControlStep;
 impl Interpreter {
     /// The ways part after the block that asked.
     #[cold]
-    pub(in crate::interpreter) fn take_sides(
-        &mut self,
-        step: Option<&ControlStep>,
-        finder: &mut dyn Finder,
-    ) {
+    pub(crate) fn take_sides(&mut self, step: Option<&ControlStep>, finder: &mut dyn Finder) {
         let sides = std::mem::take(&mut self.sides);
         let here = self.state.control.frames.running().map_or(0, |it| it.next);
         let base = self.state.leave_path();

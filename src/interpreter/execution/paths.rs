@@ -27,7 +27,7 @@ use crate::language::Group;
 
 impl Interpreter {
     /// Continues with a way.
-    pub(in crate::interpreter) fn enter_path(&mut self, path: Path) {
+    pub(crate) fn enter_path(&mut self, path: Path) {
         let Path {
             control,
             track,
@@ -43,7 +43,7 @@ impl Interpreter {
     }
 
     /// Continues with the way that is first in the text. Returns whether there is one.
-    pub(in crate::interpreter) fn enter_first(&mut self) -> bool {
+    pub(crate) fn enter_first(&mut self) -> bool {
         let first = self.state.waiting.take_first();
         first.map(|path| self.enter_path(path)).is_some()
     }
@@ -51,7 +51,7 @@ impl Interpreter {
     /// Continues with the way that is first in the text, joined with those at the same block. Returns
     /// whether there are any.
     #[cold]
-    pub(in crate::interpreter) fn choose_path(&mut self) -> bool {
+    pub(crate) fn choose_path(&mut self) -> bool {
         let mut joined = false;
         loop {
             let first = self.state.waiting.first_from(&self.state.control.frames);
@@ -74,7 +74,7 @@ impl Interpreter {
     }
 
     /// Joins another way that reaches the block that is executed next.
-    pub(in crate::interpreter) fn join_path(&mut self, mut other: Path) {
+    pub(crate) fn join_path(&mut self, mut other: Path) {
         let mut mine = self.state.leave_path();
         let parted = Self::what_parts(&mine, &other);
         let condition = parted.and_then(|number| self.state.conditions.get(number as usize));
@@ -112,11 +112,7 @@ impl Interpreter {
     }
 
     /// Reports, once for each condition, what differs where two ways join (FC901).
-    pub(in crate::interpreter) fn tell_join(
-        &mut self,
-        sides: &[ControlState; 2],
-        parted: Option<u32>,
-    ) {
+    pub(crate) fn tell_join(&mut self, sides: &[ControlState; 2], parted: Option<u32>) {
         let Some(condition) = parted.and_then(|number| {
             let found = self.state.conditions.get(number as usize);
             found.cloned()
@@ -176,11 +172,7 @@ impl Interpreter {
 
 impl State {
     /// A condition that is asked on some ways only is reported as such, whatever its own answer.
-    pub(in crate::interpreter) fn limit_to_reach(
-        &self,
-        said: &mut Diagnostic,
-        condition: Option<u32>,
-    ) {
+    pub(crate) fn limit_to_reach(&self, said: &mut Diagnostic, condition: Option<u32>) {
         let mut reach = self.track.reach.clone();
         if let Some(own) = condition {
             reach.havoc(own);
@@ -193,7 +185,7 @@ impl State {
 
 impl BlockScratch {
     /// The block before was executed on another way.
-    pub(in crate::interpreter) fn havoc_last_motion(&mut self) {
+    pub(crate) fn havoc_last_motion(&mut self) {
         self.moved.clear();
         self.aside.last_moved.clear();
     }

@@ -13,7 +13,7 @@ use crate::text::Place;
 impl Interpreter {
     /// Returns the messages on the `%` lines of the main file, and on comments for this tool in all
     /// files, or up to where each was reached where the rest is not checked.
-    pub(in crate::interpreter) fn beside_blocks(&mut self, by: EndedBy) -> Collected {
+    pub(crate) fn beside_blocks(&mut self, by: EndedBy) -> Collected {
         let mut said = std::mem::take(&mut self.lost);
         for (number, unit) in self.programs.units().iter().enumerate() {
             let until = self.reached_line(number, unit, by);
@@ -46,7 +46,7 @@ impl Interpreter {
     }
 
     /// Keeps the messages about lines that are not kept.
-    pub(in crate::interpreter) fn note_lost(&mut self, file: &Arc<str>, lost: &LostRemarks) {
+    pub(crate) fn note_lost(&mut self, file: &Arc<str>, lost: &LostRemarks) {
         gather(file, lost, u32::MAX, &mut self.lost);
     }
 }

@@ -13,7 +13,7 @@ use crate::interpreter::run::step::{ControlStep, NextBlock};
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
-    pub(in crate::interpreter) fn run(
+    pub(crate) fn run(
         &mut self,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
@@ -128,7 +128,7 @@ impl Interpreter {
     }
 
     /// Executes a step. Returns the end of the run if it is the last one of the last way.
-    pub(in crate::interpreter) fn follow_to_end(
+    pub(crate) fn follow_to_end(
         &mut self,
         step: ControlStep,
         finder: &mut dyn Finder,

@@ -36,7 +36,7 @@ impl Interpreter {
     }
 
     /// Announces and runs a program whose text is in memory, in a state that is prepared.
-    pub(in crate::interpreter) fn whole(
+    pub(crate) fn whole(
         &mut self,
         source: SourceFile,
         finder: &mut dyn Finder,
@@ -57,7 +57,7 @@ impl Interpreter {
     }
 
     /// Runs the announced program from the start of its section.
-    pub(in crate::interpreter) fn begin(
+    pub(crate) fn begin(
         &mut self,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
@@ -99,7 +99,7 @@ impl Interpreter {
     }
 
     /// Prepares the state for a program start.
-    pub(in crate::interpreter) fn start(&mut self) {
+    pub(crate) fn start(&mut self) {
         self.state.control.modal = self.state.control.modal.next_program(&self.machine.channel);
         self.state
             .control
@@ -138,7 +138,7 @@ impl Interpreter {
         self.journal.begin_anew();
     }
 
-    pub(in crate::interpreter) fn announce(
+    pub(crate) fn announce(
         &mut self,
         name: Option<&str>,
         observer: &mut dyn Observer,
@@ -154,7 +154,7 @@ impl Interpreter {
     }
 
     /// Calls the configured program that runs before every main program (R2.15).
-    pub(in crate::interpreter) fn start_program(
+    pub(crate) fn start_program(
         &mut self,
         main: &str,
         finder: &mut dyn Finder,

@@ -27,7 +27,7 @@ const MOST_LINES: u32 = 1 << 31;
 type Validity = Result<(), &'static str>;
 
 /// The machine and the files that a state has to fit.
-pub(in crate::interpreter) struct Trust<'a> {
+pub(crate) struct Trust<'a> {
     machine: &'a Machine,
     programs: &'a ProgramStore,
     state: &'a State,
@@ -35,7 +35,7 @@ pub(in crate::interpreter) struct Trust<'a> {
 
 impl<'a> Trust<'a> {
     /// The state of a run, before anything is done with it.
-    pub(in crate::interpreter) fn of(run: &'a Interpreter) -> Self {
+    pub(crate) fn of(run: &'a Interpreter) -> Self {
         Self {
             machine: &run.machine,
             programs: &run.programs,
@@ -44,7 +44,7 @@ impl<'a> Trust<'a> {
     }
 
     /// Whether everything that the state names is there.
-    pub(in crate::interpreter) fn check(&self) -> Validity {
+    pub(crate) fn check(&self) -> Validity {
         let state = self.state;
         holds(
             state.occurred.len() == self.machine.axes.len(),

@@ -23,7 +23,7 @@ const MAX_NAMED: usize = 3;
 impl Interpreter {
     /// Whether following the ways of the program takes more work than its budget, and they are still followed.
     #[inline]
-    pub(in crate::interpreter) fn is_past_ways(&self) -> bool {
+    pub(crate) fn is_past_ways(&self) -> bool {
         self.state.work.ways() > self.options.limits.ways
             && !self.state.is_widened
             && self.options.follows_ways()
@@ -33,7 +33,7 @@ impl Interpreter {
     /// Takes all ways to the end of the outermost control block that any of them is in, and reports what is unknown
     /// from there on (FC908).
     #[cold]
-    pub(in crate::interpreter) fn widen(&mut self, finder: &mut dyn Finder) {
+    pub(crate) fn widen(&mut self, finder: &mut dyn Finder) {
         self.state.is_widened = true;
         let cause = Unknown::Ways;
         let mut left = BTreeSet::new();

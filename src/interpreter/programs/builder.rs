@@ -42,7 +42,7 @@ struct PendingJump {
 
 impl Index {
     /// Indexes a text. Control blocks may be nested up to `nesting` levels deep.
-    pub(in crate::interpreter) fn new(source: SourceFile, nesting: u32) -> Self {
+    pub(crate) fn new(source: SourceFile, nesting: u32) -> Self {
         let builder = Builder {
             index: Self {
                 source,

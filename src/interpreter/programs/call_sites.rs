@@ -78,7 +78,7 @@ pub fn holds_program_end(text: &str) -> bool {
 }
 
 /// Whether a text is a main program: M02 or M30 is in it, and it does not end with M17 or M29 (R2.110).
-pub(in crate::interpreter) fn is_main_program(text: &str) -> bool {
+pub(crate) fn is_main_program(text: &str) -> bool {
     let mut returns = false;
     for_each_block(text, |block, _, _| {
         let is_return = |word: &Word| {

@@ -4,13 +4,13 @@ use crate::machine::canonical_word;
 use crate::syntax::ast::{Argument, Hash};
 
 /// The words that get a program after `#FILE NAME`.
-pub(in crate::interpreter) fn named_words(hash: &Hash, text: &str) -> Vec<String> {
+pub(crate) fn named_words(hash: &Hash, text: &str) -> Vec<String> {
     let names = file_names(hash, text).into_iter();
     names.map(|(word, _)| word).collect()
 }
 
 /// The name of a program after `#FILE NAME`.
-pub(in crate::interpreter) enum FileName<'a> {
+pub(crate) enum FileName<'a> {
     /// A literal name.
     Written(&'a str),
     /// The value of a variable, or of something that is not followed.
@@ -22,10 +22,7 @@ const LETTERS: [&str; 4] = ["D", "G", "M", "T"];
 
 /// The words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional. With any
 /// other text, the program of every word is unknown.
-pub(in crate::interpreter) fn file_names<'a>(
-    hash: &Hash,
-    text: &'a str,
-) -> Vec<(String, FileName<'a>)> {
+pub(crate) fn file_names<'a>(hash: &Hash, text: &'a str) -> Vec<(String, FileName<'a>)> {
     let mut names = Vec::new();
     let mut arguments = hash.brackets.iter();
     while let Some(argument) = arguments.next() {

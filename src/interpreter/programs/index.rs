@@ -15,18 +15,18 @@ use crate::syntax::{BlockReader, FastPath, LostRemarks, Remark, Stretch};
 use crate::text::{Place, SourceFile, Span, TextLines};
 
 /// The position of a block in [`Index::entries`].
-pub(in crate::interpreter) type EntryIndex = u32;
+pub(crate) type EntryIndex = u32;
 
 /// A program of the run: a section of one of its files, both by their positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ProgramId {
-    pub(in crate::interpreter) unit: usize,
-    pub(in crate::interpreter) section: usize,
+pub(crate) struct ProgramId {
+    pub(crate) unit: usize,
+    pub(crate) section: usize,
 }
 
 impl ProgramId {
     /// The first section of the main file.
-    pub(in crate::interpreter) const FIRST: Self = Self {
+    pub(crate) const FIRST: Self = Self {
         unit: 0,
         section: 0,
     };
@@ -34,43 +34,43 @@ impl ProgramId {
 
 /// One block of the text.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::interpreter) struct IndexEntry {
-    pub(in crate::interpreter) offset: u32,
-    pub(in crate::interpreter) line: u32,
+pub(crate) struct IndexEntry {
+    pub(crate) offset: u32,
+    pub(crate) line: u32,
 }
 
 /// A main program or a local subprogram.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct ProgramSection {
-    pub(in crate::interpreter) name: Option<String>,
-    pub(in crate::interpreter) local: bool,
+pub(crate) struct ProgramSection {
+    pub(crate) name: Option<String>,
+    pub(crate) local: bool,
     /// Its name in the `%` line, where it has one.
-    pub(in crate::interpreter) opening: Option<Place>,
-    pub(in crate::interpreter) start: EntryIndex,
-    pub(in crate::interpreter) end: EntryIndex,
+    pub(crate) opening: Option<Place>,
+    pub(crate) start: EntryIndex,
+    pub(crate) end: EntryIndex,
 }
 
 /// Statements of one control block.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::interpreter) struct Links {
+pub(crate) struct Links {
     /// The statement that opened the control block.
-    pub(in crate::interpreter) opener: EntryIndex,
+    pub(crate) opener: EntryIndex,
     /// The next branch: `$ELSEIF`, `$ELSE`, `$CASE`, `$DEFAULT`, or the end.
-    pub(in crate::interpreter) next: EntryIndex,
+    pub(crate) next: EntryIndex,
     /// The statement that closes it.
-    pub(in crate::interpreter) end: EntryIndex,
+    pub(crate) end: EntryIndex,
 }
 
 /// A jump label within a section.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(in crate::interpreter) enum LabelName {
+pub(crate) enum LabelName {
     Number(i64),
     Text(String),
 }
 
 impl LabelName {
     /// The label of a number. One that is larger than any block number names no block.
-    pub(in crate::interpreter) fn numbered(number: f64) -> Self {
+    pub(crate) fn numbered(number: f64) -> Self {
         rounded(number).map_or_else(|| Self::Text(format!("N{number}")), Self::Number)
     }
 
@@ -84,7 +84,7 @@ impl LabelName {
     }
 
     /// Returns the label of a block number for a text label such as `[N40]`, and the reverse.
-    pub(in crate::interpreter) fn in_other_form(&self) -> Option<Self> {
+    pub(crate) fn in_other_form(&self) -> Option<Self> {
         match self {
             Self::Number(number) => Some(Self::Text(format!("N{number}"))),
             Self::Text(text) => {
@@ -106,7 +106,7 @@ impl std::fmt::Display for LabelName {
 
 /// The targets of the jumps of a program.
 #[derive(Debug, Default)]
-pub(in crate::interpreter) struct JumpTargets {
+pub(crate) struct JumpTargets {
     named: HashSet<LabelName>,
     /// Whether a jump computes its target.
     are_computed: bool,
@@ -122,7 +122,7 @@ impl JumpTargets {
     }
 
     /// Whether a label may be one of them, in either form.
-    pub(in crate::interpreter) fn may_be(&self, label: &LabelName) -> bool {
+    pub(crate) fn may_be(&self, label: &LabelName) -> bool {
         let other = label.in_other_form();
         self.are_computed
             || self.named.contains(label)
@@ -132,44 +132,44 @@ impl JumpTargets {
 
 /// The index of one file.
 #[derive(Debug)]
-pub(in crate::interpreter) struct Index {
-    pub(in crate::interpreter) source: SourceFile,
-    pub(in crate::interpreter) entries: Vec<IndexEntry>,
-    pub(in crate::interpreter) sections: Vec<ProgramSection>,
-    pub(in crate::interpreter) links: BTreeMap<EntryIndex, Links>,
+pub(crate) struct Index {
+    pub(crate) source: SourceFile,
+    pub(crate) entries: Vec<IndexEntry>,
+    pub(crate) sections: Vec<ProgramSection>,
+    pub(crate) links: BTreeMap<EntryIndex, Links>,
     /// The statements that open loops.
-    pub(in crate::interpreter) loops: Vec<EntryIndex>,
-    pub(in crate::interpreter) labels: HashMap<(usize, LabelName), EntryIndex>,
-    pub(in crate::interpreter) targets: JumpTargets,
+    pub(crate) loops: Vec<EntryIndex>,
+    pub(crate) labels: HashMap<(usize, LabelName), EntryIndex>,
+    pub(crate) targets: JumpTargets,
     /// The local subprograms by name, the first of each.
-    pub(in crate::interpreter) locals: HashMap<String, usize>,
+    pub(crate) locals: HashMap<String, usize>,
     /// The names that several local subprograms have, each with the section of the second.
-    pub(in crate::interpreter) repeated: HashMap<String, usize>,
-    pub(in crate::interpreter) remarks: HashMap<EntryIndex, Remark>,
+    pub(crate) repeated: HashMap<String, usize>,
+    pub(crate) remarks: HashMap<EntryIndex, Remark>,
     /// Comments to this tool that no block follows.
-    pub(in crate::interpreter) lost: LostRemarks,
+    pub(crate) lost: LostRemarks,
     /// Ends of the branches of each `#IF`.
-    pub(in crate::interpreter) interpreted: BTreeMap<EntryIndex, EntryIndex>,
+    pub(crate) interpreted: BTreeMap<EntryIndex, EntryIndex>,
     /// The blocks with a skip mark, with their levels.
-    pub(in crate::interpreter) skips: BTreeMap<EntryIndex, u8>,
+    pub(crate) skips: BTreeMap<EntryIndex, u8>,
     /// The openers of control blocks of which another part has a skip mark, with its level.
-    pub(in crate::interpreter) split: BTreeMap<EntryIndex, u8>,
+    pub(crate) split: BTreeMap<EntryIndex, u8>,
     /// Messages on the `%` lines.
-    pub(in crate::interpreter) openings: Collected,
+    pub(crate) openings: Collected,
     /// The section that a run of the file executes.
-    pub(in crate::interpreter) main: Option<usize>,
+    pub(crate) main: Option<usize>,
     /// Faults that keep the program from running at all.
-    pub(in crate::interpreter) refused: Collected,
+    pub(crate) refused: Collected,
 }
 
 impl Index {
     /// Whether a `$` statement belongs to a control block that is whole.
-    pub(in crate::interpreter) fn is_linked(&self, entry: EntryIndex) -> bool {
+    pub(crate) fn is_linked(&self, entry: EntryIndex) -> bool {
         self.links.contains_key(&entry)
     }
 
     /// The links of a `$` statement.
-    pub(in crate::interpreter) fn links(&self, entry: EntryIndex) -> Links {
+    pub(crate) fn links(&self, entry: EntryIndex) -> Links {
         self.links.get(&entry).copied().unwrap_or(Links {
             opener: entry,
             next: entry,
@@ -178,7 +178,7 @@ impl Index {
     }
 
     /// FC323 where the file has only local subprograms.
-    pub(in crate::interpreter) fn no_main_program(&self) -> Option<Diagnostic> {
+    pub(crate) fn no_main_program(&self) -> Option<Diagnostic> {
         let first_local = self.sections.iter().find(|section| section.local)?;
         let place = first_local.opening.clone()?;
         let message = "the file has no main program, only local subprograms; nothing of it was run";
@@ -187,7 +187,7 @@ impl Index {
     }
 
     /// FC103 where the program that a run executes has no block (R18.6).
-    pub(in crate::interpreter) fn no_block(&self) -> Option<Diagnostic> {
+    pub(crate) fn no_block(&self) -> Option<Diagnostic> {
         let is_empty = match self.main {
             Some(main) => self.sections.get(main).is_some_and(|it| it.start == it.end),
             None => self.entries.is_empty() && self.locals.is_empty(),
@@ -197,9 +197,7 @@ impl Index {
 
     /// FC324 for every main program with blocks except the one that runs, with its first block. A lone `%` may end
     /// a file.
-    pub(in crate::interpreter) fn other_mains(
-        &self,
-    ) -> impl Iterator<Item = (EntryIndex, Diagnostic)> {
+    pub(crate) fn other_mains(&self) -> impl Iterator<Item = (EntryIndex, Diagnostic)> {
         let others = self.sections.iter().enumerate();
         let others = others.filter(|(number, section)| {
             !section.local && section.end > section.start && self.main != Some(*number)
@@ -208,14 +206,14 @@ impl Index {
     }
 
     /// The line of the `%` that follows the main program; `u32::MAX` where the file ends with it.
-    pub(in crate::interpreter) fn end_of_main(&self) -> u32 {
+    pub(crate) fn end_of_main(&self) -> u32 {
         let next = self.main.and_then(|main| self.sections.get(main + 1));
         let opening = next.and_then(|section| section.opening.as_ref());
         opening.map_or(u32::MAX, |place| place.first_line)
     }
 
     /// The text of a program from one of its blocks on.
-    pub(in crate::interpreter) fn text_from(&self, section: usize, first: EntryIndex) -> &str {
+    pub(crate) fn text_from(&self, section: usize, first: EntryIndex) -> &str {
         let end = self.sections.get(section).map(|section| section.end);
         let offset = |entry: EntryIndex| {
             let entry = self.entries.get(usize::try_from(entry).ok()?)?;
@@ -229,18 +227,18 @@ impl Index {
     }
 
     /// A local subprogram by its name.
-    pub(in crate::interpreter) fn local(&self, name: &str) -> Option<usize> {
+    pub(crate) fn local(&self, name: &str) -> Option<usize> {
         self.locals.get(name).copied()
     }
 
     /// The opening of another local subprogram of a name that several have.
-    pub(in crate::interpreter) fn repeated_local(&self, name: &str) -> Option<&Place> {
+    pub(crate) fn repeated_local(&self, name: &str) -> Option<&Place> {
         let section = self.sections.get(*self.repeated.get(name)?)?;
         section.opening.as_ref()
     }
 
     /// The names of the local subprograms.
-    pub(in crate::interpreter) fn local_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn local_names(&self) -> impl Iterator<Item = &str> {
         self.sections
             .iter()
             .filter(|section| section.local)
@@ -248,16 +246,12 @@ impl Index {
     }
 
     /// The block of a label.
-    pub(in crate::interpreter) fn label(
-        &self,
-        section: usize,
-        label: LabelName,
-    ) -> Option<EntryIndex> {
+    pub(crate) fn label(&self, section: usize, label: LabelName) -> Option<EntryIndex> {
         self.labels.get(&(section, label)).copied()
     }
 
     /// The jump labels of a section in the order of the text; `None` where there are more than a number of them.
-    pub(in crate::interpreter) fn few_labels(
+    pub(crate) fn few_labels(
         &self,
         section: usize,
         most: usize,
@@ -270,10 +264,7 @@ impl Index {
     }
 
     /// The blocks of a section that have jump labels.
-    pub(in crate::interpreter) fn labels(
-        &self,
-        section: usize,
-    ) -> impl Iterator<Item = EntryIndex> {
+    pub(crate) fn labels(&self, section: usize) -> impl Iterator<Item = EntryIndex> {
         let mut found: Vec<EntryIndex> = self
             .labels
             .iter()
@@ -285,7 +276,7 @@ impl Index {
     }
 
     /// The blocks of a section by their numbers; of a number given twice the first one.
-    pub(in crate::interpreter) fn numbers(&self, section: usize) -> HashMap<i64, EntryIndex> {
+    pub(crate) fn numbers(&self, section: usize) -> HashMap<i64, EntryIndex> {
         let mut numbers = HashMap::new();
         let Some(section) = self.sections.get(section) else {
             return numbers;
@@ -311,7 +302,7 @@ impl Index {
     }
 
     /// The place of a span in the text of a block.
-    pub(in crate::interpreter) fn place(&self, entry: EntryIndex, span: Span) -> Place {
+    pub(crate) fn place(&self, entry: EntryIndex, span: Span) -> Place {
         let mut block = Block::default();
         let Some(mut reader) = self.reader(entry) else {
             return self.block_place(entry);
@@ -328,7 +319,7 @@ impl Index {
     }
 
     /// The place of a whole block's first line.
-    pub(in crate::interpreter) fn block_place(&self, entry: EntryIndex) -> Place {
+    pub(crate) fn block_place(&self, entry: EntryIndex) -> Place {
         let line = self
             .entries
             .get(entry as usize)
@@ -340,26 +331,23 @@ impl Index {
     }
 
     /// The loop that contains a block, by its opener.
-    pub(in crate::interpreter) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
+    pub(crate) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
         let around = |opener: &&EntryIndex| **opener <= entry && entry <= self.links(**opener).end;
         self.loops.iter().filter(around).max().copied()
     }
 
     /// Returns the end of the branches of an `#IF`.
-    pub(in crate::interpreter) fn interpreted_to(&self, entry: EntryIndex) -> Option<EntryIndex> {
+    pub(crate) fn interpreted_to(&self, entry: EntryIndex) -> Option<EntryIndex> {
         self.interpreted.get(&entry).copied()
     }
 
     /// The comment line above a block that is addressed to this tool.
-    pub(in crate::interpreter) fn remark(&self, entry: EntryIndex) -> Option<Remark> {
+    pub(crate) fn remark(&self, entry: EntryIndex) -> Option<Remark> {
         self.remarks.get(&entry).cloned()
     }
 
     /// A reader that is positioned before a block.
-    pub(in crate::interpreter) fn reader(
-        &self,
-        entry: EntryIndex,
-    ) -> Option<BlockReader<TextLines<'_>>> {
+    pub(crate) fn reader(&self, entry: EntryIndex) -> Option<BlockReader<TextLines<'_>>> {
         let entry = self.entries.get(entry as usize)?;
         let lines = TextLines::starting_at(self.source.text(), entry.offset as usize);
         Some(BlockReader::new(lines, entry.line, FastPath::On))
@@ -367,7 +355,7 @@ impl Index {
 }
 
 /// FC103: a file whose program has no block.
-pub(in crate::interpreter) fn no_block(file: &Arc<str>) -> Diagnostic {
+pub(crate) fn no_block(file: &Arc<str>) -> Diagnostic {
     let place = Place::head_of(file);
     let message = "the program has no block: the control executes nothing and keeps every state";
     Diagnostic::new(Code::Fc103, place, message)
@@ -375,7 +363,7 @@ pub(in crate::interpreter) fn no_block(file: &Arc<str>) -> Diagnostic {
 }
 
 /// FC104: a file that is something else.
-pub(in crate::interpreter) fn not_a_program(file: &Arc<str>, what: &str) -> Diagnostic {
+pub(crate) fn not_a_program(file: &Arc<str>, what: &str) -> Diagnostic {
     let place = Place::head_of(file);
     let message = format!("this file is {what}, not an NC program; nothing of it was run");
     Diagnostic::new(Code::Fc104, place, message)
@@ -383,7 +371,7 @@ pub(in crate::interpreter) fn not_a_program(file: &Arc<str>, what: &str) -> Diag
 }
 
 /// FC324: a main program, by its name in its `%` line, after the one that its file runs.
-pub(in crate::interpreter) fn never_run(name: Place) -> Diagnostic {
+pub(crate) fn never_run(name: Place) -> Diagnostic {
     let (shown, call) = match name.span.of(&name.text) {
         "" => ("without a name".to_owned(), "%L NAME".to_owned()),
         named => (format!("`{named}`"), format!("%L {named}")),

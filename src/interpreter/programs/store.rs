@@ -18,7 +18,7 @@ use crate::text::{Place, SourceFile};
 const MAX_COMPARED: usize = 100_000;
 
 /// Limit of the parsed blocks that a run keeps.
-pub(in crate::interpreter) const MAX_KEPT: usize = 100_000;
+pub(crate) const MAX_KEPT: usize = 100_000;
 
 /// Units of work that a byte of a program in memory allows: its regions may have to be examined
 /// once.
@@ -26,15 +26,15 @@ const PER_BYTE_HELD: u64 = 16;
 
 /// Caller of a program.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::interpreter) struct Caller<'a> {
-    pub(in crate::interpreter) unit: usize,
+pub(crate) struct Caller<'a> {
+    pub(crate) unit: usize,
     /// The name of its file.
-    pub(in crate::interpreter) file: &'a str,
+    pub(crate) file: &'a str,
 }
 
 /// The files of a run, the main program first.
 #[derive(Clone, Default)]
-pub(in crate::interpreter) struct ProgramStore {
+pub(crate) struct ProgramStore {
     units: Vec<SourceUnit>,
     /// Depth of nested control blocks.
     nesting: u32,
@@ -56,7 +56,7 @@ pub(in crate::interpreter) struct ProgramStore {
 
 impl ProgramStore {
     /// No file yet.
-    pub(in crate::interpreter) fn new(nesting: u32) -> Self {
+    pub(crate) fn new(nesting: u32) -> Self {
         Self {
             nesting,
             ..Self::default()
@@ -64,39 +64,39 @@ impl ProgramStore {
     }
 
     /// Drops all files.
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         *self = Self::new(self.nesting);
     }
 
     /// The files.
-    pub(in crate::interpreter) fn units(&self) -> &[SourceUnit] {
+    pub(crate) fn units(&self) -> &[SourceUnit] {
         &self.units
     }
 
     /// A file.
-    pub(in crate::interpreter) fn unit_mut(&mut self, unit: usize) -> &mut SourceUnit {
+    pub(crate) fn unit_mut(&mut self, unit: usize) -> &mut SourceUnit {
         &mut self.units[unit]
     }
 
     /// The index of a file.
     #[inline]
-    pub(in crate::interpreter) fn index(&self, unit: usize) -> &Index {
+    pub(crate) fn index(&self, unit: usize) -> &Index {
         &self.units[unit].index
     }
 
     /// A program.
     #[inline]
-    pub(in crate::interpreter) fn section(&self, program: ProgramId) -> &ProgramSection {
+    pub(crate) fn section(&self, program: ProgramId) -> &ProgramSection {
         &self.units[program.unit].index.sections[program.section]
     }
 
     /// The work that the texts allow.
-    pub(in crate::interpreter) fn granted(&self) -> u64 {
+    pub(crate) fn granted(&self) -> u64 {
         PER_BYTE_HELD.saturating_mul(self.held_text)
     }
 
     /// Takes a file into the run; returns its number.
-    pub(in crate::interpreter) fn hold(&mut self, index: Index) -> usize {
+    pub(crate) fn hold(&mut self, index: Index) -> usize {
         let bytes = u64::try_from(index.source.text().len()).unwrap_or(u64::MAX);
         self.held_text = self.held_text.saturating_add(bytes);
         let unit = self.units.len();
@@ -108,7 +108,7 @@ impl ProgramStore {
 
     /// Puts the main program into the place that was kept for it. The programs that were called so far
     /// stay where they are: a modal cycle and the calls that were found name them by their places.
-    pub(in crate::interpreter) fn hold_first(&mut self, index: Index) {
+    pub(crate) fn hold_first(&mut self, index: Index) {
         self.names.retain(|_, unit| *unit != 0);
         let held = self.hold(index);
         let name = self.units[held].index.source.name().clone();
@@ -118,7 +118,7 @@ impl ProgramStore {
     }
 
     /// The blocks of the section that holds one.
-    pub(in crate::interpreter) fn section_of(
+    pub(crate) fn section_of(
         &self,
         (unit, entry): (usize, EntryIndex),
     ) -> Option<Range<EntryIndex>> {
@@ -129,12 +129,12 @@ impl ProgramStore {
 
     /// Whether a block was read before, in order to be executed.
     #[inline]
-    pub(in crate::interpreter) fn was_read(&self, unit: usize, entry: EntryIndex) -> bool {
+    pub(crate) fn was_read(&self, unit: usize, entry: EntryIndex) -> bool {
         self.units[unit].executed[entry as usize]
     }
 
     /// A parsed block; those that are executed again are kept.
-    pub(in crate::interpreter) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
+    pub(crate) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
         let place = entry as usize;
         let unit = &mut self.units[unit];
         if let Some(Some(kept)) = unit.kept.get(place) {
@@ -155,14 +155,14 @@ impl ProgramStore {
     }
 
     /// A parsed block that is inspected, not executed.
-    pub(in crate::interpreter) fn looked_at(&self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
+    pub(crate) fn looked_at(&self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
         let unit = &self.units[unit];
         let kept = unit.kept.get(entry as usize).cloned().flatten();
         kept.unwrap_or_else(|| Arc::new(unit.parse(entry)))
     }
 
     /// The block of a section that a jump label or a block number names.
-    pub(in crate::interpreter) fn block_of(
+    pub(crate) fn block_of(
         &mut self,
         program: ProgramId,
         name: &LabelName,
@@ -184,7 +184,7 @@ impl ProgramStore {
     }
 
     /// The program that a call means; `None` where its file holds nothing to execute.
-    pub(in crate::interpreter) fn find(
+    pub(crate) fn find(
         &mut self,
         wanted: &WantedCall,
         caller: Caller<'_>,

@@ -11,26 +11,26 @@ use crate::syntax::{Comments, Remark, Stretch};
 
 /// A file of the run.
 #[derive(Clone)]
-pub(in crate::interpreter) struct SourceUnit {
-    pub(in crate::interpreter) index: Arc<Index>,
+pub(crate) struct SourceUnit {
+    pub(crate) index: Arc<Index>,
     /// Blocks that were executed more than once, parsed.
-    pub(in crate::interpreter) kept: Vec<Option<Arc<Parsed>>>,
+    pub(crate) kept: Vec<Option<Arc<Parsed>>>,
     /// Blocks below this one were executed before.
-    pub(in crate::interpreter) high: EntryIndex,
+    pub(crate) high: EntryIndex,
     /// Executed blocks, where they are requested.
-    pub(in crate::interpreter) executed: Vec<bool>,
+    pub(crate) executed: Vec<bool>,
     /// Control blocks whose branch is not known offline.
-    pub(in crate::interpreter) undecided: BTreeSet<EntryIndex>,
+    pub(crate) undecided: BTreeSet<EntryIndex>,
     /// Regions that were passed over and tried (R2.51), apart from each other: first block and end.
     tried: BTreeMap<EntryIndex, EntryIndex>,
     /// Kinds of calls that may call any program of their kind: local subprograms `L`, those of G functions `G`.
-    pub(in crate::interpreter) open_calls: BTreeSet<u8>,
+    pub(crate) open_calls: BTreeSet<u8>,
     /// Whether a call of the file came back from its end (R17.2).
-    pub(in crate::interpreter) returned: bool,
+    pub(crate) returned: bool,
 }
 
 impl SourceUnit {
-    pub(in crate::interpreter) fn new(index: Index) -> Self {
+    pub(crate) fn new(index: Index) -> Self {
         Self {
             kept: Vec::new(),
             high: 0,
@@ -68,10 +68,7 @@ impl SourceUnit {
     }
 
     /// Takes the parts of a region that were not tried before, and marks them as tried.
-    pub(in crate::interpreter) fn take_untried(
-        &mut self,
-        region: Range<EntryIndex>,
-    ) -> Vec<Range<EntryIndex>> {
+    pub(crate) fn take_untried(&mut self, region: Range<EntryIndex>) -> Vec<Range<EntryIndex>> {
         if region.is_empty() {
             return Vec::new();
         }
@@ -99,13 +96,13 @@ impl SourceUnit {
 }
 
 /// A parsed block with its text and its place.
-pub(in crate::interpreter) struct Parsed {
-    pub(in crate::interpreter) block: Block,
+pub(crate) struct Parsed {
+    pub(crate) block: Block,
     /// Work of executing it again.
-    pub(in crate::interpreter) weight: u64,
-    pub(in crate::interpreter) file: Arc<str>,
-    pub(in crate::interpreter) line: u32,
-    pub(in crate::interpreter) text: String,
-    pub(in crate::interpreter) comments: Comments,
-    pub(in crate::interpreter) remark: Option<Remark>,
+    pub(crate) weight: u64,
+    pub(crate) file: Arc<str>,
+    pub(crate) line: u32,
+    pub(crate) text: String,
+    pub(crate) comments: Comments,
+    pub(crate) remark: Option<Remark>,
 }

@@ -10,14 +10,14 @@ use crate::text::Span;
 
 /// A word that may call a program: G, M, T or D with its number, where that is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(in crate::interpreter) struct FunctionWord {
-    pub(in crate::interpreter) letter: u8,
-    pub(in crate::interpreter) number: Option<i64>,
+pub(crate) struct FunctionWord {
+    pub(crate) letter: u8,
+    pub(crate) number: Option<i64>,
 }
 
 impl FunctionWord {
     /// A G function.
-    pub(in crate::interpreter) fn g(number: u32) -> Self {
+    pub(crate) fn g(number: u32) -> Self {
         Self {
             letter: b'G',
             number: Some(i64::from(number)),
@@ -25,7 +25,7 @@ impl FunctionWord {
     }
 
     /// The D word with the number of a T word.
-    pub(in crate::interpreter) fn of_data(self) -> Self {
+    pub(crate) fn of_data(self) -> Self {
         Self {
             letter: b'D',
             ..self
@@ -35,26 +35,26 @@ impl FunctionWord {
 
 /// A call whose program has not been looked for yet.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct WantedCall {
-    pub(in crate::interpreter) scope: CallScope,
-    pub(in crate::interpreter) name: String,
-    pub(in crate::interpreter) own: BTreeMap<u32, Value>,
-    pub(in crate::interpreter) span: Span,
+pub(crate) struct WantedCall {
+    pub(crate) scope: CallScope,
+    pub(crate) name: String,
+    pub(crate) own: BTreeMap<u32, Value>,
+    pub(crate) span: Span,
     /// Span of the name, if the block itself has it.
-    pub(in crate::interpreter) named: Option<Span>,
+    pub(crate) named: Option<Span>,
     /// Whether it is a cycle.
-    pub(in crate::interpreter) form: CallForm,
+    pub(crate) form: CallForm,
     /// Set for a modal cycle: whether it waits for motion.
-    pub(in crate::interpreter) repeat: Option<bool>,
+    pub(crate) repeat: Option<bool>,
     /// The part of the program, where it is not all of it.
-    pub(in crate::interpreter) part: Option<CalledPart>,
+    pub(crate) part: Option<CalledPart>,
     /// The G function that is called, where no program is known for it (R2.94).
-    pub(in crate::interpreter) word: Option<u32>,
+    pub(crate) word: Option<u32>,
 }
 
 impl WantedCall {
     /// A call of a program without parameters.
-    pub(in crate::interpreter) fn program(scope: CallScope, name: String, span: Span) -> Self {
+    pub(crate) fn program(scope: CallScope, name: String, span: Span) -> Self {
         Self {
             scope,
             name,
@@ -69,7 +69,7 @@ impl WantedCall {
     }
 
     /// G80 and the like, which call a program of the machine that is not known (R2.94).
-    pub(in crate::interpreter) fn of_word(number: u32, span: Span) -> Self {
+    pub(crate) fn of_word(number: u32, span: Span) -> Self {
         Self {
             word: Some(number),
             ..Self::program(CallScope::Global, format!("G{number}"), span)
@@ -77,7 +77,7 @@ impl WantedCall {
     }
 
     /// The called program, if it is missing.
-    pub(in crate::interpreter) fn missing(&self) -> MissingProgram {
+    pub(crate) fn missing(&self) -> MissingProgram {
         let named = || MissingProgram::Named(self.name.as_str().into());
         self.word.map_or_else(named, MissingProgram::OfG)
     }
@@ -85,12 +85,12 @@ impl WantedCall {
 
 /// The part of a program that `L SEQUENCE` calls.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct CalledPart {
-    pub(in crate::interpreter) first: LabelName,
-    pub(in crate::interpreter) last: Option<LabelName>,
+pub(crate) struct CalledPart {
+    pub(crate) first: LabelName,
+    pub(crate) last: Option<LabelName>,
     /// Whether the call itself ends the part, too.
-    pub(in crate::interpreter) end_tag: bool,
-    pub(in crate::interpreter) passes: u64,
+    pub(crate) end_tag: bool,
+    pub(crate) passes: u64,
     /// Whether it belongs to the program being executed.
-    pub(in crate::interpreter) here: bool,
+    pub(crate) here: bool,
 }

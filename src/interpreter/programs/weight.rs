@@ -29,7 +29,7 @@ const REMARK: usize = 1000;
 const BYTES: usize = 16;
 
 /// Units of repeated work that a block with its text needs.
-pub(in crate::interpreter) fn weight(block: &Block, text: &str) -> u64 {
+pub(crate) fn weight(block: &Block, text: &str) -> u64 {
     let items = block.items.iter().map(|item| match item {
         Item::Word(_) => WORD,
         Item::MacroUse(_) => MACRO,

@@ -11,35 +11,35 @@ use crate::syntax::{Comments, Fault, RawBlock, Remark};
 use crate::text::{MAX_WHOLE, Place, Span};
 
 /// The place of a block, and what is known about it apart from its tree.
-pub(in crate::interpreter) struct BlockContext<'a> {
-    pub(in crate::interpreter) block: &'a Block,
-    pub(in crate::interpreter) file: &'a Arc<str>,
-    pub(in crate::interpreter) text: &'a str,
-    pub(in crate::interpreter) line: u32,
-    pub(in crate::interpreter) comments: Comments,
-    pub(in crate::interpreter) remark: Option<&'a Remark>,
-    pub(in crate::interpreter) level: u32,
-    pub(in crate::interpreter) called_from: Option<&'a Place>,
+pub(crate) struct BlockContext<'a> {
+    pub(crate) block: &'a Block,
+    pub(crate) file: &'a Arc<str>,
+    pub(crate) text: &'a str,
+    pub(crate) line: u32,
+    pub(crate) comments: Comments,
+    pub(crate) remark: Option<&'a Remark>,
+    pub(crate) level: u32,
+    pub(crate) called_from: Option<&'a Place>,
     /// Number of macros around the code.
-    pub(in crate::interpreter) macro_depth: u32,
+    pub(crate) macro_depth: u32,
     /// Span of the use of the outermost of them in the block.
-    pub(in crate::interpreter) used: Option<Span>,
+    pub(crate) used: Option<Span>,
     /// The lines of the text that messages showed last.
-    pub(in crate::interpreter) shown: &'a ShownBlockLines,
+    pub(crate) shown: &'a ShownBlockLines,
 }
 
 /// The code of a macro in place of words.
-pub(in crate::interpreter) struct MacroCode<'a> {
-    pub(in crate::interpreter) text: &'a str,
-    pub(in crate::interpreter) block: &'a Block,
+pub(crate) struct MacroCode<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) block: &'a Block,
     /// Number of macros around it, its own included.
-    pub(in crate::interpreter) depth: u32,
+    pub(crate) depth: u32,
 }
 
 /// The lines of a block that a message showed last. The next one often shows the same, and then
 /// they are held once; a block of many lines is gone through once for all its messages (R2.85).
 #[derive(Debug, Default)]
-pub(in crate::interpreter) struct ShownBlockLines(RefCell<Option<LineSpan>>);
+pub(crate) struct ShownBlockLines(RefCell<Option<LineSpan>>);
 
 #[derive(Debug)]
 struct LineSpan {
@@ -109,7 +109,7 @@ impl LineSpan {
 
 impl<'a> BlockContext<'a> {
     /// The block as one that sets a variable.
-    pub(in crate::interpreter) fn as_setter(&self) -> SetAt {
+    pub(crate) fn as_setter(&self) -> SetAt {
         SetAt {
             file: self.file.clone(),
             line: self.line,
@@ -118,7 +118,7 @@ impl<'a> BlockContext<'a> {
 
     /// A block of the main program, or one that is inspected, not executed.
     #[inline]
-    pub(in crate::interpreter) fn of_raw(
+    pub(crate) fn of_raw(
         file: &'a Arc<str>,
         raw: &RawBlock<'a>,
         block: &'a Block,
@@ -140,11 +140,7 @@ impl<'a> BlockContext<'a> {
     }
 
     /// A block of the program that runs on a level of the call stack.
-    pub(in crate::interpreter) fn of_parsed(
-        parsed: &'a Parsed,
-        level: u32,
-        shown: &'a ShownBlockLines,
-    ) -> Self {
+    pub(crate) fn of_parsed(parsed: &'a Parsed, level: u32, shown: &'a ShownBlockLines) -> Self {
         Self {
             block: &parsed.block,
             file: &parsed.file,
@@ -161,7 +157,7 @@ impl<'a> BlockContext<'a> {
     }
 
     /// The same block of a program that was called from a place.
-    pub(in crate::interpreter) fn with_caller(self, called_from: Option<&'a Place>) -> Self {
+    pub(crate) fn with_caller(self, called_from: Option<&'a Place>) -> Self {
         Self {
             called_from,
             ..self
@@ -169,11 +165,7 @@ impl<'a> BlockContext<'a> {
     }
 
     /// Another block of the same program.
-    pub(in crate::interpreter) fn other(
-        &self,
-        parsed: &'a Parsed,
-        shown: &'a ShownBlockLines,
-    ) -> Self {
+    pub(crate) fn other(&self, parsed: &'a Parsed, shown: &'a ShownBlockLines) -> Self {
         Self {
             block: &parsed.block,
             text: &parsed.text,
@@ -184,7 +176,7 @@ impl<'a> BlockContext<'a> {
     }
 
     /// The code of a macro that is used at a span of this block or macro.
-    pub(in crate::interpreter) fn in_macro(
+    pub(crate) fn in_macro(
         &self,
         code: &MacroCode<'a>,
         used: Span,
@@ -203,15 +195,15 @@ impl<'a> BlockContext<'a> {
 
 impl BlockContext<'_> {
     /// The span in the block of a span here, for messages once the whole block is known.
-    pub(in crate::interpreter) fn in_block(&self, span: Span) -> Span {
+    pub(crate) fn in_block(&self, span: Span) -> Span {
         self.used.unwrap_or(span)
     }
 
-    pub(in crate::interpreter) fn place(&self, span: Span) -> Place {
+    pub(crate) fn place(&self, span: Span) -> Place {
         self.shown.place(self, span)
     }
 
-    pub(in crate::interpreter) fn diagnostic(&self, fault: Fault) -> Diagnostic {
+    pub(crate) fn diagnostic(&self, fault: Fault) -> Diagnostic {
         let place = self.place(fault.span);
         // The code of a macro is not the text of the program.
         let in_text = |span| self.used.is_none().then(|| self.place(span));

@@ -23,15 +23,15 @@ use crate::text::{Place, Span};
 
 /// The block that ends the program.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct OwnEnd {
-    pub(in crate::interpreter) place: Place,
+pub(crate) struct OwnEnd {
+    pub(crate) place: Place,
     /// Whether no jump goes to it.
-    pub(in crate::interpreter) is_passed_into: bool,
+    pub(crate) is_passed_into: bool,
 }
 
 /// What comes between an error and the next program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(in crate::interpreter) enum AfterError {
+pub(crate) enum AfterError {
     /// A reset of the channel.
     #[default]
     Reset,
@@ -41,24 +41,24 @@ pub(in crate::interpreter) enum AfterError {
 
 /// A program that only the machine has, and its call: the state that it leaves is not known.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct LeftOpen {
-    pub(in crate::interpreter) program: MissingProgram,
-    pub(in crate::interpreter) place: Place,
+pub(crate) struct LeftOpen {
+    pub(crate) program: MissingProgram,
+    pub(crate) place: Place,
 }
 
 /// Blocks that the dry run passes over and the control may execute.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct PassedOver {
-    pub(in crate::interpreter) unit: usize,
-    pub(in crate::interpreter) blocks: Range<EntryIndex>,
+pub(crate) struct PassedOver {
+    pub(crate) unit: usize,
+    pub(crate) blocks: Range<EntryIndex>,
     /// The value that decides whether they are executed.
-    pub(in crate::interpreter) cause: Unknown,
-    pub(in crate::interpreter) by: PassedBy,
+    pub(crate) cause: Unknown,
+    pub(crate) by: PassedBy,
 }
 
 /// Reason why blocks are passed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum PassedBy {
+pub(crate) enum PassedBy {
     /// A control block whose branch is not known.
     Branch,
     /// A way that the control may take instead.
@@ -74,86 +74,86 @@ pub(in crate::interpreter) enum PassedBy {
     reason = "facts of one block, of which each is asked by itself"
 )]
 #[derive(Clone)]
-pub(in crate::interpreter) struct BlockScratch {
-    pub(in crate::interpreter) block: Block,
-    pub(in crate::interpreter) outcomes: Vec<Outcome>,
-    pub(in crate::interpreter) changes: Vec<Change>,
-    pub(in crate::interpreter) left_open: Option<LeftOpen>,
+pub(crate) struct BlockScratch {
+    pub(crate) block: Block,
+    pub(crate) outcomes: Vec<Outcome>,
+    pub(crate) changes: Vec<Change>,
+    pub(crate) left_open: Option<LeftOpen>,
     /// Kinds that may or may not have been switched.
-    pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
+    pub(crate) doubted: Vec<(AxisIndex, KindSet)>,
     /// The axes that it moves, or may, without their own word.
-    pub(in crate::interpreter) also_moved: Vec<MovedAxis>,
+    pub(crate) also_moved: Vec<MovedAxis>,
     /// Motion of its axis words, where the G functions in force do not decide it.
-    pub(in crate::interpreter) word_row: Option<MotionEffect>,
+    pub(crate) word_row: Option<MotionEffect>,
     /// Its axis words.
-    pub(in crate::interpreter) moved: Vec<AxisWord>,
+    pub(crate) moved: Vec<AxisWord>,
     /// Words of axes that the machine does not have.
-    pub(in crate::interpreter) lacking: Vec<(String, Span)>,
-    pub(in crate::interpreter) aside: Aside,
+    pub(crate) lacking: Vec<(String, Span)>,
+    pub(crate) aside: Aside,
     /// Whether the axes come to rest in the block, or may.
-    pub(in crate::interpreter) rests: Cell<bool>,
+    pub(crate) rests: Cell<bool>,
     /// The axes that have a word, and those that may have another, a bit each.
-    pub(in crate::interpreter) seen: u64,
-    pub(in crate::interpreter) again: u64,
-    pub(in crate::interpreter) diagnostics: Vec<Diagnostic>,
+    pub(crate) seen: u64,
+    pub(crate) again: u64,
+    pub(crate) diagnostics: Vec<Diagnostic>,
     /// Errors that end some of the ways that lead to the block, and not the others.
-    pub(in crate::interpreter) of_some_ways: Vec<Diagnostic>,
+    pub(crate) of_some_ways: Vec<Diagnostic>,
     /// Parts of the block that may or may not be executed.
-    pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
+    pub(crate) undecided: Option<Box<Undecided>>,
     /// The blocks that it passes over.
-    pub(in crate::interpreter) passed: Vec<PassedOver>,
+    pub(crate) passed: Vec<PassedOver>,
     /// Number of messages on the last block.
-    pub(in crate::interpreter) said: u64,
+    pub(crate) said: u64,
     /// Number of messages on the block that are left out, and the place of the first of them.
-    pub(in crate::interpreter) unsaid: Option<(Span, u64)>,
-    pub(in crate::interpreter) stack: Vec<Result<Value, Box<Fault>>>,
+    pub(crate) unsaid: Option<(Span, u64)>,
+    pub(crate) stack: Vec<Result<Value, Box<Fault>>>,
     /// I, J, K, R and the like, where the block has any.
-    pub(in crate::interpreter) geometry: Option<Geometry>,
+    pub(crate) geometry: Option<Geometry>,
     /// Whether the block is G04 or `#TIME`.
-    pub(in crate::interpreter) dwells: bool,
+    pub(crate) dwells: bool,
     /// Motion of the block, where motions are taken.
-    pub(in crate::interpreter) motion: Option<Motion>,
-    pub(in crate::interpreter) notes: RefCell<Vec<Note>>,
+    pub(crate) motion: Option<Motion>,
+    pub(crate) notes: RefCell<Vec<Note>>,
     /// The variables that its expressions read and that the PLC may write, where their value is known (R2.99).
-    pub(in crate::interpreter) relied: RefCell<Vec<VariableName>>,
-    pub(in crate::interpreter) held: HeldValues,
+    pub(crate) relied: RefCell<Vec<VariableName>>,
+    pub(crate) held: HeldValues,
     /// Whether the PLC acts by design in the block.
-    pub(in crate::interpreter) plc_acts: bool,
+    pub(crate) plc_acts: bool,
     /// The states of compensation that its expressions read.
-    pub(in crate::interpreter) asked: RefCell<Vec<(AxisIndex, Kind)>>,
+    pub(crate) asked: RefCell<Vec<(AxisIndex, Kind)>>,
     /// Whether a text of the block had no known meaning; what depends on it is not reported again
     /// (R2.71).
-    pub(in crate::interpreter) unread: Cell<bool>,
+    pub(crate) unread: Cell<bool>,
     /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
-    pub(in crate::interpreter) flushing: RefCell<Option<String>>,
+    pub(crate) flushing: RefCell<Option<String>>,
     /// Why a program may be called that is not known, if one may.
-    pub(in crate::interpreter) unknown_call: Option<Unknown>,
+    pub(crate) unknown_call: Option<Unknown>,
     /// A part of the macro expanded last that limits what may be in the block.
-    pub(in crate::interpreter) lone: Option<LonePart>,
+    pub(crate) lone: Option<LonePart>,
     /// Macros that the block has expanded.
-    pub(in crate::interpreter) expansions: Cell<u32>,
+    pub(crate) expansions: Cell<u32>,
     /// The block that ends the program.
-    pub(in crate::interpreter) end: Option<OwnEnd>,
+    pub(crate) end: Option<OwnEnd>,
     /// What follows the error by which the block ends the program.
-    pub(in crate::interpreter) after_error: AfterError,
+    pub(crate) after_error: AfterError,
     /// Messages on the end of the run or of a way through it: a budget, or the end of a file
     /// without M30.
-    pub(in crate::interpreter) over: Vec<Diagnostic>,
+    pub(crate) over: Vec<Diagnostic>,
     /// Whether another way does what this one would do from here on.
-    pub(in crate::interpreter) covered: bool,
+    pub(crate) covered: bool,
     /// Whether that is a loop that never ends.
-    pub(in crate::interpreter) endless: bool,
+    pub(crate) endless: bool,
     /// Whether calls are nested too deeply for the run to continue (R9.91).
-    pub(in crate::interpreter) too_deep: bool,
+    pub(crate) too_deep: bool,
     /// Whether an axis occurred for the first time.
-    pub(in crate::interpreter) new_axes: bool,
+    pub(crate) new_axes: bool,
     /// Whether a value was written.
-    pub(in crate::interpreter) wrote: bool,
+    pub(crate) wrote: bool,
 }
 
 impl BlockScratch {
     /// Clears the messages on the block; those left at program end belong to no block.
-    pub(in crate::interpreter) fn clear_said(&mut self) {
+    pub(crate) fn clear_said(&mut self) {
         self.said = u64::try_from(self.diagnostics.len()).unwrap_or(u64::MAX);
         self.diagnostics.clear();
         self.of_some_ways.clear();
@@ -162,14 +162,14 @@ impl BlockScratch {
 
     /// Hands the states that the block read to the details reported of it.
     #[inline]
-    pub(in crate::interpreter) fn gather_asked(&mut self) {
+    pub(crate) fn gather_asked(&mut self) {
         let asked = self.asked.get_mut();
         if !asked.is_empty() {
             self.aside.asked.append(asked);
         }
     }
 
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.outcomes.clear();
         self.changes.clear();
         self.left_open = None;

@@ -25,7 +25,7 @@ struct CarriedState {
 }
 
 impl CarriedWays {
-    pub(in crate::interpreter) fn of(
+    pub(crate) fn of(
         possible: &PossibleKinds,
         conditions: &[Condition],
         machine: &Machine,
@@ -65,7 +65,7 @@ impl CarriedWays {
     }
 
     /// The conditions, and the states of those kinds that are unknown.
-    pub(in crate::interpreter) fn into_parts(
+    pub(crate) fn into_parts(
         self,
         machine: &Machine,
         compensation: &Compensation,

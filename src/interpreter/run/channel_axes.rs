@@ -8,21 +8,21 @@ use crate::comp::AxisIndex;
 
 /// The changes that the program made to the names of the channel's axes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ChannelAxes {
-    pub(in crate::interpreter) names: BTreeMap<String, AxisNameMeaning>,
+pub(crate) struct ChannelAxes {
+    pub(crate) names: BTreeMap<String, AxisNameMeaning>,
     /// Whether the meaning of every name is unknown.
-    pub(in crate::interpreter) doubtful: bool,
+    pub(crate) doubtful: bool,
 }
 
 impl ChannelAxes {
     /// Whether every name means the axis of the machine.
     #[inline]
-    pub(in crate::interpreter) fn are_own(&self) -> bool {
+    pub(crate) fn are_own(&self) -> bool {
         self.names.is_empty() && !self.doubtful
     }
 
     /// Meaning of a name; `None` where it means the axis of the machine, or none.
-    pub(in crate::interpreter) fn meaning(&self, name: &str) -> Option<AxisNameMeaning> {
+    pub(crate) fn meaning(&self, name: &str) -> Option<AxisNameMeaning> {
         if self.doubtful {
             return Some(AxisNameMeaning::Unknown);
         }
@@ -30,7 +30,7 @@ impl ChannelAxes {
     }
 
     /// Whether all axes that it names are below a number.
-    pub(in crate::interpreter) fn fits(&self, count: usize) -> bool {
+    pub(crate) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {
             AxisNameMeaning::Axis(axis) | AxisNameMeaning::Released(Some(axis)) => {
                 axis.get() < count
@@ -40,14 +40,14 @@ impl ChannelAxes {
     }
 
     /// The names may or may not be those of another way through the program.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+    pub(crate) fn join(&mut self, other: &Self) {
         self.doubtful |= self != other;
     }
 }
 
 /// Meaning of an axis name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum AxisNameMeaning {
+pub(crate) enum AxisNameMeaning {
     /// This axis of the machine, whatever its own name is.
     Axis(AxisIndex),
     /// An axis that the channel has given back.
@@ -58,7 +58,7 @@ pub(in crate::interpreter) enum AxisNameMeaning {
 
 /// Axis that a COMP command switches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Addressed {
+pub(crate) enum Addressed {
     /// This one.
     Axis(AxisIndex),
     /// One that the channel does not have; the control refuses it.

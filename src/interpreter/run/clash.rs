@@ -22,11 +22,11 @@ const MAX_COMPARED: usize = 8;
 
 /// Values that follow from an answer.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ImpliedValues {
+pub(crate) struct ImpliedValues {
     /// The values that follow from it.
-    pub(in crate::interpreter) is: Vec<(Location, Value)>,
+    pub(crate) is: Vec<(Location, Value)>,
     /// The values that it rules out.
-    pub(in crate::interpreter) is_not: Vec<(Location, Value)>,
+    pub(crate) is_not: Vec<(Location, Value)>,
 }
 
 impl ImpliedValues {
@@ -47,8 +47,8 @@ impl ImpliedValues {
 
 /// A condition on values of the machine that the program has not written since.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct RememberedCondition {
-    pub(in crate::interpreter) condition: u32,
+pub(crate) struct RememberedCondition {
+    pub(crate) condition: u32,
     /// Number of the time that the condition is asked.
     time: u32,
     meaning: Arc<ConditionMeaning>,
@@ -57,7 +57,7 @@ pub(in crate::interpreter) struct RememberedCondition {
 }
 
 impl RememberedCondition {
-    pub(in crate::interpreter) fn of(
+    pub(crate) fn of(
         (condition, time): (u32, u32),
         asking: &Asking,
         answers: Vec<ImpliedValues>,
@@ -121,16 +121,16 @@ fn name_of(target: &Location) -> Option<String> {
 
 /// The conditions on values of the machine that are remembered, the latest last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct RememberedConditions(Vec<Arc<RememberedCondition>>);
+pub(crate) struct RememberedConditions(Vec<Arc<RememberedCondition>>);
 
 impl RememberedConditions {
     #[inline]
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// A condition is asked: the answers that contradict earlier ones.
-    pub(in crate::interpreter) fn ask(&mut self, reading: RememberedCondition) -> Vec<Clash> {
+    pub(crate) fn ask(&mut self, reading: RememberedCondition) -> Vec<Clash> {
         let earlier = self.0.iter();
         let clashes = earlier.flat_map(|it| it.clashes(&reading)).collect();
         if self.0.len() >= MAX_READINGS {
@@ -141,7 +141,7 @@ impl RememberedConditions {
     }
 
     /// The program waits for values to change, or may: it asks again in a loop.
-    pub(in crate::interpreter) fn wait_for(&mut self, asking: Option<&Asking>) {
+    pub(crate) fn wait_for(&mut self, asking: Option<&Asking>) {
         match asking {
             None => self.0.clear(),
             Some(asking) => {
@@ -158,7 +158,7 @@ impl RememberedConditions {
     }
 
     /// The program writes a value.
-    pub(in crate::interpreter) fn write(&mut self, location: &Location) {
+    pub(crate) fn write(&mut self, location: &Location) {
         match location {
             Location::Elements(_) | Location::Parameters => {
                 self.0.retain(|it| it.meaning.reads.is_empty());
@@ -168,30 +168,30 @@ impl RememberedConditions {
     }
 
     /// The control does something: moves, changes tools.
-    pub(in crate::interpreter) fn act(&mut self) {
+    pub(crate) fn act(&mut self) {
         self.0.retain(|it| it.writer != Writer::Control);
     }
 
     /// Some values differ from here on.
-    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&Location) -> bool) {
+    pub(crate) fn havoc(&mut self, is_other: impl Fn(&Location) -> bool) {
         self.0.retain(|it| !it.meaning.reads.iter().any(&is_other));
     }
 
     /// Whether each answer of each has a bit.
-    pub(in crate::interpreter) fn fit(&self) -> bool {
+    pub(crate) fn fit(&self) -> bool {
         self.0.iter().all(|it| it.answers.len() <= MAX_ANSWERS)
     }
 
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
 
-    pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.0.iter().map(|it| it.condition)
     }
 
     /// Two ways meet: a condition that only one of them asked counts if the other names no answer to it.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
+    pub(crate) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
         let [mine, theirs] = named;
         let is_only_mine = |it: &Arc<RememberedCondition>| !theirs.contains(&it.condition);
         self.0.retain(|it| other.0.contains(it) || is_only_mine(it));
@@ -207,7 +207,7 @@ impl RememberedConditions {
 }
 
 /// The clash of an answer with an earlier one of the same way, the nearest of them.
-pub(in crate::interpreter) fn clash<'a>(
+pub(crate) fn clash<'a>(
     answer: &WayAnswer,
     way: &Way,
     conditions: &'a [Condition],
@@ -232,7 +232,7 @@ pub(in crate::interpreter) fn clash<'a>(
 }
 
 /// Whether a condition can contradict another one: a loop waits for its value to change.
-pub(in crate::interpreter) fn is_compared(kind: ConditionKind) -> bool {
+pub(crate) fn is_compared(kind: ConditionKind) -> bool {
     matches!(
         kind,
         ConditionKind::Branch | ConditionKind::Case | ConditionKind::Jump | ConditionKind::Skip(_)

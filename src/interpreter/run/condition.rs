@@ -11,11 +11,11 @@ use crate::syntax::VariableName;
 use crate::text::Place;
 
 /// Answers of one condition, which have a bit each.
-pub(in crate::interpreter) const MAX_ANSWERS: usize = 60;
+pub(crate) const MAX_ANSWERS: usize = 60;
 
 /// Kind of the asking statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum ConditionKind {
+pub(crate) enum ConditionKind {
     /// `$IF`, `$ELSEIF`, `#IF`.
     Branch,
     /// `$SWITCH`.
@@ -41,30 +41,30 @@ pub(in crate::interpreter) enum ConditionKind {
 
 /// Answers to an earlier condition and to a later one that no value gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Clash {
-    pub(in crate::interpreter) earlier: u32,
+pub(crate) struct Clash {
+    pub(crate) earlier: u32,
     /// Number of the time that the earlier one was asked.
-    pub(in crate::interpreter) time: u32,
+    pub(crate) time: u32,
     /// Value that must change in between.
-    pub(in crate::interpreter) name: Arc<str>,
+    pub(crate) name: Arc<str>,
     /// The answers to the earlier one, and those to the later one, a bit each.
-    pub(in crate::interpreter) answers: [u64; 2],
+    pub(crate) answers: [u64; 2],
 }
 
 /// The answers that hold while a variable of the machine keeps the value that the program set (R2.99).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct KeptAnswer {
+pub(crate) struct KeptAnswer {
     /// The variables; states before schema 4 have them in words.
     #[serde(
         alias = "name",
         serialize_with = "in_words",
         deserialize_with = "one_or_more"
     )]
-    pub(in crate::interpreter) names: Arc<[VariableName]>,
+    pub(crate) names: Arc<[VariableName]>,
     /// The block that set it.
-    pub(in crate::interpreter) set: SetAt,
+    pub(crate) set: SetAt,
     /// The answers, a bit each.
-    pub(in crate::interpreter) sides: u64,
+    pub(crate) sides: u64,
 }
 
 fn in_words<S: Serializer>(names: &[VariableName], serializer: S) -> Result<S::Ok, S::Error> {
@@ -89,29 +89,29 @@ fn one_or_more<'de, D: Deserializer<'de>>(
 
 /// A condition that only the machine knows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Condition {
-    pub(in crate::interpreter) kind: ConditionKind,
-    pub(in crate::interpreter) place: Place,
+pub(crate) struct Condition {
+    pub(crate) kind: ConditionKind,
+    pub(crate) place: Place,
     /// Text of the condition for each answer but the last, which is that none of them holds.
-    pub(in crate::interpreter) texts: Vec<Arc<str>>,
+    pub(crate) texts: Vec<Arc<str>>,
     /// The value that decides.
-    pub(in crate::interpreter) cause: Unknown,
+    pub(crate) cause: Unknown,
     /// Number of the question at its place: a place that is reached again asks again.
-    pub(in crate::interpreter) round: u8,
+    pub(crate) round: u8,
     /// Number of times that its number was given to a question.
     #[serde(default)]
-    pub(in crate::interpreter) time: u32,
+    pub(crate) time: u32,
     /// The answers to earlier conditions that contradict answers to it, unless a value changes in between.
     #[serde(default)]
-    pub(in crate::interpreter) clashes: Vec<Clash>,
+    pub(crate) clashes: Vec<Clash>,
     /// The answers that what the program wrote gives, unless the machine changes it in between.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(in crate::interpreter) kept: Option<KeptAnswer>,
+    pub(crate) kept: Option<KeptAnswer>,
 }
 
 impl Condition {
     /// A condition that is asked for the first time.
-    pub(in crate::interpreter) fn new(
+    pub(crate) fn new(
         kind: ConditionKind,
         place: Place,
         texts: Vec<Arc<str>>,
@@ -130,7 +130,7 @@ impl Condition {
     }
 
     /// Renumbers the conditions; those without a number are left out.
-    pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> Option<u32>) -> Self {
+    pub(crate) fn renumbered(&self, number: impl Fn(u32) -> Option<u32>) -> Self {
         let mut copy = self.clone();
         copy.clashes.retain_mut(|clash| {
             let earlier = number(clash.earlier);
@@ -141,19 +141,19 @@ impl Condition {
     }
 
     /// Whether some answers hold unless the machine changes what the program wrote.
-    pub(in crate::interpreter) fn keeps(&self, sides: u64) -> bool {
+    pub(crate) fn keeps(&self, sides: u64) -> bool {
         self.kept
             .as_ref()
             .is_some_and(|kept| sides & !kept.sides == 0)
     }
 
     /// Whether each of its answers has a bit.
-    pub(in crate::interpreter) fn fits(&self) -> bool {
+    pub(crate) fn fits(&self) -> bool {
         self.texts.len() < MAX_ANSWERS
     }
 
     /// Whether it is the same question at the same place, at any time.
-    pub(in crate::interpreter) fn is_like(&self, other: &Self) -> bool {
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.place.first_line == other.place.first_line
             && self.place.span == other.place.span
             && self.kind == other.kind

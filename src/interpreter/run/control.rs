@@ -25,35 +25,35 @@ use crate::language::{Holds, Simplification};
 
 /// The state of the control. A copy is cheap: it shares the parts that do not change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ControlState {
-    pub(in crate::interpreter) compensation: Compensation,
+pub(crate) struct ControlState {
+    pub(crate) compensation: Compensation,
     /// Kinds that are unknown because ways differ.
-    pub(in crate::interpreter) possible: PossibleKinds,
+    pub(crate) possible: PossibleKinds,
     /// Kinds that are as the program found them.
-    pub(in crate::interpreter) untouched: Untouched,
+    pub(crate) untouched: Untouched,
     /// The last commands on kinds, on each way that leads here.
-    pub(in crate::interpreter) last_commands: LastCommands,
-    pub(in crate::interpreter) memory: Memory,
-    pub(in crate::interpreter) modal: Modal,
-    pub(in crate::interpreter) frames: CallStack,
-    pub(in crate::interpreter) couplings: Couplings,
+    pub(crate) last_commands: LastCommands,
+    pub(crate) memory: Memory,
+    pub(crate) modal: Modal,
+    pub(crate) frames: CallStack,
+    pub(crate) couplings: Couplings,
     /// Meanings of axis names, until the program ends.
-    pub(in crate::interpreter) channel_axes: ChannelAxes,
+    pub(crate) channel_axes: ChannelAxes,
     /// The cycle that is repeated after blocks.
-    pub(in crate::interpreter) cycles: ModalCycles,
+    pub(crate) cycles: ModalCycles,
     /// The called files whose faults were reported.
-    pub(in crate::interpreter) refused: BTreeSet<usize>,
+    pub(crate) refused: BTreeSet<usize>,
     /// Set while the configured end program runs.
-    pub(in crate::interpreter) ending: Option<EndedBy>,
+    pub(crate) ending: Option<EndedBy>,
     /// Programs that `#FILE NAME` assigns to words, until the program ends.
-    pub(in crate::interpreter) named: BTreeMap<String, Value>,
+    pub(crate) named: BTreeMap<String, Value>,
     /// G functions and positions before a contour description, inside it.
-    pub(in crate::interpreter) described: Option<Box<Description>>,
+    pub(crate) described: Option<Box<Description>>,
 }
 
 impl ControlState {
     /// The state before the first program.
-    pub(in crate::interpreter) fn new(compensation: Compensation, modal: Modal) -> Self {
+    pub(crate) fn new(compensation: Compensation, modal: Modal) -> Self {
         Self {
             compensation,
             possible: PossibleKinds::default(),
@@ -74,12 +74,7 @@ impl ControlState {
 
     /// Joins the states of two ways that meet at a block: differences become unknown (R14.1). `reach` holds
     /// the ways to this one and to the other. Returns how many values differ.
-    pub(in crate::interpreter) fn join(
-        &mut self,
-        other: &Self,
-        reach: [&WaySet; 2],
-        cause: &Unknown,
-    ) -> usize {
+    pub(crate) fn join(&mut self, other: &Self, reach: [&WaySet; 2], cause: &Unknown) -> usize {
         let Self {
             compensation,
             possible,
@@ -149,7 +144,7 @@ impl ControlState {
     }
 
     /// The values whose numbers differ in another state; `None` where anything else does.
-    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
+    pub(crate) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let Self {
             compensation,
             possible,

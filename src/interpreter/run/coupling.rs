@@ -13,7 +13,7 @@ use crate::language::Certainty;
 /// redefined. Every axis that a group ever named may then be coupled, or may be as soon as a group is
 /// enabled, where only definitions changed and no group was in force.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Couplings {
+pub(crate) struct Couplings {
     groups: BTreeMap<String, CoupledAxes>,
     /// The groups in force, in the order in which they were enabled.
     enabled: BTreeMap<u64, String>,
@@ -40,7 +40,7 @@ pub(in crate::interpreter) struct Couplings {
 }
 
 /// An axis, the one that it follows, `None` for any, and whether it certainly does.
-pub(in crate::interpreter) type CouplingLink = (AxisIndex, Option<AxisIndex>, Certainty);
+pub(crate) type CouplingLink = (AxisIndex, Option<AxisIndex>, Certainty);
 
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 struct CoupledAxes {
@@ -70,7 +70,7 @@ impl PartialEq for Couplings {
 impl Couplings {
     /// Whether an axis may move because another one does.
     #[inline]
-    pub(in crate::interpreter) fn carry(&self) -> bool {
+    pub(crate) fn carry(&self) -> bool {
         self.doubted
             || !self.enabled.is_empty()
             || !self.followers.is_empty()
@@ -78,7 +78,7 @@ impl Couplings {
     }
 
     /// Returns the followers of each axis.
-    pub(in crate::interpreter) fn links(&self) -> Vec<CouplingLink> {
+    pub(crate) fn links(&self) -> Vec<CouplingLink> {
         let groups = self
             .enabled
             .values()
@@ -96,29 +96,25 @@ impl Couplings {
     }
 
     /// Axes follow others.
-    pub(in crate::interpreter) fn follow(
-        &mut self,
-        command: String,
-        pairs: Vec<(AxisIndex, AxisIndex)>,
-    ) {
+    pub(crate) fn follow(&mut self, command: String, pairs: Vec<(AxisIndex, AxisIndex)>) {
         self.version = self.version.wrapping_add(1);
         self.followers.insert(command, pairs);
     }
 
     /// Whether axes follow others by a command.
-    pub(in crate::interpreter) fn is_following(&self, command: &str) -> bool {
+    pub(crate) fn is_following(&self, command: &str) -> bool {
         self.followers.contains_key(command)
     }
 
     /// They do not any more.
-    pub(in crate::interpreter) fn unfollow(&mut self, command: &str) {
+    pub(crate) fn unfollow(&mut self, command: &str) {
         if self.followers.remove(command).is_some() {
             self.version = self.version.wrapping_add(1);
         }
     }
 
     /// No axis follows another one except by a coupling group.
-    pub(in crate::interpreter) fn end_following(&mut self) {
+    pub(crate) fn end_following(&mut self) {
         if !(self.followers.is_empty() && self.strays.is_empty()) {
             self.version = self.version.wrapping_add(1);
             self.followers.clear();
@@ -127,7 +123,7 @@ impl Couplings {
     }
 
     /// An axis that follows another one by such a command may do so, or not; so may these axes.
-    pub(in crate::interpreter) fn havoc_followers(&mut self, axes: &[AxisIndex]) {
+    pub(crate) fn havoc_followers(&mut self, axes: &[AxisIndex]) {
         let followers = std::mem::take(&mut self.followers);
         let followers = followers.into_values().flatten().map(|(axis, _)| axis);
         let before = self.strays.len();
@@ -138,7 +134,7 @@ impl Couplings {
     }
 
     /// Whether a group is in force, or may be.
-    pub(in crate::interpreter) fn is_any(&self) -> bool {
+    pub(crate) fn is_any(&self) -> bool {
         self.doubted || !self.enabled.is_empty()
     }
 
@@ -148,28 +144,28 @@ impl Couplings {
     }
 
     /// Returns the number of defined groups.
-    pub(in crate::interpreter) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.groups.len()
     }
 
     /// The groups that are known, with their axes.
-    pub(in crate::interpreter) fn groups(&self) -> impl Iterator<Item = (&str, &[AxisIndex])> {
+    pub(crate) fn groups(&self) -> impl Iterator<Item = (&str, &[AxisIndex])> {
         let groups = self.groups.iter().filter(|(_, group)| !group.unknown);
         groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
     }
 
     /// The axes that unknown groups may name.
-    pub(in crate::interpreter) fn lost(&self) -> impl Iterator<Item = AxisIndex> {
+    pub(crate) fn lost(&self) -> impl Iterator<Item = AxisIndex> {
         self.named.iter().copied().filter(|_| self.vague)
     }
 
     /// Rises with every change.
-    pub(in crate::interpreter) fn version(&self) -> u64 {
+    pub(crate) fn version(&self) -> u64 {
         self.version
     }
 
     /// Returns whether the axis is coupled by a group in force, may be, or is not.
-    pub(in crate::interpreter) fn of(&self, axis: AxisIndex) -> Coupling {
+    pub(crate) fn of(&self, axis: AxisIndex) -> Coupling {
         if self.holding.contains_key(&axis) {
             Coupling::Active
         } else if self.is_doubted() && self.named.contains(&axis) {
@@ -181,11 +177,7 @@ impl Couplings {
 
     /// Redefines a group; one that is in force stays so with its new axes. Returns the axes whose
     /// coupling may have changed.
-    pub(in crate::interpreter) fn define(
-        &mut self,
-        group: &str,
-        axes: Vec<AxisIndex>,
-    ) -> Vec<AxisIndex> {
+    pub(crate) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) -> Vec<AxisIndex> {
         self.version = self.version.wrapping_add(1);
         let (was_enabled, mut changed) = self.take_out(group);
         changed.extend(&axes);
@@ -202,14 +194,14 @@ impl Couplings {
     }
 
     /// Groups whose members are unknown may name these axes.
-    pub(in crate::interpreter) fn lose(&mut self, axes: impl IntoIterator<Item = AxisIndex>) {
+    pub(crate) fn lose(&mut self, axes: impl IntoIterator<Item = AxisIndex>) {
         self.named.extend(axes);
         self.vague = true;
     }
 
     /// Some coupling command may have been executed. Returns the axes whose coupling may have
     /// changed.
-    pub(in crate::interpreter) fn havoc(&mut self) -> Vec<AxisIndex> {
+    pub(crate) fn havoc(&mut self) -> Vec<AxisIndex> {
         self.release_all();
         self.version = self.version.wrapping_add(1);
         self.groups.clear();
@@ -219,7 +211,7 @@ impl Couplings {
     }
 
     /// Other couplings may be in force instead. Returns the axes whose coupling may have changed.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) -> Vec<AxisIndex> {
+    pub(crate) fn join(&mut self, other: &Self) -> Vec<AxisIndex> {
         if self == other {
             return Vec::new();
         }
@@ -233,10 +225,7 @@ impl Couplings {
 
     /// Groups with these axes may have been defined, or redefined: that changes a coupling only
     /// where some group may be in force.
-    pub(in crate::interpreter) fn havoc_definitions(
-        &mut self,
-        axes: &[AxisIndex],
-    ) -> Vec<AxisIndex> {
+    pub(crate) fn havoc_definitions(&mut self, axes: &[AxisIndex]) -> Vec<AxisIndex> {
         self.lose(axes.iter().copied());
         if self.doubted || !self.enabled.is_empty() {
             return self.havoc();
@@ -247,7 +236,7 @@ impl Couplings {
     }
 
     /// Whether all axes that it names are below a number.
-    pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
+    pub(crate) fn fits(&self, axes: usize) -> bool {
         let members = self.groups.values().flat_map(|group| &group.axes);
         let pairs = self.followers.values().flatten();
         let followers = pairs.flat_map(|(one, other)| [one, other]);
@@ -261,7 +250,7 @@ impl Couplings {
 
     /// Puts a group into force. Returns the axes whose coupling may have changed. One that no command defined is a
     /// group of the channel parameters, which may couple any axis of the machine.
-    pub(in crate::interpreter) fn enable(
+    pub(crate) fn enable(
         &mut self,
         group: &str,
         axes: impl Iterator<Item = AxisIndex>,
@@ -308,7 +297,7 @@ impl Couplings {
     }
 
     /// Releases a group. Returns the axes whose coupling may have changed.
-    pub(in crate::interpreter) fn release(&mut self, group: &str) -> Vec<AxisIndex> {
+    pub(crate) fn release(&mut self, group: &str) -> Vec<AxisIndex> {
         self.take_out(group).1
     }
 
@@ -336,7 +325,7 @@ impl Couplings {
     }
 
     /// Releases the last enabled group. Returns the axes whose coupling may have changed.
-    pub(in crate::interpreter) fn release_last(&mut self) -> Vec<AxisIndex> {
+    pub(crate) fn release_last(&mut self) -> Vec<AxisIndex> {
         match self.enabled.pop_last() {
             Some((_, group)) => self.release(&group),
             None => Vec::new(),
@@ -344,7 +333,7 @@ impl Couplings {
     }
 
     /// Releases every group, known or not. Returns the axes whose coupling may have changed.
-    pub(in crate::interpreter) fn release_all(&mut self) -> Vec<AxisIndex> {
+    pub(crate) fn release_all(&mut self) -> Vec<AxisIndex> {
         if !self.doubted && self.enabled.is_empty() {
             return Vec::new();
         }

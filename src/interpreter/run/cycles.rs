@@ -11,21 +11,21 @@ use crate::syntax::ast::{Call, Repetition};
 
 /// The modal cycle in force, or the cycles of which one may be.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ModalCycles {
+pub(crate) struct ModalCycles {
     cycles: Vec<Repeated>,
 }
 
 /// A modal cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Repeated {
-    pub(in crate::interpreter) call: RepeatedCall,
-    pub(in crate::interpreter) own: BTreeMap<u32, Value>,
-    pub(in crate::interpreter) after_motion_only: bool,
+pub(crate) struct Repeated {
+    pub(crate) call: RepeatedCall,
+    pub(crate) own: BTreeMap<u32, Value>,
+    pub(crate) after_motion_only: bool,
 }
 
 /// Program that a modal cycle calls.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum RepeatedCall {
+pub(crate) enum RepeatedCall {
     /// A program that was found.
     Program(ProgramId),
     /// A program that was found, or nothing: it is not known whether the cycle is in force.
@@ -36,7 +36,7 @@ pub(in crate::interpreter) enum RepeatedCall {
 
 impl ModalCycles {
     /// A cycle that is in force.
-    pub(in crate::interpreter) fn of(cycle: Repeated) -> Self {
+    pub(crate) fn of(cycle: Repeated) -> Self {
         Self {
             cycles: vec![cycle],
         }
@@ -44,17 +44,17 @@ impl ModalCycles {
 
     /// Whether no cycle is in force.
     #[inline]
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.cycles.is_empty()
     }
 
     /// The cycles that may be in force.
-    pub(in crate::interpreter) fn known(&self) -> &[Repeated] {
+    pub(crate) fn known(&self) -> &[Repeated] {
         &self.cycles
     }
 
     /// It may have been switched off.
-    pub(in crate::interpreter) fn havoc(&mut self) {
+    pub(crate) fn havoc(&mut self) {
         for cycle in &mut self.cycles {
             if let RepeatedCall::Program(found) = cycle.call {
                 cycle.call = RepeatedCall::Perhaps(found);
@@ -63,7 +63,7 @@ impl ModalCycles {
     }
 
     /// Another cycle may be in force instead.
-    pub(in crate::interpreter) fn add(&mut self, cycle: Repeated) {
+    pub(crate) fn add(&mut self, cycle: Repeated) {
         self.cycles.push(cycle);
         self.havoc();
         if let Some((last, before)) = self.cycles.split_last()
@@ -74,7 +74,7 @@ impl ModalCycles {
     }
 
     /// Those of another way may be in force instead.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+    pub(crate) fn join(&mut self, other: &Self) {
         if self == other {
             return;
         }
@@ -86,7 +86,7 @@ impl ModalCycles {
 }
 
 /// Returns whether a call repeats after motion only.
-pub(in crate::interpreter) fn after_motion_only(call: &Call) -> Option<bool> {
+pub(crate) fn after_motion_only(call: &Call) -> Option<bool> {
     match call.repetition {
         Repetition::Once => None,
         Repetition::AfterMotion => Some(true),

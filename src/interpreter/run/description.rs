@@ -8,10 +8,10 @@ use crate::text::Place;
 
 /// A description of geometry whose blocks do not move (R2.81).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Description {
+pub(crate) struct Description {
     /// Command that opened it, `#CONTOUR BEGIN`.
-    pub(in crate::interpreter) opener: &'static HashCommand,
-    pub(in crate::interpreter) place: Place,
+    pub(crate) opener: &'static HashCommand,
+    pub(crate) place: Place,
     /// State in force before it.
-    pub(in crate::interpreter) before: Modal,
+    pub(crate) before: Modal,
 }

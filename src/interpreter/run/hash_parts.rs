@@ -5,9 +5,6 @@ use crate::syntax::VariableName;
 use crate::syntax::ast::Declaration;
 
 /// The name that a declaration declares, without its dimensions.
-pub(in crate::interpreter) fn declared_name(
-    declaration: &Declaration,
-    at: &BlockContext<'_>,
-) -> VariableName {
+pub(crate) fn declared_name(declaration: &Declaration, at: &BlockContext<'_>) -> VariableName {
     VariableName::array_of(declaration.target.span.of(at.text))
 }

@@ -56,62 +56,62 @@ use crate::syntax::{SkipLevels, VariableFamily, VariableName};
 /// A clone is at the same block as the run and shares its texts: a debugger uses it to look ahead.
 #[derive(Clone)]
 pub struct Interpreter {
-    pub(in crate::interpreter) machine: Arc<Machine>,
-    pub(in crate::interpreter) options: Options,
-    pub(in crate::interpreter) source_mode: SourceMode,
+    pub(crate) machine: Arc<Machine>,
+    pub(crate) options: Options,
+    pub(crate) source_mode: SourceMode,
     /// The axes with one-letter names.
-    pub(in crate::interpreter) letters: [Option<AxisIndex>; 26],
+    pub(crate) letters: [Option<AxisIndex>; 26],
     /// The axes with longer names.
-    pub(in crate::interpreter) names: BTreeMap<String, AxisIndex>,
+    pub(crate) names: BTreeMap<String, AxisIndex>,
     /// The variables of the machine of which the configuration says who writes them (R14.1, R2.99).
-    pub(in crate::interpreter) externals: Arc<ExternalNames>,
+    pub(crate) externals: Arc<ExternalNames>,
     /// Whether any axis requires a compensation (P-AXIS-00465).
-    pub(in crate::interpreter) any_required: bool,
-    pub(in crate::interpreter) programs: ProgramStore,
+    pub(crate) any_required: bool,
+    pub(crate) programs: ProgramStore,
     /// Label at which a main program that is read line by line continues.
-    pub(in crate::interpreter) awaited: Option<AwaitedBlock>,
+    pub(crate) awaited: Option<AwaitedBlock>,
     /// Calls in regions that may or may not be executed.
-    pub(in crate::interpreter) pending: Vec<RegionCall>,
+    pub(crate) pending: Vec<RegionCall>,
     /// Ways that leave at the block being executed.
-    pub(in crate::interpreter) departing: Vec<Branch>,
+    pub(crate) departing: Vec<Branch>,
     /// Targets of the answers to the condition of the current block.
-    pub(in crate::interpreter) sides: Vec<BranchSide>,
+    pub(crate) sides: Vec<BranchSide>,
     /// The states that are possible, as users see them, and where they count.
-    pub(in crate::interpreter) shown: ShownWays,
+    pub(crate) shown: ShownWays,
     /// Messages on ways that joined before the current block.
-    pub(in crate::interpreter) joined: Vec<Diagnostic>,
+    pub(crate) joined: Vec<Diagnostic>,
     /// Such messages that are withheld, because they were reported before or nothing differs.
-    pub(in crate::interpreter) joined_withheld: Vec<Diagnostic>,
+    pub(crate) joined_withheld: Vec<Diagnostic>,
     /// Refusals of the control in blocks of called programs, each with its file, until it is known whether
     /// the dry run executes them.
-    pub(in crate::interpreter) held: Vec<((usize, EntryIndex), Diagnostic)>,
+    pub(crate) held: Vec<((usize, EntryIndex), Diagnostic)>,
     /// The answers among which the user may choose where no way is followed.
-    pub(in crate::interpreter) offered: Vec<WayCondition>,
+    pub(crate) offered: Vec<WayCondition>,
     /// The places of the chosen answers to the next such conditions.
-    pub(in crate::interpreter) chosen: VecDeque<usize>,
-    pub(in crate::interpreter) regions: Regions,
+    pub(crate) chosen: VecDeque<usize>,
+    pub(crate) regions: Regions,
     /// Messages on lines that are not blocks and not kept.
-    pub(in crate::interpreter) lost: Collected,
-    pub(in crate::interpreter) journal: Journal,
-    pub(in crate::interpreter) state: State,
+    pub(crate) lost: Collected,
+    pub(crate) journal: Journal,
+    pub(crate) state: State,
     /// The use of variables that outlive programs, if requested.
-    pub(in crate::interpreter) used: Option<RefCell<VariableUse>>,
-    pub(in crate::interpreter) version: u64,
-    pub(in crate::interpreter) scratch: BlockScratch,
+    pub(crate) used: Option<RefCell<VariableUse>>,
+    pub(crate) version: u64,
+    pub(crate) scratch: BlockScratch,
 }
 
 /// Ways to a block that are shown.
 #[derive(Debug, Clone, Default)]
-pub(in crate::interpreter) struct ShownWays {
+pub(crate) struct ShownWays {
     version: u64,
-    pub(in crate::interpreter) possible: Vec<PossibleStates>,
-    pub(in crate::interpreter) branch: Option<Vec<Vec<WayCondition>>>,
+    pub(crate) possible: Vec<PossibleStates>,
+    pub(crate) branch: Option<Vec<Vec<WayCondition>>>,
 }
 
 impl Interpreter {
     /// Updates the ways that are shown.
     #[inline]
-    pub(in crate::interpreter) fn show_ways(&mut self) {
+    pub(crate) fn show_ways(&mut self) {
         let is_plain = self.state.control.possible.is_empty() && self.state.track.reach.is_always();
         if is_plain && self.shown.possible.is_empty() && self.shown.branch.is_none() {
             return;
@@ -186,11 +186,7 @@ impl Interpreter {
         interpreter
     }
 
-    pub(in crate::interpreter) fn with_state(
-        machine: Arc<Machine>,
-        options: Options,
-        mut state: State,
-    ) -> Self {
+    pub(crate) fn with_state(machine: Arc<Machine>, options: Options, mut state: State) -> Self {
         let mut letters = [None; 26];
         let mut names = BTreeMap::new();
         // A spindle is not an axis that coordinates move.
@@ -261,7 +257,7 @@ impl Interpreter {
     }
 
     /// Records the use of variables that outlive programs, if requested.
-    pub(in crate::interpreter) fn note_use(&self, note: impl FnOnce(&mut VariableUse)) {
+    pub(crate) fn note_use(&self, note: impl FnOnce(&mut VariableUse)) {
         if let Some(used) = &self.used {
             note(&mut used.borrow_mut());
         }
@@ -354,19 +350,19 @@ impl Interpreter {
     }
 
     /// The axis that `@X` means in the plane in force.
-    pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
+    pub(crate) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
         let letter = self.state.control.modal.main_axis(letter)?;
         self.letter_axis(letter)
     }
 
     /// The axis that a letter currently denotes, if that is known.
-    pub(in crate::interpreter) fn letter_axis(&self, letter: u8) -> Option<AxisIndex> {
+    pub(crate) fn letter_axis(&self, letter: u8) -> Option<AxisIndex> {
         let mut name = [0; 4];
         self.axis_named(char::from(letter).encode_utf8(&mut name))
     }
 
     /// The axis that a name currently denotes, if that is known.
-    pub(in crate::interpreter) fn axis_now(&self, name: &str) -> Option<AxisIndex> {
+    pub(crate) fn axis_now(&self, name: &str) -> Option<AxisIndex> {
         match self.state.control.channel_axes.meaning(name) {
             None => self.machine.find(name),
             Some(AxisNameMeaning::Axis(axis)) => Some(axis),
@@ -375,7 +371,7 @@ impl Interpreter {
     }
 
     /// An axis by its name.
-    pub(in crate::interpreter) fn axis_named(&self, name: &str) -> Option<AxisIndex> {
+    pub(crate) fn axis_named(&self, name: &str) -> Option<AxisIndex> {
         if let Some(meaning) = self.state.control.channel_axes.meaning(name) {
             return match meaning {
                 AxisNameMeaning::Axis(axis) => Some(axis),
@@ -389,7 +385,7 @@ impl Interpreter {
     }
 
     /// Whether a name is that of the main spindle (P-CHAN-00053).
-    pub(in crate::interpreter) fn is_main_spindle(&self, name: &str) -> bool {
+    pub(crate) fn is_main_spindle(&self, name: &str) -> bool {
         name == "S"
             || self
                 .machine
@@ -401,24 +397,24 @@ impl Interpreter {
 
     /// An axis occurs.
     #[inline]
-    pub(in crate::interpreter) fn see(&mut self, axis: AxisIndex) {
+    pub(crate) fn see(&mut self, axis: AxisIndex) {
         self.scratch.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
     /// The skip levels that are on, where they are known (R2.90).
-    pub(in crate::interpreter) fn skip_levels(&self) -> Option<SkipLevels> {
+    pub(crate) fn skip_levels(&self) -> Option<SkipLevels> {
         self.options.skip.or(self.machine.skip)
     }
 
     /// Whether a block is known not to be executed.
-    pub(in crate::interpreter) fn is_skipped(&self, block: &Block) -> bool {
+    pub(crate) fn is_skipped(&self, block: &Block) -> bool {
         let skips = |level| self.skip_levels().is_some_and(|levels| levels.has(level));
         block.skip.is_some_and(skips)
     }
 
     /// The skip level that decides whether a block is executed, where that is not known.
     #[inline]
-    pub(in crate::interpreter) fn undecided_level(&self, block: &Block) -> Option<u8> {
+    pub(crate) fn undecided_level(&self, block: &Block) -> Option<u8> {
         block
             .skip
             .filter(|_| self.skip_levels().is_none() && !self.state.is_on_marked_way())
@@ -426,7 +422,7 @@ impl Interpreter {
 
     /// The level that decides whether the parts of a control block belong together: one of them has a
     /// skip mark and its opener has none.
-    pub(in crate::interpreter) fn split_level(&self) -> Option<u8> {
+    pub(crate) fn split_level(&self) -> Option<u8> {
         let frame = self.state.control.frames.running()?;
         let entry = frame.next.checked_sub(1)?;
         let level = self.programs.index(frame.unit).split.get(&entry).copied()?;
@@ -441,40 +437,40 @@ impl Interpreter {
     }
 
     /// Returns the limit of the level of work.
-    pub(in crate::interpreter) fn work_bound(&self) -> u64 {
+    pub(crate) fn work_bound(&self) -> u64 {
         let granted = self.programs.granted();
         self.options.limits.work.saturating_add(granted)
     }
 
     /// Whether even reading what the ways could change takes too much work.
     #[inline]
-    pub(in crate::interpreter) fn is_past_regions(&self) -> bool {
+    pub(crate) fn is_past_regions(&self) -> bool {
         self.state.work.ways() > self.options.limits.ways
             && self.state.work.ways() > self.ways_bound().saturating_mul(2)
     }
 
     #[cold]
-    pub(in crate::interpreter) fn ways_bound(&self) -> u64 {
+    pub(crate) fn ways_bound(&self) -> u64 {
         let granted = self.work_bound() - self.options.limits.work;
         let granted = granted.saturating_mul(PER_REGION_UNIT);
         self.options.limits.ways.saturating_add(granted)
     }
 
     /// Whether the budget of work is used up.
-    pub(in crate::interpreter) fn is_exhausted(&self) -> bool {
+    pub(crate) fn is_exhausted(&self) -> bool {
         self.state.work.level() > self.work_bound() || self.is_past_regions()
     }
 
     /// The macros of the channel list, which no program takes away (TF5200 Programming manual,
     /// 208400267).
-    pub(in crate::interpreter) fn define_machine_macros(&mut self) {
+    pub(crate) fn define_machine_macros(&mut self) {
         for (name, code) in &self.machine.programs.macros {
             self.state.control.memory.define_macro(name, code);
         }
     }
 
     /// The statement being executed and the end of its control block.
-    pub(in crate::interpreter) fn current_block(&self) -> Range<EntryIndex> {
+    pub(crate) fn current_block(&self) -> Range<EntryIndex> {
         self.state.control.frames.running().map_or(0..0, |frame| {
             let entry = frame.next - 1;
             entry..self.programs.index(frame.unit).links(entry).end
@@ -482,7 +478,7 @@ impl Interpreter {
     }
 
     /// Kinds of an axis become unknown.
-    pub(in crate::interpreter) fn havoc(&mut self, axis: AxisIndex, kinds: KindSet) {
+    pub(crate) fn havoc(&mut self, axis: AxisIndex, kinds: KindSet) {
         self.state.control.possible.replace(axis, kinds);
         let compensation = &mut self.state.control.compensation;
         compensation.havoc(axis, kinds, &mut self.scratch.changes);

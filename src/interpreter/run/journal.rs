@@ -13,18 +13,18 @@ use crate::interpreter::values::value::Value;
 
 /// A call found in a region that may or may not be executed.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct RegionCall {
-    pub(in crate::interpreter) call: WantedCall,
-    pub(in crate::interpreter) cause: Unknown,
+pub(crate) struct RegionCall {
+    pub(crate) call: WantedCall,
+    pub(crate) cause: Unknown,
     /// The file that holds the call.
-    pub(in crate::interpreter) unit: usize,
+    pub(crate) unit: usize,
     /// The region that holds it, where it is written there.
-    pub(in crate::interpreter) region: Option<RegionKey>,
+    pub(crate) region: Option<RegionKey>,
 }
 
 /// Writes since regions were last made unknown: a loop that returns to a region examines only these.
 #[derive(Clone, Debug, Default)]
-pub(in crate::interpreter) struct Journal {
+pub(crate) struct Journal {
     written: Vec<Location>,
     /// Rises when the list is restarted.
     epoch: u64,
@@ -35,7 +35,7 @@ pub(in crate::interpreter) struct Journal {
 impl Journal {
     /// A value became known.
     #[inline]
-    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: &Value) {
+    pub(crate) fn write(&mut self, location: &Location, value: &Value) {
         // If no region was examined, nothing has to be kept.
         if self.seen.is_empty() || matches!(value, Value::Unknown(_)) {
             return;
@@ -48,28 +48,28 @@ impl Journal {
     }
 
     /// Something happened that the list does not record.
-    pub(in crate::interpreter) fn begin_anew(&mut self) {
+    pub(crate) fn begin_anew(&mut self) {
         self.written.clear();
         self.epoch += 1;
         self.seen.clear();
     }
 
     /// Returns the writes since the region was last made unknown; `None` where they are not known.
-    pub(in crate::interpreter) fn since(&self, key: RegionKey) -> Option<&[Location]> {
+    pub(crate) fn since(&self, key: RegionKey) -> Option<&[Location]> {
         let &(epoch, from) = self.seen.get(&key)?;
         (epoch == self.epoch).then(|| self.written.get(from..).unwrap_or_default())
     }
 
-    pub(in crate::interpreter) fn mark(&mut self, key: RegionKey) {
+    pub(crate) fn mark(&mut self, key: RegionKey) {
         self.seen.insert(key, (self.epoch, self.written.len()));
     }
 }
 
 /// A file and a range of its blocks.
-pub(in crate::interpreter) type RegionKey = (usize, EntryIndex, EntryIndex);
+pub(crate) type RegionKey = (usize, EntryIndex, EntryIndex);
 
 /// Limit of the list.
 const MAX_WRITTEN: usize = 4096;
 
 /// Regions that were examined.
-pub(in crate::interpreter) type Regions = HashMap<RegionKey, Arc<Region>>;
+pub(crate) type Regions = HashMap<RegionKey, Arc<Region>>;

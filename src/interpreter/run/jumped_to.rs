@@ -8,7 +8,7 @@ use crate::syntax::ast::{Item, Operand};
 impl Interpreter {
     /// Whether a jump of the running program may go to the block: it names the number or the label of the block, or
     /// computes its target.
-    pub(in crate::interpreter) fn may_be_jumped_to(&self, at: &BlockContext<'_>) -> bool {
+    pub(crate) fn may_be_jumped_to(&self, at: &BlockContext<'_>) -> bool {
         let Some(frame) = self.state.control.frames.running() else {
             return true;
         };

@@ -62,17 +62,12 @@ fn key(place: &Place) -> (Arc<str>, u32) {
 
 impl LastCommands {
     /// A program begins.
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
 
     /// A command switches kinds of an axis: on this way it is the last one.
-    pub(in crate::interpreter) fn switch(
-        &mut self,
-        axis: AxisIndex,
-        selection: Selection,
-        command: &LastCommand,
-    ) {
+    pub(crate) fn switch(&mut self, axis: AxisIndex, selection: Selection, command: &LastCommand) {
         let is_on = matches!(selection, Selection::On(_));
         for kind in selection.kinds().iter() {
             let mut both = [ByLine::new(), ByLine::new()];
@@ -82,14 +77,14 @@ impl LastCommands {
     }
 
     /// Something other than a command set kinds of an axis.
-    pub(in crate::interpreter) fn forget(&mut self, axis: AxisIndex, kinds: KindSet) {
+    pub(crate) fn forget(&mut self, axis: AxisIndex, kinds: KindSet) {
         for kind in kinds.iter() {
             self.0.remove(&(axis, kind));
         }
     }
 
     /// Another way reaches the same block.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+    pub(crate) fn join(&mut self, other: &Self) {
         if self == other {
             return;
         }
@@ -113,7 +108,7 @@ impl LastCommands {
     }
 
     /// Whether all axes that it names are below a number.
-    pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
+    pub(crate) fn fits(&self, axes: usize) -> bool {
         self.0.keys().all(|(axis, _)| axis.get() < axes)
     }
 }

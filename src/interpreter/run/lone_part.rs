@@ -7,7 +7,7 @@ use crate::text::Span;
 
 /// A part of a macro with which words of the same block cannot be, or perhaps not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum LonePart {
+pub(crate) enum LonePart {
     /// A call, after which the control accepts nothing (R2.13).
     Call,
     /// A `#` command (R2.47).
@@ -17,7 +17,7 @@ pub(in crate::interpreter) enum LonePart {
 }
 
 impl LonePart {
-    pub(in crate::interpreter) fn of(code: &MacroCode<'_>) -> Option<Self> {
+    pub(crate) fn of(code: &MacroCode<'_>) -> Option<Self> {
         let mut items = code.block.items.iter();
         let lone = items.find_map(|item| match item {
             Item::Call(_) => Some(Self::Call),
@@ -28,7 +28,7 @@ impl LonePart {
         lone.or_else(|| ends_in_comment(code.text).then_some(Self::Comment))
     }
 
-    pub(in crate::interpreter) fn as_str(self) -> &'static str {
+    pub(crate) fn as_str(self) -> &'static str {
         match self {
             Self::Call => "a call",
             Self::Command(_) => "a `#` command",
@@ -37,12 +37,12 @@ impl LonePart {
     }
 
     /// Whether the control may or may not execute what shares the block with it.
-    pub(in crate::interpreter) fn leaves_rest_open(self) -> bool {
+    pub(crate) fn leaves_rest_open(self) -> bool {
         self != Self::Call
     }
 
     /// The first part of a block that should not be in it together with a macro.
-    pub(in crate::interpreter) fn conflict(self, block: &Block, used: Span) -> Option<Span> {
+    pub(crate) fn conflict(self, block: &Block, used: Span) -> Option<Span> {
         let from = block
             .items
             .partition_point(|item| item.span().start <= used.start);
@@ -56,7 +56,7 @@ impl LonePart {
 }
 
 /// Whether a block has several parts, the label not counted.
-pub(in crate::interpreter) fn has_parts(block: &Block) -> bool {
+pub(crate) fn has_parts(block: &Block) -> bool {
     parts(block).nth(1).is_some()
 }
 

@@ -56,7 +56,7 @@ pub struct Options {
 
 impl Options {
     /// Whether a run parts where only the machine knows the way. A driven path has no side ways (R14.8).
-    pub(in crate::interpreter) fn follows_ways(&self) -> bool {
+    pub(crate) fn follows_ways(&self) -> bool {
         self.branches == Branches::Followed && self.motions != Motions::Taken
     }
 
@@ -123,7 +123,7 @@ pub enum RunOutcome {
 
 /// Mode in which the running program is handed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(in crate::interpreter) enum SourceMode {
+pub(crate) enum SourceMode {
     /// As a text in memory.
     #[default]
     Whole,

@@ -11,7 +11,7 @@ use crate::text::Span;
 
 /// The F word of a block.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::interpreter) enum Feed {
+pub(crate) enum Feed {
     /// There is none.
     #[default]
     Absent,
@@ -21,15 +21,15 @@ pub(in crate::interpreter) enum Feed {
 
 /// Actions of a block after its words.
 #[derive(Default)]
-pub(in crate::interpreter) struct BlockOutcome {
+pub(crate) struct BlockOutcome {
     /// M02, M30.
-    pub(in crate::interpreter) end: Option<EndedBy>,
+    pub(crate) end: Option<EndedBy>,
     /// M17, M29.
-    pub(in crate::interpreter) returns: bool,
+    pub(crate) returns: bool,
     /// A jump, or the step of a control block.
-    pub(in crate::interpreter) step: Option<ControlStep>,
+    pub(crate) step: Option<ControlStep>,
     /// Calls, in the order in which they are made.
-    pub(in crate::interpreter) calls: Vec<WantedCall>,
+    pub(crate) calls: Vec<WantedCall>,
     /// The groups of its G functions, a bit each: those of [`Group`], then those of [`BlockGroup`].
     groups: u32,
     /// The letters of which it has a word and may have one, D at bit 0.
@@ -41,20 +41,20 @@ pub(in crate::interpreter) struct BlockOutcome {
     )]
     functions: Option<Box<BTreeSet<i64>>>,
     /// Meaning of the axis words: with G04, G92 … they are not coordinates.
-    pub(in crate::interpreter) axis_words: AxisWords,
+    pub(crate) axis_words: AxisWords,
     /// F, which may be unknown.
-    pub(in crate::interpreter) feed: Feed,
+    pub(crate) feed: Feed,
     /// R of a circle.
-    pub(in crate::interpreter) radius: Option<Span>,
+    pub(crate) radius: Option<Span>,
     /// The condition of an `$IF` in a block with `$GOTO`.
-    pub(in crate::interpreter) condition: Option<bool>,
+    pub(crate) condition: Option<bool>,
     /// Whether a probe decides where the block leads (R2.91).
-    pub(in crate::interpreter) probes: bool,
+    pub(crate) probes: bool,
 }
 
 impl BlockOutcome {
     /// Takes a G function; returns whether the control refuses it, because the block has one of its group.
-    pub(in crate::interpreter) fn is_second_of_group(&mut self, function: &GFunction) -> bool {
+    pub(crate) fn is_second_of_group(&mut self, function: &GFunction) -> bool {
         let group = function.group.map(|group| group as usize);
         let place = group.or(function.one_of.map(BlockGroup::place));
         place.is_some_and(|place| !self.take_bit(place))
@@ -62,7 +62,7 @@ impl BlockOutcome {
 
     /// Takes a G function of a group; returns whether it is the first one.
     #[inline]
-    pub(in crate::interpreter) fn take_group(&mut self, group: Group) -> bool {
+    pub(crate) fn take_group(&mut self, group: Group) -> bool {
         self.take_bit(group as usize)
     }
 
@@ -74,7 +74,7 @@ impl BlockOutcome {
     }
 
     /// Takes a word of a letter; returns whether the control refuses it, because the block already has one (R2.45).
-    pub(in crate::interpreter) fn is_repeated(
+    pub(crate) fn is_repeated(
         &mut self,
         (letter, number): (u8, Option<i64>),
         block: &Block,
@@ -95,7 +95,7 @@ impl BlockOutcome {
     }
 
     /// Whether the block itself leads only to the next one.
-    pub(in crate::interpreter) fn goes_on(&self) -> bool {
+    pub(crate) fn goes_on(&self) -> bool {
         self.end.is_none() && !self.returns && self.step.is_none()
     }
 }

@@ -29,64 +29,62 @@ use crate::text::{Place, Span};
 
 /// The way of the run to its current block.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct RunTrack {
+pub(crate) struct RunTrack {
     /// The loops that were repeated, the outermost first.
-    pub(in crate::interpreter) loops: Vec<Loop>,
+    pub(crate) loops: Vec<Loop>,
     /// The loops that were left where a value of the machine may end them.
-    pub(in crate::interpreter) left_loops: Vec<LeftLoop>,
+    pub(crate) left_loops: Vec<LeftLoop>,
     /// Ways that the control may have taken instead (R2.52).
-    pub(in crate::interpreter) ways: Ways,
+    pub(crate) ways: Ways,
     /// The answers of the machine that lead here.
-    pub(in crate::interpreter) reach: WaySet,
+    pub(crate) reach: WaySet,
     /// Conditions whose values nothing has written since they were asked.
-    pub(in crate::interpreter) asked: Vec<AskedCondition>,
+    pub(crate) asked: Vec<AskedCondition>,
     /// Conditions on values of the machine whose answers may contradict later ones.
-    pub(in crate::interpreter) readings: RememberedConditions,
+    pub(crate) readings: RememberedConditions,
     /// Values that follow from a condition on the way, with what they were before it.
-    pub(in crate::interpreter) assumed: AssumedValues,
+    pub(crate) assumed: AssumedValues,
     /// The blocks with a skip mark that the way executes.
-    pub(in crate::interpreter) marked: Option<Marked>,
+    pub(crate) marked: Option<Marked>,
     /// The loops whose condition was not known, by depth, file and opener.
-    pub(in crate::interpreter) open_loops: BTreeSet<(usize, usize, EntryIndex)>,
+    pub(crate) open_loops: BTreeSet<(usize, usize, EntryIndex)>,
     /// States before the program, until its searched block is reached.
-    pub(in crate::interpreter) searching: Option<Box<BeforeSearch>>,
+    pub(crate) searching: Option<Box<BeforeSearch>>,
     /// The error that has ended it, where the run goes on as if the failing command were not there (R9.20).
     #[serde(default)]
-    pub(in crate::interpreter) failed: Option<Box<FailedAt>>,
+    pub(crate) failed: Option<Box<FailedAt>>,
 }
 
 /// A condition whose values only the program writes: asked again, it has the same answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct AskedCondition {
-    pub(in crate::interpreter) condition: u32,
-    pub(in crate::interpreter) meaning: Arc<ConditionMeaning>,
+pub(crate) struct AskedCondition {
+    pub(crate) condition: u32,
+    pub(crate) meaning: Arc<ConditionMeaning>,
 }
 
 impl AskedCondition {
     /// Whether no value decides, so that it has one answer on all ways.
-    pub(in crate::interpreter) fn reads_nothing(&self) -> bool {
+    pub(crate) fn reads_nothing(&self) -> bool {
         self.meaning.reads.is_empty()
     }
 }
 
 /// Adjacent blocks of one skip level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Marked {
-    pub(in crate::interpreter) depth: usize,
-    pub(in crate::interpreter) unit: usize,
-    pub(in crate::interpreter) first: EntryIndex,
-    pub(in crate::interpreter) after: EntryIndex,
+pub(crate) struct Marked {
+    pub(crate) depth: usize,
+    pub(crate) unit: usize,
+    pub(crate) first: EntryIndex,
+    pub(crate) after: EntryIndex,
 }
 
 /// Values that follow from conditions, with what was known before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct AssumedValues(
-    #[serde(with = "rows")] BTreeMap<Location, ValueBefore>,
-);
+pub(crate) struct AssumedValues(#[serde(with = "rows")] BTreeMap<Location, ValueBefore>);
 
 /// What was known of a value before a condition.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ValueBefore {
+pub(crate) struct ValueBefore {
     value: Option<Value>,
     /// What the program had set in it, where the PLC had not acted since (R2.99).
     set: Option<HeldVariable>,
@@ -108,12 +106,7 @@ impl ValueBefore {
 
 impl AssumedValues {
     /// A value that applies on this way from here on.
-    pub(in crate::interpreter) fn assume(
-        &mut self,
-        memory: &mut Memory,
-        target: &Location,
-        value: Value,
-    ) {
+    pub(crate) fn assume(&mut self, memory: &mut Memory, target: &Location, value: Value) {
         let before = match target {
             Location::Parameter(Owner::Program, index) => {
                 let before = memory.parameter(*index);
@@ -141,12 +134,12 @@ impl AssumedValues {
     }
 
     /// Withdraws the conclusions from conditions.
-    pub(in crate::interpreter) fn undo(&mut self, memory: &mut Memory) {
+    pub(crate) fn undo(&mut self, memory: &mut Memory) {
         self.undo_but(&BTreeSet::new(), memory);
     }
 
     /// Withdraws those about variables that the PLC may write.
-    pub(in crate::interpreter) fn undo_external(
+    pub(crate) fn undo_external(
         &mut self,
         is_it: impl Fn(&VariableName) -> bool,
         memory: &mut Memory,
@@ -178,7 +171,7 @@ impl AssumedValues {
         }
     }
 
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }
@@ -194,7 +187,7 @@ fn value_of(memory: &Memory, target: &Location) -> Option<Value> {
 impl RunTrack {
     /// A value is written: conclusions about it from conditions no longer apply.
     #[inline]
-    pub(in crate::interpreter) fn write(&mut self, location: &Location, memory: &mut Memory) {
+    pub(crate) fn write(&mut self, location: &Location, memory: &mut Memory) {
         if !self.readings.is_empty() {
             self.readings.write(location);
         }
@@ -214,14 +207,14 @@ impl RunTrack {
     }
 
     /// Anything may be written.
-    pub(in crate::interpreter) fn write_anything(&mut self, memory: &mut Memory) {
+    pub(crate) fn write_anything(&mut self, memory: &mut Memory) {
         self.assumed.undo(memory);
         self.asked.clear();
         self.readings.clear();
     }
 
     /// Another program runs, with its own parameters and variables.
-    pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
+    pub(crate) fn change_level(&mut self, depth: usize) {
         let is_own = |target: &Location| match target {
             Location::Parameter(owner, _) => *owner == Owner::Call,
             Location::Variable(name) => name.family() == VariableFamily::Local,
@@ -281,17 +274,17 @@ impl RunTrack {
 
 /// A way through the program: the state of the control on it, and how it got there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Path {
-    pub(in crate::interpreter) control: ControlState,
-    pub(in crate::interpreter) track: RunTrack,
+pub(crate) struct Path {
+    pub(crate) control: ControlState,
+    pub(crate) track: RunTrack,
     /// The executed block at which it parted last.
-    pub(in crate::interpreter) parted: u64,
+    pub(crate) parted: u64,
 }
 
 impl Path {
     /// Another way reaches the same block: what differs becomes unknown. Returns how many values do. Beside a way
     /// that the control may take, one that an error has ended does not count.
-    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Unknown) -> usize {
+    pub(crate) fn join(&mut self, mut other: Self, cause: &Unknown) -> usize {
         if self.track.failed.is_some() != other.track.failed.is_some() {
             if self.track.failed.is_some() {
                 *self = other;
@@ -329,7 +322,7 @@ impl Path {
     }
 
     /// Withdraws conclusions from a condition that does not hold on both ways.
-    pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
+    pub(crate) fn undo_differing(&mut self, other: &mut Self) {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
         if !(mine.is_empty() && theirs.is_empty()) {
             let common = |(target, before): (&Location, &ValueBefore)| {
@@ -346,7 +339,7 @@ impl Path {
     }
 
     /// Whether everything that another way may do from the same block is done on this one, too.
-    pub(in crate::interpreter) fn covers(&self, other: &Self, cause: &Unknown) -> bool {
+    pub(crate) fn covers(&self, other: &Self, cause: &Unknown) -> bool {
         let mut both = self.clone();
         both.join(other.clone(), cause);
         both.control == self.control && both.track.reach == self.track.reach
@@ -355,17 +348,17 @@ impl Path {
 
 /// A way that has ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct EndedPath {
-    pub(in crate::interpreter) path: Path,
-    pub(in crate::interpreter) by: EndedBy,
+pub(crate) struct EndedPath {
+    pub(crate) path: Path,
+    pub(crate) by: EndedBy,
     /// The block that ends the program, and whether no jump goes to it.
-    pub(in crate::interpreter) at: Option<(Place, Passed)>,
-    pub(in crate::interpreter) last: Option<Last>,
+    pub(crate) at: Option<(Place, Passed)>,
+    pub(crate) last: Option<Last>,
 }
 
 /// Whether the block before a program end leads to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Passed {
+pub(crate) enum Passed {
     /// No jump goes to it.
     Into,
     /// A jump may.
@@ -374,21 +367,21 @@ pub(in crate::interpreter) enum Passed {
 
 /// Target of one answer of the machine.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct BranchSide {
+pub(crate) struct BranchSide {
     /// The ways on which it is given.
-    pub(in crate::interpreter) ways: WaySet,
-    pub(in crate::interpreter) to: EntryIndex,
-    pub(in crate::interpreter) seeking: Option<Seeking>,
+    pub(crate) ways: WaySet,
+    pub(crate) to: EntryIndex,
+    pub(crate) seeking: Option<Seeking>,
     /// Values that follow from it.
-    pub(in crate::interpreter) values: Vec<(Location, Value)>,
+    pub(crate) values: Vec<(Location, Value)>,
     /// The state of a kind that follows from it.
-    pub(in crate::interpreter) state: Option<(AxisIndex, Kind, Membership)>,
-    pub(in crate::interpreter) marked: Option<Marked>,
+    pub(crate) state: Option<(AxisIndex, Kind, Membership)>,
+    pub(crate) marked: Option<Marked>,
 }
 
 impl BranchSide {
     /// A side that leads to a block and implies nothing else.
-    pub(in crate::interpreter) fn to(ways: WaySet, to: EntryIndex) -> Self {
+    pub(crate) fn to(ways: WaySet, to: EntryIndex) -> Self {
         Self {
             ways,
             to,
@@ -403,7 +396,7 @@ impl BranchSide {
 impl CallStack {
     /// Returns whether a way is executed before another: the one that comes first in the text, a
     /// called program before the rest of its caller. `None` for two ways at the same block.
-    pub(in crate::interpreter) fn comes_before(&self, other: &Self) -> Option<bool> {
+    pub(crate) fn comes_before(&self, other: &Self) -> Option<bool> {
         for (mine, theirs) in self.iter().zip(other.iter()) {
             match order(mine).cmp(&order(theirs)) {
                 Ordering::Equal => {}
@@ -441,29 +434,29 @@ fn order(frame: &CallFrame) -> impl Ord + use<> {
 
 /// A loop that was repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Loop {
+pub(crate) struct Loop {
     /// Number of nested calls down to the program that holds it.
-    pub(in crate::interpreter) depth: usize,
-    pub(in crate::interpreter) unit: usize,
-    pub(in crate::interpreter) section: usize,
+    pub(crate) depth: usize,
+    pub(crate) unit: usize,
+    pub(crate) section: usize,
     /// The block that opens it, or to which it goes back, and the last one from which it does.
-    pub(in crate::interpreter) head: EntryIndex,
-    pub(in crate::interpreter) from: EntryIndex,
-    pub(in crate::interpreter) passes: u64,
+    pub(crate) head: EntryIndex,
+    pub(crate) from: EntryIndex,
+    pub(crate) passes: u64,
     /// The executed block at which it was first repeated.
-    pub(in crate::interpreter) since: u64,
+    pub(crate) since: u64,
     /// The state at the start of an earlier pass.
-    pub(in crate::interpreter) mark: Option<Box<Mark>>,
+    pub(crate) mark: Option<Box<Mark>>,
     /// Counters, once it is known that nothing else changes any more.
-    pub(in crate::interpreter) endless: Option<Vec<Location>>,
+    pub(crate) endless: Option<Vec<Location>>,
     /// Join of the states at the beginnings of all passes, where the loop is left on some ways
     /// (R14.3).
-    pub(in crate::interpreter) covered: Option<Box<Path>>,
+    pub(crate) covered: Option<Box<Path>>,
 }
 
 impl Loop {
     /// The section that contains it.
-    pub(in crate::interpreter) fn program(&self) -> ProgramId {
+    pub(crate) fn program(&self) -> ProgramId {
         ProgramId {
             unit: self.unit,
             section: self.section,
@@ -471,7 +464,7 @@ impl Loop {
     }
 
     /// Whether its counters are below a bound.
-    pub(in crate::interpreter) fn fits(&self, bound: u64) -> bool {
+    pub(crate) fn fits(&self, bound: u64) -> bool {
         let marked = self.mark.as_ref().map_or(0, |mark| mark.pass);
         self.passes.max(marked) < bound
     }
@@ -479,44 +472,39 @@ impl Loop {
 
 impl Loop {
     /// Whether the loop contains a jump back, or is the one that jumps.
-    pub(in crate::interpreter) fn is_around(
-        &self,
-        place: ProgramId,
-        head: EntryIndex,
-        from: EntryIndex,
-    ) -> bool {
+    pub(crate) fn is_around(&self, place: ProgramId, head: EntryIndex, from: EntryIndex) -> bool {
         let around = self.head < head && from <= self.from;
         self.program() == place && (self.head == head || around)
     }
 
     /// Whether the state is compared at this pass, or kept to be compared with.
-    pub(in crate::interpreter) fn is_due(&self) -> bool {
+    pub(crate) fn is_due(&self) -> bool {
         self.mark.is_some() || (self.passes >= FIRST_LOOK && self.passes.is_power_of_two())
     }
 }
 
 /// A loop that was left where a value of the machine may end it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct LeftLoop {
-    pub(in crate::interpreter) unit: usize,
-    pub(in crate::interpreter) head: EntryIndex,
-    pub(in crate::interpreter) times: u32,
-    pub(in crate::interpreter) cause: Unknown,
+pub(crate) struct LeftLoop {
+    pub(crate) unit: usize,
+    pub(crate) head: EntryIndex,
+    pub(crate) times: u32,
+    pub(crate) cause: Unknown,
 }
 
 impl LeftLoop {
     /// Whether it is the same loop.
-    pub(in crate::interpreter) fn is_of(&self, other: &Self) -> bool {
+    pub(crate) fn is_of(&self, other: &Self) -> bool {
         (self.unit, self.head) == (other.unit, other.head)
     }
 }
 
 /// The state at the start of a pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Mark {
-    pub(in crate::interpreter) pass: u64,
-    pub(in crate::interpreter) control: ControlState,
-    pub(in crate::interpreter) occurred: Vec<bool>,
+pub(crate) struct Mark {
+    pub(crate) pass: u64,
+    pub(crate) control: ControlState,
+    pub(crate) occurred: Vec<bool>,
 }
 
 /// The pass after which a loop is first examined, then at each doubling.
@@ -524,15 +512,15 @@ const FIRST_LOOK: u64 = 32;
 
 /// The last executed block, in case the program ends without M30.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Last {
-    pub(in crate::interpreter) file: Arc<str>,
-    pub(in crate::interpreter) line: u32,
-    pub(in crate::interpreter) text: String,
+pub(crate) struct Last {
+    pub(crate) file: Arc<str>,
+    pub(crate) line: u32,
+    pub(crate) text: String,
 }
 
 impl Last {
     /// The whole block.
-    pub(in crate::interpreter) fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         Place {
             file: self.file.clone(),
             text: self.text.as_str().into(),

@@ -10,14 +10,14 @@ use crate::interpreter::values::rows;
 
 /// The ways on which a kind of an axis is selected, and those on which it is not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Split {
-    pub(in crate::interpreter) on: WaySet,
-    pub(in crate::interpreter) off: WaySet,
+pub(crate) struct Split {
+    pub(crate) on: WaySet,
+    pub(crate) off: WaySet,
 }
 
 impl Split {
     /// Restricts both to some ways.
-    pub(in crate::interpreter) fn and(&self, ways: &WaySet) -> Self {
+    pub(crate) fn and(&self, ways: &WaySet) -> Self {
         Self {
             on: self.on.and(ways),
             off: self.off.and(ways),
@@ -25,7 +25,7 @@ impl Split {
     }
 
     /// Renumbers the conditions of both.
-    pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
+    pub(crate) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
         Self {
             on: self.on.renumbered(&number),
             off: self.off.renumbered(&number),
@@ -33,7 +33,7 @@ impl Split {
     }
 
     /// Whether all conditions that it names are below a number.
-    pub(in crate::interpreter) fn fits(&self, conditions: usize) -> bool {
+    pub(crate) fn fits(&self, conditions: usize) -> bool {
         self.conditions().all(|it| (it as usize) < conditions)
     }
 
@@ -50,9 +50,7 @@ impl Split {
 /// The states of kinds that are unknown because ways differ. A kind that is unknown and not among
 /// them may be in any state on any way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct PossibleKinds(
-    #[serde(with = "rows")] BTreeMap<(AxisIndex, Kind), Split>,
-);
+pub(crate) struct PossibleKinds(#[serde(with = "rows")] BTreeMap<(AxisIndex, Kind), Split>);
 
 impl FromIterator<((AxisIndex, Kind), Split)> for PossibleKinds {
     fn from_iter<I: IntoIterator<Item = ((AxisIndex, Kind), Split)>>(splits: I) -> Self {
@@ -62,16 +60,16 @@ impl FromIterator<((AxisIndex, Kind), Split)> for PossibleKinds {
 
 impl PossibleKinds {
     #[inline]
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub(in crate::interpreter) fn of(&self, axis: AxisIndex, kind: Kind) -> Option<&Split> {
+    pub(crate) fn of(&self, axis: AxisIndex, kind: Kind) -> Option<&Split> {
         self.0.get(&(axis, kind))
     }
 
     /// Replaces the possible states of kinds of an axis.
-    pub(in crate::interpreter) fn replace(&mut self, axis: AxisIndex, kinds: KindSet) {
+    pub(crate) fn replace(&mut self, axis: AxisIndex, kinds: KindSet) {
         if !self.is_empty() {
             self.0
                 .retain(|(of, kind), _| *of != axis || !kinds.contains(*kind));
@@ -79,45 +77,39 @@ impl PossibleKinds {
     }
 
     /// The ways on which a kind of an axis is selected, and those on which it is not.
-    pub(in crate::interpreter) fn insert(&mut self, axis: AxisIndex, kind: Kind, split: Split) {
+    pub(crate) fn insert(&mut self, axis: AxisIndex, kind: Kind, split: Split) {
         self.0.insert((axis, kind), split);
     }
 
     /// The kinds that have possible states.
-    pub(in crate::interpreter) fn iter(
-        &self,
-    ) -> impl Iterator<Item = (&(AxisIndex, Kind), &Split)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&(AxisIndex, Kind), &Split)> {
         self.0.iter()
     }
 
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
 
     /// Whether all axes and conditions that it names are below a number of each.
-    pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
+    pub(crate) fn fits(&self, axes: usize, conditions: usize) -> bool {
         let mut splits = self.0.iter();
         splits.all(|((axis, _), split)| axis.get() < axes && split.fits(conditions))
     }
 
     /// The conditions that ways name.
-    pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.0.values().flat_map(Split::conditions)
     }
 
     /// A condition is asked again.
-    pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
+    pub(crate) fn havoc(&mut self, condition: u32) {
         for split in self.0.values_mut() {
             split.havoc(condition);
         }
     }
 
     /// The run continues on some ways only: whatever they all agree on is known.
-    pub(in crate::interpreter) fn narrow(
-        &mut self,
-        ways: &WaySet,
-        compensation: &mut Compensation,
-    ) {
+    pub(crate) fn narrow(&mut self, ways: &WaySet, compensation: &mut Compensation) {
         self.0.retain(|(axis, kind), split| {
             let left = split.and(ways);
             let only = match (left.on.is_never(), left.off.is_never()) {
@@ -132,10 +124,10 @@ impl PossibleKinds {
 }
 
 /// A state of the compensation with the ways on which the control has it.
-pub(in crate::interpreter) struct PossibleSide<'a> {
-    pub(in crate::interpreter) compensation: &'a Compensation,
-    pub(in crate::interpreter) possible: &'a PossibleKinds,
-    pub(in crate::interpreter) reach: &'a WaySet,
+pub(crate) struct PossibleSide<'a> {
+    pub(crate) compensation: &'a Compensation,
+    pub(crate) possible: &'a PossibleKinds,
+    pub(crate) reach: &'a WaySet,
 }
 
 impl PossibleSide<'_> {
@@ -161,7 +153,7 @@ impl PossibleSide<'_> {
 }
 
 /// Joins the states of two ways that meet.
-pub(in crate::interpreter) fn join(
+pub(crate) fn join(
     mine: &PossibleSide<'_>,
     theirs: &PossibleSide<'_>,
 ) -> (Compensation, PossibleKinds) {

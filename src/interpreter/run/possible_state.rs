@@ -185,7 +185,7 @@ impl PossibleState {
 }
 
 /// Returns the possible states of the unknown kinds on the ways of `reach`.
-pub(in crate::interpreter) fn shown(
+pub(crate) fn shown(
     (compensation, possible): (&Compensation, &PossibleKinds),
     reach: &WaySet,
     conditions: &[Condition],
@@ -252,10 +252,7 @@ fn named(state: State, ways: &WaySet, conditions: &[Condition]) -> PossibleState
 
 /// The ways with the texts of their conditions; none where one of them only needs values to stay as the program
 /// set them: it is taken for granted, and the others are exceptions (R2.99).
-pub(in crate::interpreter) fn ways_of(
-    ways: &WaySet,
-    conditions: &[Condition],
-) -> Vec<Vec<WayCondition>> {
+pub(crate) fn ways_of(ways: &WaySet, conditions: &[Condition]) -> Vec<Vec<WayCondition>> {
     let mut all: Vec<Vec<WayCondition>> = Vec::new();
     let mut in_order: Vec<_> = ways.ways().iter().collect();
     in_order.sort_by_key(|way| way.iter().map(|it| it.condition).collect::<Vec<_>>());
@@ -287,7 +284,7 @@ pub(in crate::interpreter) fn ways_of(
 }
 
 /// The change without which a condition has only the answer that the program set.
-pub(in crate::interpreter) fn change_since(kept: &KeptAnswer) -> WayChange {
+pub(crate) fn change_since(kept: &KeptAnswer) -> WayChange {
     let names: Vec<String> = kept.names.iter().map(ToString::to_string).collect();
     WayChange {
         name: names.join(" or ").into(),

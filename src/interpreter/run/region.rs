@@ -15,7 +15,7 @@ use crate::text::Span;
 
 /// Something that a region could change.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(in crate::interpreter) enum RegionEffect {
+pub(crate) enum RegionEffect {
     /// These kinds on this axis.
     Compensation(String, KindSet),
     /// A G function comes into force; `None` for one that is not known.
@@ -60,7 +60,7 @@ pub(in crate::interpreter) enum RegionEffect {
 
 /// Exit from a region other than its end.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(in crate::interpreter) enum Exit {
+pub(crate) enum Exit {
     /// A jump of the same program.
     Label(LabelName),
     /// A jump to an unknown place.
@@ -77,40 +77,36 @@ pub(in crate::interpreter) enum Exit {
 
 impl Exit {
     /// Returns the exit to a label.
-    pub(in crate::interpreter) fn label(name: &str) -> Self {
+    pub(crate) fn label(name: &str) -> Self {
         Self::Label(LabelName::Text(name.trim_matches(['[', ']']).to_owned()))
     }
 }
 
 /// Possible effects of a region.
 #[derive(Debug, Default)]
-pub(in crate::interpreter) struct Region {
-    pub(in crate::interpreter) effects: Vec<RegionEffect>,
-    pub(in crate::interpreter) targets: Vec<Location>,
+pub(crate) struct Region {
+    pub(crate) effects: Vec<RegionEffect>,
+    pub(crate) targets: Vec<Location>,
     /// The targets, to ask whether something is one.
-    pub(in crate::interpreter) written: HashSet<Location>,
-    pub(in crate::interpreter) calls: Vec<WantedCall>,
-    pub(in crate::interpreter) exits: Vec<Exit>,
+    pub(crate) written: HashSet<Location>,
+    pub(crate) calls: Vec<WantedCall>,
+    pub(crate) exits: Vec<Exit>,
     /// Its blocks that end the program, each with its unit.
-    pub(in crate::interpreter) ends: Vec<((usize, EntryIndex), EndedBy)>,
+    pub(crate) ends: Vec<((usize, EntryIndex), EndedBy)>,
     /// Whether an error ends the program in it.
-    pub(in crate::interpreter) is_refused: bool,
+    pub(crate) is_refused: bool,
     /// The macros that it was looked through with.
-    pub(in crate::interpreter) macro_version: u64,
+    pub(crate) macro_version: u64,
 }
 
 impl Region {
     /// A block ends the program by M30 or M02.
-    pub(in crate::interpreter) fn end_at(&mut self, place: (usize, EntryIndex)) {
+    pub(crate) fn end_at(&mut self, place: (usize, EntryIndex)) {
         self.ends.push((place, EndedBy::M30));
     }
 
     /// An error ends the program at a block, where one does.
-    pub(in crate::interpreter) fn refuse_if(
-        &mut self,
-        is_refused: bool,
-        place: (usize, EntryIndex),
-    ) {
+    pub(crate) fn refuse_if(&mut self, is_refused: bool, place: (usize, EntryIndex)) {
         if is_refused {
             self.is_refused = true;
             self.ends.push((place, EndedBy::Error));
@@ -118,19 +114,19 @@ impl Region {
     }
 
     /// Whether it could define a coupling.
-    pub(in crate::interpreter) fn couples(&self) -> bool {
+    pub(crate) fn couples(&self) -> bool {
         let mut effects = self.effects.iter();
         effects.any(|effect| matches!(effect, RegionEffect::Coupling(_)))
     }
 
     /// Whether it could switch a compensation.
-    pub(in crate::interpreter) fn switches(&self) -> bool {
+    pub(crate) fn switches(&self) -> bool {
         let mut effects = self.effects.iter();
         effects.any(|effect| matches!(effect, RegionEffect::Compensation(..)))
     }
 
     /// Whether it could move an axis.
-    pub(in crate::interpreter) fn moves(&self) -> bool {
+    pub(crate) fn moves(&self) -> bool {
         let moves = |effect: &RegionEffect| {
             matches!(
                 effect,
@@ -141,7 +137,7 @@ impl Region {
     }
 
     /// Whether the region could write what was written.
-    pub(in crate::interpreter) fn writes(&self, written: &Location) -> bool {
+    pub(crate) fn writes(&self, written: &Location) -> bool {
         let whole = match written {
             Location::Parameter(Owner::Program, _) => self.written.contains(&Location::Parameters),
             Location::Variable(name) if name.is_element() => {

@@ -54,7 +54,7 @@ impl SearchedBlock {
         reason = "block numbers are far below 2^53"
     )]
     /// Returns whether a block is the searched one.
-    pub(in crate::interpreter) fn is(self, at: &BlockContext<'_>) -> bool {
+    pub(crate) fn is(self, at: &BlockContext<'_>) -> bool {
         if at.level > 0 {
             return false;
         }
@@ -69,8 +69,8 @@ impl SearchedBlock {
 
 /// The states before a program, which apply at the searched block if the search only decodes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct BeforeSearch {
-    pub(in crate::interpreter) compensation: Compensation,
-    pub(in crate::interpreter) possible: PossibleKinds,
-    pub(in crate::interpreter) untouched: Untouched,
+pub(crate) struct BeforeSearch {
+    pub(crate) compensation: Compensation,
+    pub(crate) possible: PossibleKinds,
+    pub(crate) untouched: Untouched,
 }

@@ -14,36 +14,36 @@ use crate::text::Place;
 
 /// The programs that run, the main program first.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct CallStack(Vec<CallFrame>);
+pub(crate) struct CallStack(Vec<CallFrame>);
 
 /// One level of the call stack: the position in a program or subprogram.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct CallFrame {
+pub(crate) struct CallFrame {
     /// The file, by its position among the files of the run.
-    pub(in crate::interpreter) unit: usize,
-    pub(in crate::interpreter) section: usize,
+    pub(crate) unit: usize,
+    pub(crate) section: usize,
     /// The next block.
-    pub(in crate::interpreter) next: EntryIndex,
+    pub(crate) next: EntryIndex,
     /// The call depth; 0 is the main program.
-    pub(in crate::interpreter) level: u32,
+    pub(crate) level: u32,
     /// Own parameters of the call.
-    pub(in crate::interpreter) own: BTreeMap<u32, Value>,
+    pub(crate) own: BTreeMap<u32, Value>,
     /// Set between `$IF` or `$SWITCH` and the branch being looked for.
-    pub(in crate::interpreter) seeking: Option<Seeking>,
+    pub(crate) seeking: Option<Seeking>,
     /// Place of the call.
-    pub(in crate::interpreter) called_from: Option<Place>,
+    pub(crate) called_from: Option<Place>,
     /// State that the end of a cycle restores.
-    pub(in crate::interpreter) restores: Option<Box<saved::Saved>>,
-    pub(in crate::interpreter) retains: Retains,
+    pub(crate) restores: Option<Box<saved::Saved>>,
+    pub(crate) retains: Retains,
     /// Programs that are called before the next block, the first one last.
-    pub(in crate::interpreter) waiting: Vec<Request>,
+    pub(crate) waiting: Vec<Request>,
     /// The blocks that are executed, where that is not the whole program.
-    pub(in crate::interpreter) passage: Option<Passage>,
+    pub(crate) passage: Option<Passage>,
 }
 
 impl CallFrame {
     /// The program that it belongs to.
-    pub(in crate::interpreter) fn program(&self) -> ProgramId {
+    pub(crate) fn program(&self) -> ProgramId {
         ProgramId {
             unit: self.unit,
             section: self.section,
@@ -53,7 +53,7 @@ impl CallFrame {
 
 /// Whether a cycle keeps its changes to G functions and feed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Retains {
+pub(crate) enum Retains {
     /// It does not.
     Nothing,
     /// `#RETAIN CYCLE CHANGES` may have been executed.
@@ -62,7 +62,7 @@ pub(in crate::interpreter) enum Retains {
 
 /// Decision that the next branch statement has to make.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Seeking {
+pub(crate) enum Seeking {
     /// A true condition.
     Condition,
     /// A case with this value.
@@ -111,7 +111,7 @@ impl CallFrame {
 
 impl CallStack {
     /// Joins another way at the same block: whatever differs becomes unknown.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Unknown) {
+    pub(crate) fn join(&mut self, other: &Self, cause: &Unknown) {
         for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
             mine.join(theirs, cause);
         }
@@ -119,84 +119,84 @@ impl CallStack {
 
     /// The program whose blocks are executed.
     #[inline]
-    pub(in crate::interpreter) fn running(&self) -> Option<&CallFrame> {
+    pub(crate) fn running(&self) -> Option<&CallFrame> {
         self.0.last()
     }
 
     /// The program whose blocks are executed.
     #[inline]
-    pub(in crate::interpreter) fn running_mut(&mut self) -> Option<&mut CallFrame> {
+    pub(crate) fn running_mut(&mut self) -> Option<&mut CallFrame> {
         self.0.last_mut()
     }
 
     /// The main program.
-    pub(in crate::interpreter) fn main(&self) -> Option<&CallFrame> {
+    pub(crate) fn main(&self) -> Option<&CallFrame> {
         self.0.first()
     }
 
     /// The running cycle, whose end restores what was in force before it.
-    pub(in crate::interpreter) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
+    pub(crate) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
         let mut frames = self.0.iter_mut().rev();
         frames.find(|frame| frame.restores.is_some())
     }
 
     /// The place of the program whose blocks are executed.
-    pub(in crate::interpreter) fn program(&self) -> Option<ProgramId> {
+    pub(crate) fn program(&self) -> Option<ProgramId> {
         self.running().map(CallFrame::program)
     }
 
     /// The call depth of the program whose blocks are executed; 0 is the main program.
-    pub(in crate::interpreter) fn level(&self) -> u32 {
+    pub(crate) fn level(&self) -> u32 {
         self.running().map_or(0, |frame| frame.level)
     }
 
     /// The block that is executed.
-    pub(in crate::interpreter) fn entry(&self) -> Option<EntryIndex> {
+    pub(crate) fn entry(&self) -> Option<EntryIndex> {
         self.running()?.next.checked_sub(1)
     }
 
     /// Whether a block of the running program comes before the next one.
-    pub(in crate::interpreter) fn is_passed(&self, target: EntryIndex) -> bool {
+    pub(crate) fn is_passed(&self, target: EntryIndex) -> bool {
         self.running().is_some_and(|frame| target < frame.next)
     }
 
     /// The outermost program of a call depth.
-    pub(in crate::interpreter) fn at_level(&self, level: u32) -> Option<&CallFrame> {
+    pub(crate) fn at_level(&self, level: u32) -> Option<&CallFrame> {
         self.0.iter().find(|frame| frame.level == level)
     }
 
     /// The program at a call depth, the main program being the first.
-    pub(in crate::interpreter) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut CallFrame> {
+    pub(crate) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut CallFrame> {
         self.0.get_mut(depth.checked_sub(1)?)
     }
 
     /// Returns the number of nested programs.
-    pub(in crate::interpreter) fn depth(&self) -> usize {
+    pub(crate) fn depth(&self) -> usize {
         self.0.len()
     }
 
     /// Whether no program runs.
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// The programs, the main program first.
-    pub(in crate::interpreter) fn iter(&self) -> impl DoubleEndedIterator<Item = &CallFrame> {
+    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &CallFrame> {
         self.0.iter()
     }
 
     /// A program is called.
-    pub(in crate::interpreter) fn push(&mut self, frame: CallFrame) {
+    pub(crate) fn push(&mut self, frame: CallFrame) {
         self.0.push(frame);
     }
 
     /// A program is left.
-    pub(in crate::interpreter) fn pop(&mut self) -> Option<CallFrame> {
+    pub(crate) fn pop(&mut self) -> Option<CallFrame> {
         self.0.pop()
     }
 
     /// All programs are left.
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
 }

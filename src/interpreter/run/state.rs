@@ -21,48 +21,46 @@ const MAX_ONCE: usize = 1000;
 
 /// Everything that a run depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct State {
+pub(crate) struct State {
     /// State of the control.
-    pub(in crate::interpreter) control: ControlState,
+    pub(crate) control: ControlState,
     /// The way to it.
-    pub(in crate::interpreter) track: RunTrack,
+    pub(crate) track: RunTrack,
     /// The other ways that are still executed.
-    pub(in crate::interpreter) waiting: WaitingPaths,
+    pub(crate) waiting: WaitingPaths,
     /// The ways that have ended.
-    pub(in crate::interpreter) ended: Vec<EndedPath>,
+    pub(crate) ended: Vec<EndedPath>,
     /// The conditions that ways name, by their numbers.
-    pub(in crate::interpreter) conditions: Vec<Condition>,
+    pub(crate) conditions: Vec<Condition>,
     /// Executed blocks of the program.
-    pub(in crate::interpreter) seq: u64,
+    pub(crate) seq: u64,
     /// Executed blocks of the session.
-    pub(in crate::interpreter) blocks: u64,
-    pub(in crate::interpreter) work: WorkBudget,
+    pub(crate) blocks: u64,
+    pub(crate) work: WorkBudget,
     /// Whether the program has used up its budget of ways: no further way is followed.
-    pub(in crate::interpreter) is_widened: bool,
+    pub(crate) is_widened: bool,
     /// Words and commands that were passed over.
-    pub(in crate::interpreter) opaque: BTreeMap<String, u64>,
+    pub(crate) opaque: BTreeMap<String, u64>,
     /// The words of the program that were reported, once each (R2.94).
-    pub(in crate::interpreter) once: BTreeSet<String>,
+    pub(crate) once: BTreeSet<String>,
     /// The axes that occurred.
-    pub(in crate::interpreter) occurred: Vec<bool>,
+    pub(crate) occurred: Vec<bool>,
     /// Whether a loop is compared with an earlier pass, so that what is read matters.
-    pub(in crate::interpreter) watching: bool,
-    pub(in crate::interpreter) reads: RefCell<Reads>,
+    pub(crate) watching: bool,
+    pub(crate) reads: RefCell<Reads>,
     /// The last executed block of the main program.
-    pub(in crate::interpreter) last: Option<Last>,
+    pub(crate) last: Option<Last>,
     /// First step of a paused run when it continues.
-    pub(in crate::interpreter) parked: Option<ControlStep>,
+    pub(crate) parked: Option<ControlStep>,
     /// The unknown values that messages were about.
-    pub(in crate::interpreter) mentioned: MentionedUnknowns,
+    pub(crate) mentioned: MentionedUnknowns,
     /// The open questions whose readings results depend on (R15.3).
-    pub(in crate::interpreter) rests_on: QuestionSet,
+    pub(crate) rests_on: QuestionSet,
 }
 
 impl State {
     /// The states of the control on all ways.
-    pub(in crate::interpreter) fn controls_mut(
-        &mut self,
-    ) -> impl Iterator<Item = &mut ControlState> {
+    pub(crate) fn controls_mut(&mut self) -> impl Iterator<Item = &mut ControlState> {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
         let others = self.waiting.iter_mut().chain(ended);
         let others = others.map(|path| &mut path.control);
@@ -70,7 +68,7 @@ impl State {
     }
 
     /// The run goes on only on some of the ways that lead here.
-    pub(in crate::interpreter) fn go_on_with(&mut self, ways: WaySet) {
+    pub(crate) fn go_on_with(&mut self, ways: WaySet) {
         self.track.reach = ways;
         let control = &mut self.control;
         control
@@ -79,7 +77,7 @@ impl State {
     }
 
     /// Takes the way that was being executed.
-    pub(in crate::interpreter) fn leave_path(&mut self) -> Path {
+    pub(crate) fn leave_path(&mut self) -> Path {
         Path {
             control: self.control.clone(),
             track: std::mem::take(&mut self.track),
@@ -88,7 +86,7 @@ impl State {
     }
 
     /// Whether a word that is reported once occurs for the first time in the program.
-    pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
+    pub(crate) fn is_new_word(&mut self, word: &str) -> bool {
         let words = &mut self.once;
         words.len() < MAX_ONCE && words.insert(word.to_owned())
     }

@@ -13,7 +13,7 @@ use crate::text::Place;
 
 /// Step of the control after a block, where it does not lead to the next one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum ControlStep {
+pub(crate) enum ControlStep {
     /// The program was announced and has not begun.
     Begin,
     /// To a block of the same program.
@@ -30,7 +30,7 @@ pub(in crate::interpreter) enum ControlStep {
 }
 
 /// Reason why the block that follows is not executed next.
-pub(in crate::interpreter) enum NextBlock {
+pub(crate) enum NextBlock {
     /// The observer stops the run.
     Paused,
     Step(ControlStep),
@@ -38,29 +38,29 @@ pub(in crate::interpreter) enum NextBlock {
 
 /// A program to call.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Request {
-    pub(in crate::interpreter) found: ProgramId,
-    pub(in crate::interpreter) passage: Option<Passage>,
-    pub(in crate::interpreter) own: BTreeMap<u32, Value>,
-    pub(in crate::interpreter) form: CallForm,
-    pub(in crate::interpreter) called_from: Place,
+pub(crate) struct Request {
+    pub(crate) found: ProgramId,
+    pub(crate) passage: Option<Passage>,
+    pub(crate) own: BTreeMap<u32, Value>,
+    pub(crate) form: CallForm,
+    pub(crate) called_from: Place,
 }
 
 /// The blocks of a program that a frame executes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Passage {
-    pub(in crate::interpreter) first: EntryIndex,
-    pub(in crate::interpreter) last: EntryIndex,
+pub(crate) struct Passage {
+    pub(crate) first: EntryIndex,
+    pub(crate) last: EntryIndex,
     /// Number of passes left.
-    pub(in crate::interpreter) left: u64,
+    pub(crate) left: u64,
     /// Number of blocks executed before this pass began.
-    pub(in crate::interpreter) begun: u64,
+    pub(crate) begun: u64,
 }
 
 impl Passage {
     /// The start of the next pass, when there is one. A pass of blocks that are all skipped is the
     /// last one.
-    pub(in crate::interpreter) fn again(&mut self, executed: u64) -> Option<EntryIndex> {
+    pub(crate) fn again(&mut self, executed: u64) -> Option<EntryIndex> {
         if self.left == 0 || executed == self.begun {
             return None;
         }
@@ -72,15 +72,15 @@ impl Passage {
 
 /// Target of an M17.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Destination {
-    pub(in crate::interpreter) level: u32,
+pub(crate) struct Destination {
+    pub(crate) level: u32,
     /// The block, where it is not the one that follows the call.
-    pub(in crate::interpreter) entry: Option<EntryIndex>,
+    pub(crate) entry: Option<EntryIndex>,
 }
 
 /// A block of a main program that is read line by line, and the message if it is never reached.
 #[derive(Clone, Debug)]
-pub(in crate::interpreter) struct AwaitedBlock {
-    pub(in crate::interpreter) label: LabelName,
-    pub(in crate::interpreter) missing: Diagnostic,
+pub(crate) struct AwaitedBlock {
+    pub(crate) label: LabelName,
+    pub(crate) missing: Diagnostic,
 }

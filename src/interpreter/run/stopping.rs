@@ -13,19 +13,19 @@ use crate::syntax::Fault;
 use crate::text::Place;
 
 /// A single message.
-pub(in crate::interpreter) fn one(diagnostic: Diagnostic) -> Collected {
+pub(crate) fn one(diagnostic: Diagnostic) -> Collected {
     let mut notes = Collected::default();
     notes.push(diagnostic);
     notes
 }
 
 /// Whether a diagnostic stops the control.
-pub(in crate::interpreter) fn stops(diagnostic: &Diagnostic) -> bool {
+pub(crate) fn stops(diagnostic: &Diagnostic) -> bool {
     diagnostic.code.severity() == Severity::Error
 }
 
 /// Returns the reason for the end of a program that one of these diagnostics stops.
-pub(in crate::interpreter) fn ended_by(said: &[Diagnostic]) -> EndedBy {
+pub(crate) fn ended_by(said: &[Diagnostic]) -> EndedBy {
     let bound = |diagnostic: &Diagnostic| diagnostic.code.is_budget();
     match said.iter().find(|diagnostic| stops(diagnostic)) {
         Some(diagnostic) if bound(diagnostic) => EndedBy::Budget,
@@ -34,11 +34,7 @@ pub(in crate::interpreter) fn ended_by(said: &[Diagnostic]) -> EndedBy {
 }
 
 /// Whether a fault is about a word that the user declares harmless.
-pub(in crate::interpreter) fn is_harmless(
-    words: &HarmlessWords,
-    fault: &Fault,
-    text: &str,
-) -> bool {
+pub(crate) fn is_harmless(words: &HarmlessWords, fault: &Fault, text: &str) -> bool {
     fault.code == Code::Fc210 && words.has_command(fault.span.of(text))
 }
 
@@ -53,11 +49,7 @@ pub(crate) struct FailedAt {
 
 impl FailedAt {
     /// The executed block `seq`, with its messages.
-    pub(in crate::interpreter) fn new(
-        seq: u64,
-        at: &BlockContext<'_>,
-        said: &[Diagnostic],
-    ) -> Self {
+    pub(crate) fn new(seq: u64, at: &BlockContext<'_>, said: &[Diagnostic]) -> Self {
         Self {
             seq,
             file: Arc::clone(at.file),

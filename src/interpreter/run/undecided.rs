@@ -14,30 +14,30 @@ const MAX_ROOTS: usize = 1000;
 
 /// A part of the program that may or may not be executed, until it is known what it could change.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct Undecided {
+pub(crate) struct Undecided {
     /// The value that decides.
-    pub(in crate::interpreter) cause: Unknown,
+    pub(crate) cause: Unknown,
     /// The position of its message among those of the block.
-    pub(in crate::interpreter) said: usize,
+    pub(crate) said: usize,
     /// The number of doubts of the block before it.
-    pub(in crate::interpreter) doubted: usize,
-    pub(in crate::interpreter) differing: Differing,
+    pub(crate) doubted: usize,
+    pub(crate) differing: Differing,
 }
 
 /// Differences between the ways other than compensation states.
 #[derive(Debug, Clone, Default)]
-pub(in crate::interpreter) struct Differing {
+pub(crate) struct Differing {
     /// Whether anything differs that a user may ask for.
-    pub(in crate::interpreter) decides: bool,
+    pub(crate) decides: bool,
     /// Its names in a message.
-    pub(in crate::interpreter) named: BTreeSet<String>,
+    pub(crate) named: BTreeSet<String>,
     /// Alternative target of the control.
-    pub(in crate::interpreter) leaves: Option<&'static str>,
+    pub(crate) leaves: Option<&'static str>,
 }
 
 impl Differing {
     /// Adds a named difference.
-    pub(in crate::interpreter) fn name(&mut self, name: impl Into<String>) {
+    pub(crate) fn name(&mut self, name: impl Into<String>) {
         self.decides = true;
         self.named.insert(name.into());
     }
@@ -45,7 +45,7 @@ impl Differing {
 
 /// The unknown values that messages of the program were about, by what makes them unknown.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct MentionedUnknowns {
+pub(crate) struct MentionedUnknowns {
     #[serde(with = "rows")]
     roots: BTreeMap<Unknown, Root>,
 }
@@ -60,7 +60,7 @@ struct Root {
 
 impl MentionedUnknowns {
     /// Remembers where a value first occurred.
-    pub(in crate::interpreter) fn enter(&mut self, cause: &Unknown, place: impl FnOnce() -> Place) {
+    pub(crate) fn enter(&mut self, cause: &Unknown, place: impl FnOnce() -> Place) {
         if self.roots.len() < MAX_ROOTS && !self.roots.contains_key(cause) {
             let root = Root {
                 place: place(),
@@ -71,13 +71,13 @@ impl MentionedUnknowns {
     }
 
     /// The block where a value first occurred.
-    pub(in crate::interpreter) fn origin(&self, cause: &Unknown) -> Option<&Place> {
+    pub(crate) fn origin(&self, cause: &Unknown) -> Option<&Place> {
         self.roots.get(cause).map(|root| &root.place)
     }
 
     /// Whether a message names anything that no message about the same value in another block has named.
     /// A message that a loop repeats at its own place is counted, not withheld (R2.85).
-    pub(in crate::interpreter) fn is_new(
+    pub(crate) fn is_new(
         &mut self,
         cause: &Unknown,
         named: impl IntoIterator<Item = String>,

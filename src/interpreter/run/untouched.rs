@@ -14,25 +14,23 @@ use crate::interpreter::values::rows;
 /// Axis and kind → the ways on which no command of the program has switched it. A kind without an entry
 /// was switched on no way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Untouched(
-    #[serde(with = "rows")] BTreeMap<(AxisIndex, Kind), WaySet>,
-);
+pub(crate) struct Untouched(#[serde(with = "rows")] BTreeMap<(AxisIndex, Kind), WaySet>);
 
 impl Untouched {
     /// A program begins.
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
 
     /// A command switches kinds of an axis.
-    pub(in crate::interpreter) fn switch(&mut self, axis: AxisIndex, kinds: KindSet) {
+    pub(crate) fn switch(&mut self, axis: AxisIndex, kinds: KindSet) {
         for kind in kinds.iter() {
             self.0.insert((axis, kind), WaySet::never());
         }
     }
 
     /// Joins two ways that meet. `reach` holds the ways to this one and to the other.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, reach: [&WaySet; 2]) {
+    pub(crate) fn join(&mut self, other: &Self, reach: [&WaySet; 2]) {
         if self == other {
             return;
         }
@@ -45,22 +43,22 @@ impl Untouched {
     }
 
     /// A condition is asked again.
-    pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
+    pub(crate) fn havoc(&mut self, condition: u32) {
         self.0.values_mut().for_each(|ways| ways.havoc(condition));
     }
 
     /// The ways of each kind.
-    pub(in crate::interpreter) fn sets(&self) -> impl Iterator<Item = &WaySet> {
+    pub(crate) fn sets(&self) -> impl Iterator<Item = &WaySet> {
         self.0.values()
     }
 
     /// The conditions that ways name.
-    pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.0.values().flat_map(WaySet::conditions)
     }
 
     /// Whether all axes and conditions that it names are below a number of each.
-    pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
+    pub(crate) fn fits(&self, axes: usize, conditions: usize) -> bool {
         self.0.keys().all(|(axis, _)| axis.get() < axes)
             && self.conditions().all(|it| (it as usize) < conditions)
     }
@@ -107,9 +105,9 @@ impl FoundOn {
 /// Kinds that a program has not yet switched at a block.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FoundStates<'a> {
-    pub(in crate::interpreter) untouched: &'a Untouched,
-    pub(in crate::interpreter) reach: &'a WaySet,
-    pub(in crate::interpreter) conditions: &'a [Condition],
+    pub(crate) untouched: &'a Untouched,
+    pub(crate) reach: &'a WaySet,
+    pub(crate) conditions: &'a [Condition],
 }
 
 impl FoundStates<'_> {

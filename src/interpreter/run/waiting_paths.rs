@@ -8,11 +8,11 @@ use super::stack::CallStack;
 /// The ways that wait; the one whose block comes first in the text is the last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(in crate::interpreter) struct WaitingPaths(Vec<Path>);
+pub(crate) struct WaitingPaths(Vec<Path>);
 
 /// The relation of the first waiting way to a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum FirstWaiting {
+pub(crate) enum FirstWaiting {
     /// Its block comes before.
     Before,
     /// It waits at the block.
@@ -23,34 +23,34 @@ pub(in crate::interpreter) enum FirstWaiting {
 
 impl WaitingPaths {
     #[inline]
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub(in crate::interpreter) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.0.len()
     }
 
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
 
-    pub(in crate::interpreter) fn iter(&self) -> impl Iterator<Item = &Path> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Path> {
         self.0.iter()
     }
 
     /// The ways, whose places must stay as they are.
-    pub(in crate::interpreter) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Path> {
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Path> {
         self.0.iter_mut()
     }
 
     /// Takes all ways, the last of the text first.
-    pub(in crate::interpreter) fn take_all(&mut self) -> Vec<Path> {
+    pub(crate) fn take_all(&mut self) -> Vec<Path> {
         std::mem::take(&mut self.0)
     }
 
     /// A way waits, after those that wait at the same block.
-    pub(in crate::interpreter) fn push(&mut self, path: Path) {
+    pub(crate) fn push(&mut self, path: Path) {
         let frames = &path.control.frames;
         let is_later = |it: &Path| frames.comes_before(&it.control.frames) == Some(true);
         let place = self.0.partition_point(is_later);
@@ -58,7 +58,7 @@ impl WaitingPaths {
     }
 
     /// Compares the first way with the block that would be executed next.
-    pub(in crate::interpreter) fn first_from(&self, here: &CallStack) -> FirstWaiting {
+    pub(crate) fn first_from(&self, here: &CallStack) -> FirstWaiting {
         let first = self.0.last();
         match first.map(|path| path.control.frames.comes_before(here)) {
             Some(Some(true)) => FirstWaiting::Before,
@@ -68,7 +68,7 @@ impl WaitingPaths {
     }
 
     /// Takes the way whose block comes first in the text.
-    pub(in crate::interpreter) fn take_first(&mut self) -> Option<Path> {
+    pub(crate) fn take_first(&mut self) -> Option<Path> {
         self.0.pop()
     }
 }

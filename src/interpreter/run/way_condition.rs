@@ -9,7 +9,7 @@ use crate::comp::{Kind, State};
 use crate::diagnostic::{Diagnostic, Severity};
 
 /// Ways that are named for a state.
-pub(in crate::interpreter) const MAX_NAMED: usize = 4;
+pub(crate) const MAX_NAMED: usize = 4;
 
 /// A condition of a way.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
@@ -169,25 +169,17 @@ pub(crate) fn all_need_change(ways: &[Vec<WayCondition>]) -> bool {
     !ways.is_empty() && ways.iter().all(|way| needs_change(way))
 }
 
-pub(in crate::interpreter) fn needs_change(way: &[WayCondition]) -> bool {
+pub(crate) fn needs_change(way: &[WayCondition]) -> bool {
     way.iter().any(|condition| condition.changed().is_some())
 }
 
-pub(in crate::interpreter) fn after_if(
-    ways: &[Vec<WayCondition>],
-    more: usize,
-    file: &str,
-) -> String {
+pub(crate) fn after_if(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     let only = if all_need_change(ways) { "only " } else { "" };
     format!("{only}if {}", in_words(ways, more, ", or if ", file))
 }
 
 /// The words for all other ways.
-pub(in crate::interpreter) fn unless(
-    ways: &[Vec<WayCondition>],
-    more: usize,
-    file: &str,
-) -> String {
+pub(crate) fn unless(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     format!("unless {}", in_words(ways, more, ", or ", file))
 }
 
@@ -219,7 +211,7 @@ fn way_in_words(way: &[WayCondition], file: &str) -> String {
 
 impl WayChange {
     /// `V.E.A changes between lines 1 and 9`.
-    pub(in crate::interpreter) fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
+    pub(crate) fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
         let Self {
             name, line: since, ..
         } = self;
@@ -232,7 +224,7 @@ impl WayChange {
     }
 }
 
-pub(in crate::interpreter) fn seen_from((of, line): (&str, u32), file: &str) -> String {
+pub(crate) fn seen_from((of, line): (&str, u32), file: &str) -> String {
     if of == file {
         format!("line {line}")
     } else {
@@ -335,7 +327,7 @@ impl WayCondition {
 
 impl WayCondition {
     /// The condition that holds where this one of a block does not.
-    pub(in crate::interpreter) fn affirmed(&self) -> Option<Self> {
+    pub(crate) fn affirmed(&self) -> Option<Self> {
         let mut affirmed = self.clone();
         let (Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked)) = &mut affirmed else {
             return None;

@@ -10,13 +10,13 @@ const MAX_CONDITIONS: usize = 32;
 
 /// An answer to a condition, or several possible answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct WayAnswer {
+pub(crate) struct WayAnswer {
     /// The condition, by its number in the run.
-    pub(in crate::interpreter) condition: u32,
+    pub(crate) condition: u32,
     /// The answers that are possible, a bit each.
-    pub(in crate::interpreter) sides: u64,
+    pub(crate) sides: u64,
     /// Number of answers to the condition.
-    pub(in crate::interpreter) of: u8,
+    pub(crate) of: u8,
 }
 
 impl WayAnswer {
@@ -26,11 +26,11 @@ impl WayAnswer {
 }
 
 /// Answers that hold together, by the number of their condition.
-pub(in crate::interpreter) type Way = Vec<WayAnswer>;
+pub(crate) type Way = Vec<WayAnswer>;
 
 /// The ways on which something holds: on any of them, and on no other.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct WaySet(Vec<Way>);
+pub(crate) struct WaySet(Vec<Way>);
 
 impl Default for WaySet {
     fn default() -> Self {
@@ -40,17 +40,17 @@ impl Default for WaySet {
 
 impl WaySet {
     /// Every way.
-    pub(in crate::interpreter) fn always() -> Self {
+    pub(crate) fn always() -> Self {
         Self(vec![Vec::new()])
     }
 
     /// No way.
-    pub(in crate::interpreter) fn never() -> Self {
+    pub(crate) fn never() -> Self {
         Self(Vec::new())
     }
 
     /// The ways on which a condition has an answer.
-    pub(in crate::interpreter) fn of(answer: WayAnswer) -> Self {
+    pub(crate) fn of(answer: WayAnswer) -> Self {
         if answer.is_any() {
             Self::always()
         } else {
@@ -58,31 +58,31 @@ impl WaySet {
         }
     }
 
-    pub(in crate::interpreter) fn is_always(&self) -> bool {
+    pub(crate) fn is_always(&self) -> bool {
         self.0.iter().any(Vec::is_empty)
     }
 
-    pub(in crate::interpreter) fn is_never(&self) -> bool {
+    pub(crate) fn is_never(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub(in crate::interpreter) fn ways(&self) -> &[Way] {
+    pub(crate) fn ways(&self) -> &[Way] {
         &self.0
     }
 
     /// The conditions that the ways name.
-    pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.0.iter().flatten().map(|answer| answer.condition)
     }
 
     /// The number of pairs of its answers.
-    pub(in crate::interpreter) fn pairs(&self) -> u64 {
+    pub(crate) fn pairs(&self) -> u64 {
         let answers: usize = self.0.iter().map(|way| 1 + way.len()).sum();
         (answers as u64).saturating_mul(answers as u64)
     }
 
     /// The ways on which both hold; ways that contradict each other are dropped.
-    pub(in crate::interpreter) fn and(&self, other: &Self) -> Self {
+    pub(crate) fn and(&self, other: &Self) -> Self {
         if other.is_always() {
             return self.clone();
         }
@@ -100,7 +100,7 @@ impl WaySet {
     }
 
     /// Renumbers the conditions, in the same order.
-    pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
+    pub(crate) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
         let answer = |answer: &WayAnswer| WayAnswer {
             condition: number(answer.condition),
             ..*answer
@@ -110,14 +110,14 @@ impl WaySet {
     }
 
     /// Those of the ways that do not contradict others, as they are.
-    pub(in crate::interpreter) fn within(&self, others: &Self) -> Self {
+    pub(crate) fn within(&self, others: &Self) -> Self {
         let ways = self.0.iter();
         let agree = |way: &&Way| others.0.iter().any(|other| together(way, other).is_some());
         Self(ways.filter(agree).cloned().collect())
     }
 
     /// Returns the conditions of the ways beyond those that hold on all of others.
-    pub(in crate::interpreter) fn beyond(mut self, others: &Self) -> Self {
+    pub(crate) fn beyond(mut self, others: &Self) -> Self {
         let holds = |answer: &WayAnswer| {
             !others.is_never()
                 && others.0.iter().all(|other| {
@@ -134,7 +134,7 @@ impl WaySet {
     }
 
     /// The ways on which at least one of both holds.
-    pub(in crate::interpreter) fn or(&mut self, other: &Self) {
+    pub(crate) fn or(&mut self, other: &Self) {
         if !self.is_always() {
             self.0.extend_from_slice(&other.0);
             self.simplify();
@@ -142,7 +142,7 @@ impl WaySet {
     }
 
     /// Drops the answers to a condition: it is asked again.
-    pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
+    pub(crate) fn havoc(&mut self, condition: u32) {
         for way in &mut self.0 {
             way.retain(|answer| answer.condition != condition);
         }

@@ -22,28 +22,28 @@ use crate::interpreter::values::value::Value;
 use crate::text::Span;
 
 /// The target of a way that returns to the caller.
-pub(in crate::interpreter) const RETURN: EntryIndex = EntryIndex::MAX;
+pub(crate) const RETURN: EntryIndex = EntryIndex::MAX;
 
 /// Different targets beyond which everything counts as written.
 const MAX_WRITTEN: usize = 4096;
 
 /// All the ways that the control may have taken.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Ways {
+pub(crate) struct Ways {
     /// Sorted by depth and target, one for each.
-    pub(in crate::interpreter) open: VecDeque<OpenPath>,
+    pub(crate) open: VecDeque<OpenPath>,
     /// The ways that ended the program, as one.
-    pub(in crate::interpreter) end: Option<Box<OpenPath>>,
+    pub(crate) end: Option<Box<OpenPath>>,
     /// Ends of the program on these ways.
     #[serde(default)]
-    pub(in crate::interpreter) ends: Vec<WayEnd>,
+    pub(crate) ends: Vec<WayEnd>,
     /// The state at the end of the dry run, before the other ways made it unknown.
     #[serde(default)]
-    pub(in crate::interpreter) own: Option<Vec<AxisKinds>>,
+    pub(crate) own: Option<Vec<AxisKinds>>,
     /// Writes since the first of them left, and the block of the last write.
-    pub(in crate::interpreter) written: WrittenTargets,
+    pub(crate) written: WrittenTargets,
     /// The block that may have written anything.
-    pub(in crate::interpreter) everything: u64,
+    pub(crate) everything: u64,
 }
 
 /// Limit of the program ends kept that the dry run does not reach.
@@ -51,64 +51,62 @@ const MAX_ENDS: usize = 64;
 
 /// A program end that the dry run does not reach.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct WayEnd {
+pub(crate) struct WayEnd {
     /// The block, and the unit that holds it.
-    pub(in crate::interpreter) place: (usize, EntryIndex),
-    pub(in crate::interpreter) by: EndedBy,
+    pub(crate) place: (usize, EntryIndex),
+    pub(crate) by: EndedBy,
     /// Value that decides whether the program ends there.
-    pub(in crate::interpreter) cause: Unknown,
+    pub(crate) cause: Unknown,
     /// Selections that are possible there.
-    pub(in crate::interpreter) kinds: Vec<AxisKinds>,
+    pub(crate) kinds: Vec<AxisKinds>,
 }
 
 /// Targets with the executed block that wrote them last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct WrittenTargets(
-    #[serde(with = "rows")] pub(in crate::interpreter) BTreeMap<Location, u64>,
-);
+pub(crate) struct WrittenTargets(#[serde(with = "rows")] pub(crate) BTreeMap<Location, u64>);
 
 /// A way that left the one of the dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct OpenPath {
+pub(crate) struct OpenPath {
     /// Number of nested calls at its target.
-    pub(in crate::interpreter) depth: usize,
+    pub(crate) depth: usize,
     /// The block where it continues.
-    pub(in crate::interpreter) target: EntryIndex,
+    pub(crate) target: EntryIndex,
     /// The executed block at which it left.
-    pub(in crate::interpreter) since: u64,
+    pub(crate) since: u64,
     /// The executed block at which it left last, where it left several times.
-    pub(in crate::interpreter) latest: u64,
-    pub(in crate::interpreter) cause: Unknown,
-    pub(in crate::interpreter) state: PathState,
+    pub(crate) latest: u64,
+    pub(crate) cause: Unknown,
+    pub(crate) state: PathState,
     /// Blocks that it executes before it reaches the target.
-    pub(in crate::interpreter) tails: Vec<Remainder>,
+    pub(crate) tails: Vec<Remainder>,
 }
 
 /// The part of a state that is kept for a way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct PathState {
+pub(crate) struct PathState {
     /// Selected and unknown kinds, by axis.
-    pub(in crate::interpreter) kinds: Vec<AxisKinds>,
-    pub(in crate::interpreter) modal: Modal,
-    pub(in crate::interpreter) cycles: ModalCycles,
+    pub(crate) kinds: Vec<AxisKinds>,
+    pub(crate) modal: Modal,
+    pub(crate) cycles: ModalCycles,
     /// The couplings, by the number of their changes.
-    pub(in crate::interpreter) couplings: u64,
-    pub(in crate::interpreter) named: BTreeMap<String, Value>,
-    pub(in crate::interpreter) channel_axes: ChannelAxes,
+    pub(crate) couplings: u64,
+    pub(crate) named: BTreeMap<String, Value>,
+    pub(crate) channel_axes: ChannelAxes,
     /// The macros, by the number of their changes.
-    pub(in crate::interpreter) macros: u64,
+    pub(crate) macros: u64,
 }
 
 /// Selected and unknown kinds of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct AxisKinds {
-    pub(in crate::interpreter) selected: KindSet,
-    pub(in crate::interpreter) unknown: KindSet,
+pub(crate) struct AxisKinds {
+    pub(crate) selected: KindSet,
+    pub(crate) unknown: KindSet,
 }
 
 impl AxisKinds {
     /// The kinds in which two states may differ.
-    pub(in crate::interpreter) fn differing(self, other: Self) -> KindSet {
+    pub(crate) fn differing(self, other: Self) -> KindSet {
         let (mine, theirs) = (self.selected, other.selected);
         let differ = mine.without(theirs).union(theirs.without(mine));
         differ.union(self.unknown).union(other.unknown)
@@ -117,26 +115,26 @@ impl AxisKinds {
 
 /// A section from a block on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Remainder {
-    pub(in crate::interpreter) unit: usize,
-    pub(in crate::interpreter) section: usize,
-    pub(in crate::interpreter) from: EntryIndex,
+pub(crate) struct Remainder {
+    pub(crate) unit: usize,
+    pub(crate) section: usize,
+    pub(crate) from: EntryIndex,
 }
 
 /// A way that leaves at the block being executed.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct Branch {
-    pub(in crate::interpreter) to: JumpTarget,
-    pub(in crate::interpreter) cause: Unknown,
+pub(crate) struct Branch {
+    pub(crate) to: JumpTarget,
+    pub(crate) cause: Unknown,
     /// The block after what is passed over.
-    pub(in crate::interpreter) here: EntryIndex,
+    pub(crate) here: EntryIndex,
     /// Span for the message on it, until it is reported.
-    pub(in crate::interpreter) say: Option<Span>,
+    pub(crate) say: Option<Span>,
 }
 
 /// Target of a way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum JumpTarget {
+pub(crate) enum JumpTarget {
     Block(EntryIndex),
     Return,
     /// A return over programs.
@@ -146,7 +144,7 @@ pub(in crate::interpreter) enum JumpTarget {
 
 /// Exit of a way from a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Leaving {
+pub(crate) enum Leaving {
     /// To a block of the same program.
     To(EntryIndex),
     /// To the caller.
@@ -157,26 +155,26 @@ pub(in crate::interpreter) enum Leaving {
 
 /// A way out of a loop, and the value that decides whether it is taken.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct WayOut {
-    pub(in crate::interpreter) to: Leaving,
-    pub(in crate::interpreter) cause: Unknown,
+pub(crate) struct WayOut {
+    pub(crate) to: Leaving,
+    pub(crate) cause: Unknown,
 }
 
 impl Ways {
     /// Whether any way is open.
     #[inline]
-    pub(in crate::interpreter) fn is_open(&self) -> bool {
+    pub(crate) fn is_open(&self) -> bool {
         !self.open.is_empty() || self.end.is_some()
     }
 
     /// Whether a way continues somewhere.
     #[inline]
-    pub(in crate::interpreter) fn has_targets(&self) -> bool {
+    pub(crate) fn has_targets(&self) -> bool {
         !self.open.is_empty()
     }
 
     /// Adds those of another way that reaches the same block.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+    pub(crate) fn join(&mut self, other: &Self) {
         let Self {
             open,
             end,
@@ -206,7 +204,7 @@ impl Ways {
     }
 
     /// A value was written.
-    pub(in crate::interpreter) fn write(&mut self, location: &Location, seq: u64) {
+    pub(crate) fn write(&mut self, location: &Location, seq: u64) {
         if self.written.0.len() >= MAX_WRITTEN {
             return self.write_anything(seq);
         }
@@ -214,21 +212,17 @@ impl Ways {
     }
 
     /// Something was declared or deleted.
-    pub(in crate::interpreter) fn write_anything(&mut self, seq: u64) {
+    pub(crate) fn write_anything(&mut self, seq: u64) {
         self.everything = seq;
         self.written.0.clear();
     }
 
-    pub(in crate::interpreter) fn place(
-        &self,
-        depth: usize,
-        target: EntryIndex,
-    ) -> Result<usize, usize> {
+    pub(crate) fn place(&self, depth: usize, target: EntryIndex) -> Result<usize, usize> {
         let key = |way: &OpenPath| (way.depth, way.target);
         self.open.binary_search_by_key(&(depth, target), key)
     }
 
-    pub(in crate::interpreter) fn add(&mut self, way: OpenPath) {
+    pub(crate) fn add(&mut self, way: OpenPath) {
         match self.place(way.depth, way.target) {
             Ok(place) => self.open[place].take_in(way),
             Err(place) => self.open.insert(place, way),
@@ -236,7 +230,7 @@ impl Ways {
     }
 
     /// A way may end the program in a block; two ways to one end are one.
-    pub(in crate::interpreter) fn note_end(&mut self, end: WayEnd) {
+    pub(crate) fn note_end(&mut self, end: WayEnd) {
         if let Some(known) = self.ends.iter_mut().find(|it| it.place == end.place) {
             for (mine, theirs) in known.kinds.iter_mut().zip(&end.kinds) {
                 mine.unknown = mine.differing(*theirs);
@@ -246,7 +240,7 @@ impl Ways {
         }
     }
 
-    pub(in crate::interpreter) fn add_end(&mut self, way: OpenPath) {
+    pub(crate) fn add_end(&mut self, way: OpenPath) {
         match &mut self.end {
             Some(end) => end.take_in(way),
             None => self.end = Some(Box::new(way)),
@@ -255,12 +249,7 @@ impl Ways {
 
     /// The nearest way that left since a block was executed and continues beyond another block of the
     /// same program, or else returns from it or ends it.
-    pub(in crate::interpreter) fn out_of(
-        &self,
-        depth: usize,
-        from: EntryIndex,
-        since: u64,
-    ) -> Option<WayOut> {
+    pub(crate) fn out_of(&self, depth: usize, from: EntryIndex, since: u64) -> Option<WayOut> {
         let place = self
             .place(depth, from.saturating_add(1))
             .unwrap_or_else(|place| place);
@@ -281,11 +270,7 @@ impl Ways {
     }
 
     /// Takes the first way of a program that continues before a block or at it.
-    pub(in crate::interpreter) fn arrived(
-        &mut self,
-        depth: usize,
-        here: EntryIndex,
-    ) -> Option<OpenPath> {
+    pub(crate) fn arrived(&mut self, depth: usize, here: EntryIndex) -> Option<OpenPath> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         let first = self.open.get(place)?;
         let is_it = first.depth == depth && first.target <= here;
@@ -293,17 +278,17 @@ impl Ways {
     }
 
     /// Takes the ways of a program that is left.
-    pub(in crate::interpreter) fn left(&mut self, depth: usize) -> VecDeque<OpenPath> {
+    pub(crate) fn left(&mut self, depth: usize) -> VecDeque<OpenPath> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         self.open.split_off(place)
     }
 
-    pub(in crate::interpreter) fn all(&self) -> impl Iterator<Item = &OpenPath> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &OpenPath> {
         self.open.iter().chain(self.end.as_deref())
     }
 
     /// Whether the state kept for each way describes a number of axes.
-    pub(in crate::interpreter) fn fit(&self, axes: usize) -> bool {
+    pub(crate) fn fit(&self, axes: usize) -> bool {
         let states = self.all().map(|way| &way.state);
         states
             .into_iter()
@@ -311,7 +296,7 @@ impl Ways {
     }
 
     /// The sections that ways execute, each from a block on.
-    pub(in crate::interpreter) fn tails(&self) -> impl Iterator<Item = (ProgramId, EntryIndex)> {
+    pub(crate) fn tails(&self) -> impl Iterator<Item = (ProgramId, EntryIndex)> {
         self.all().flat_map(|way| &way.tails).map(|tail| {
             let Remainder {
                 unit,
@@ -323,12 +308,12 @@ impl Ways {
     }
 
     /// The modal cycles of each way.
-    pub(in crate::interpreter) fn cycles(&self) -> impl Iterator<Item = &ModalCycles> {
+    pub(crate) fn cycles(&self) -> impl Iterator<Item = &ModalCycles> {
         self.all().map(|way| &way.state.cycles)
     }
 
     /// Drops data that no way needs any more.
-    pub(in crate::interpreter) fn tidy(&mut self) {
+    pub(crate) fn tidy(&mut self) {
         if !self.is_open() {
             self.written.0.clear();
             self.everything = 0;
@@ -338,7 +323,7 @@ impl Ways {
 
 impl OpenPath {
     /// Two ways to one place are one.
-    pub(in crate::interpreter) fn take_in(&mut self, other: Self) {
+    pub(crate) fn take_in(&mut self, other: Self) {
         self.since = self.since.min(other.since);
         self.latest = self.latest.max(other.latest);
         self.state.macros = self.state.macros.min(other.state.macros);
@@ -359,7 +344,7 @@ impl OpenPath {
 }
 
 /// Makes unknown the words that may call another program on one way.
-pub(in crate::interpreter) fn join_names(
+pub(crate) fn join_names(
     names: &mut BTreeMap<String, Value>,
     other: &BTreeMap<String, Value>,
     cause: &Unknown,

@@ -16,7 +16,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// The ways that leave a region of the running program.
-    pub(in crate::interpreter) fn note_exits(
+    pub(crate) fn note_exits(
         &mut self,
         region: &Region,
         passed: RangeInclusive<EntryIndex>,
@@ -53,7 +53,7 @@ impl Interpreter {
     }
 
     /// A way that an error ends somewhere in what may be executed.
-    pub(in crate::interpreter) fn note_stop(&mut self, cause: &Unknown) {
+    pub(crate) fn note_stop(&mut self, cause: &Unknown) {
         if self.options.stop != StopPolicy::KeepGoing {
             self.departing.push(Branch {
                 to: JumpTarget::End,
@@ -65,7 +65,7 @@ impl Interpreter {
     }
 
     /// The ways that leave a called program and do not come back to its caller.
-    pub(in crate::interpreter) fn note_far_exits(&mut self, region: &Region, cause: &Unknown) {
+    pub(crate) fn note_far_exits(&mut self, region: &Region, cause: &Unknown) {
         self.state.note_ends(region, cause);
         self.note_refusal(region, cause);
         for exit in &region.exits {
@@ -85,7 +85,7 @@ impl Interpreter {
     }
 
     /// Notes a jump that may be taken. Returns whether anything differs if it is.
-    pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Unknown) -> bool {
+    pub(crate) fn note_jump(&mut self, exit: &Exit, cause: &Unknown) -> bool {
         let Some(frame) = self.state.control.frames.running() else {
             return false;
         };
@@ -106,7 +106,7 @@ impl Interpreter {
         differs
     }
 
-    pub(in crate::interpreter) fn aims(&self, exit: &Exit, program: ProgramId) -> Vec<JumpTarget> {
+    pub(crate) fn aims(&self, exit: &Exit, program: ProgramId) -> Vec<JumpTarget> {
         let ProgramId { unit, section } = program;
         let index = self.programs.index(unit);
         match exit {
@@ -149,7 +149,7 @@ impl State {
 
 impl ControlState {
     /// Returns the selected and unknown kinds of each axis.
-    pub(in crate::interpreter) fn all_kinds(&self) -> Vec<AxisKinds> {
+    pub(crate) fn all_kinds(&self) -> Vec<AxisKinds> {
         let compensation = &self.compensation;
         let axes = (0..compensation.len()).map(AxisIndex::new);
         let kinds = axes.map(|axis| AxisKinds {

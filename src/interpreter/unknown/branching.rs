@@ -26,7 +26,7 @@ use crate::text::Span;
 const MAX_OPEN: usize = 400;
 
 /// Most conditions that ways may name.
-pub(in crate::interpreter) const MAX_CONDITIONS: usize = 4096;
+pub(crate) const MAX_CONDITIONS: usize = 4096;
 
 /// Most conditions on values of the program whose answers are remembered; older ones are asked again.
 const MAX_ASKED: usize = 64;
@@ -35,16 +35,16 @@ const MAX_ASKED: usize = 64;
 const MAX_ROUNDS: u8 = 4;
 
 /// A question to the machine.
-pub(in crate::interpreter) struct MachineQuestion {
-    pub(in crate::interpreter) kind: ConditionKind,
-    pub(in crate::interpreter) span: Span,
+pub(crate) struct MachineQuestion {
+    pub(crate) kind: ConditionKind,
+    pub(crate) span: Span,
     /// Text of the condition for each answer but the last.
-    pub(in crate::interpreter) texts: Vec<Arc<str>>,
-    pub(in crate::interpreter) cause: Unknown,
+    pub(crate) texts: Vec<Arc<str>>,
+    pub(crate) cause: Unknown,
     /// Values that it reads, where that is plain.
-    pub(in crate::interpreter) reads: Option<Asking>,
+    pub(crate) reads: Option<Asking>,
     /// The answer that what the program set gives.
-    pub(in crate::interpreter) kept: Option<KeptAnswer>,
+    pub(crate) kept: Option<KeptAnswer>,
 }
 
 impl MachineQuestion {
@@ -57,13 +57,13 @@ impl MachineQuestion {
 }
 
 /// Block at which a way continues.
-pub(in crate::interpreter) struct Goal {
-    pub(in crate::interpreter) to: EntryIndex,
-    pub(in crate::interpreter) seeking: Option<Seeking>,
+pub(crate) struct Goal {
+    pub(crate) to: EntryIndex,
+    pub(crate) seeking: Option<Seeking>,
     /// Values that follow from the answer.
-    pub(in crate::interpreter) values: Vec<(Location, Value)>,
+    pub(crate) values: Vec<(Location, Value)>,
     /// Values that the answer rules out.
-    pub(in crate::interpreter) ruled_out: Vec<(Location, Value)>,
+    pub(crate) ruled_out: Vec<(Location, Value)>,
 }
 
 impl Goal {
@@ -83,7 +83,7 @@ impl Goal {
     }
 
     /// A block.
-    pub(in crate::interpreter) fn block(to: EntryIndex) -> Self {
+    pub(crate) fn block(to: EntryIndex) -> Self {
         Self {
             to,
             seeking: None,
@@ -94,10 +94,7 @@ impl Goal {
 }
 
 /// The answers to a condition, by their number.
-pub(in crate::interpreter) fn answers(
-    condition: u32,
-    count: usize,
-) -> impl Iterator<Item = WayAnswer> {
+pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayAnswer> {
     let of = u8::try_from(count).unwrap_or(u8::MAX);
     (0..count).map(move |place| WayAnswer {
         condition,
@@ -120,7 +117,7 @@ impl Interpreter {
     }
 
     /// Whether a number of ways that part at the block can be followed.
-    pub(in crate::interpreter) fn may_part(&self, answers: usize, at: &BlockContext<'_>) -> bool {
+    pub(crate) fn may_part(&self, answers: usize, at: &BlockContext<'_>) -> bool {
         let Some(program) = self.state.control.frames.program() else {
             return false;
         };
@@ -142,7 +139,7 @@ impl Interpreter {
     }
 
     /// The run parts at a question: one way for each answer. Whether it can.
-    pub(in crate::interpreter) fn part(
+    pub(crate) fn part(
         &mut self,
         question: MachineQuestion,
         mut goals: Vec<Goal>,
@@ -174,7 +171,7 @@ impl Interpreter {
 
     /// The ways on which an error ends the program at the block, and those on which it goes on; `None` where ways are
     /// not followed.
-    pub(in crate::interpreter) fn part_at_error(
+    pub(crate) fn part_at_error(
         &mut self,
         question: MachineQuestion,
         at: &BlockContext<'_>,
@@ -331,7 +328,7 @@ impl Interpreter {
     }
 
     /// The states of a kind on the ways that lead here: a test of it tells them apart (R14.1).
-    pub(in crate::interpreter) fn part_by_state(
+    pub(crate) fn part_by_state(
         &mut self,
         (axis, kind): (AxisIndex, Kind),
         goals: [Goal; 2],
@@ -394,7 +391,7 @@ impl State {
     }
 
     /// The number of a condition of which no way knows the answer yet.
-    pub(in crate::interpreter) fn ask_anew(&mut self, wanted: Condition) -> u32 {
+    pub(crate) fn ask_anew(&mut self, wanted: Condition) -> u32 {
         let condition = self.condition_at(wanted);
         self.track.reach.havoc(condition);
         self.control.possible.havoc(condition);

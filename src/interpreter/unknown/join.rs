@@ -26,11 +26,7 @@ impl Interpreter {
     /// Remembers the ways that leave at the executed block, and reports that they are not taken
     /// (FC902).
     #[cold]
-    pub(in crate::interpreter) fn depart(
-        &mut self,
-        finder: &mut dyn Finder,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn depart(&mut self, finder: &mut dyn Finder, at: &BlockContext<'_>) {
         let said = self.departing.iter().filter(|way| way.say.is_some());
         let said = said.max_by_key(|way| rank(way.to)).cloned();
         if let Some(way) = said
@@ -57,7 +53,7 @@ impl Interpreter {
     }
 
     /// Opens the ways that leave; returns the block after those that are passed over.
-    pub(in crate::interpreter) fn take_departing(&mut self) -> EntryIndex {
+    pub(crate) fn take_departing(&mut self) -> EntryIndex {
         let departing = std::mem::take(&mut self.departing);
         let depth = self.state.control.frames.depth();
         let mut here = 0;
@@ -102,7 +98,7 @@ impl Interpreter {
 
     /// Joins the ways that continue at the next block, or before it.
     #[cold]
-    pub(in crate::interpreter) fn arrive(&mut self, finder: &mut dyn Finder) {
+    pub(crate) fn arrive(&mut self, finder: &mut dyn Finder) {
         let here = self
             .state
             .control
@@ -142,7 +138,7 @@ impl Interpreter {
     }
 
     /// A program is left: its ways continue in the caller, after the blocks that they still execute.
-    pub(in crate::interpreter) fn leave_ways(&mut self, frame: &CallFrame) {
+    pub(crate) fn leave_ways(&mut self, frame: &CallFrame) {
         let depth = self.state.control.frames.depth();
         let caller = self.state.control.frames.running().map(|caller| {
             let waiting = caller.waiting.iter().map(|request| Remainder {
@@ -174,7 +170,7 @@ impl Interpreter {
     }
 
     /// The program ends: every way ends it too.
-    pub(in crate::interpreter) fn meet_at_end(&mut self, finder: &mut dyn Finder) {
+    pub(crate) fn meet_at_end(&mut self, finder: &mut dyn Finder) {
         if !self.state.track.ways.is_open() {
             return;
         }

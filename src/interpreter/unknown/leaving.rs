@@ -17,7 +17,7 @@ use crate::interpreter::values::work_budget::ITEM;
 impl Interpreter {
     /// Each configured kind of each axis is selected after the call, or is not.
     #[cold]
-    pub(in crate::interpreter) fn leave_open(&mut self, left: &LeftOpen) {
+    pub(crate) fn leave_open(&mut self, left: &LeftOpen) {
         if self.options.branches == Branches::Passed {
             return;
         }

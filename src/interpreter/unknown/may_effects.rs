@@ -524,11 +524,7 @@ impl MayEffects<'_> {
 
 impl Interpreter {
     /// Returns the possible effects of a region.
-    pub(in crate::interpreter) fn region(
-        &mut self,
-        unit: usize,
-        range: Range<EntryIndex>,
-    ) -> Arc<Region> {
+    pub(crate) fn region(&mut self, unit: usize, range: Range<EntryIndex>) -> Arc<Region> {
         let key = (unit, range.start, range.end);
         let version = self.state.control.memory.macro_version();
         let known = self.regions.get(&key);
@@ -561,11 +557,7 @@ impl Interpreter {
     }
 
     /// Returns the possible effects of one block, which may be of lines that are not kept.
-    pub(in crate::interpreter) fn region_of_block(
-        &self,
-        unit: usize,
-        at: &BlockContext<'_>,
-    ) -> Region {
+    pub(crate) fn region_of_block(&self, unit: usize, at: &BlockContext<'_>) -> Region {
         let mut may_effects =
             self.may_effects((unit, self.state.control.frames.entry().unwrap_or_default()));
         may_effects.block(at);
@@ -575,19 +567,14 @@ impl Interpreter {
     }
 
     /// Returns the possible effects of a call.
-    pub(in crate::interpreter) fn region_of_call(
-        &self,
-        unit: usize,
-        call: &Call,
-        at: &BlockContext<'_>,
-    ) -> Region {
+    pub(crate) fn region_of_call(&self, unit: usize, call: &Call, at: &BlockContext<'_>) -> Region {
         let mut may_effects = self.may_effects((unit, 0));
         may_effects.call(call, at);
         may_effects.region
     }
 
     /// Returns the possible effects of the blocks of a skip level in a file.
-    pub(in crate::interpreter) fn region_of_level(&self, unit: usize, level: u8) -> Region {
+    pub(crate) fn region_of_level(&self, unit: usize, level: u8) -> Region {
         let skips = &self.programs.index(unit).skips;
         let mut may_effects = self.may_effects((unit, 0));
         for (entry, _) in skips.iter().filter(|(_, of)| **of == level) {

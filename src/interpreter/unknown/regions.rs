@@ -28,7 +28,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Passes over a control block, from its statement to its end, and reports that (FC901).
-    pub(in crate::interpreter) fn skip_unknown(
+    pub(crate) fn skip_unknown(
         &mut self,
         passed: Range<EntryIndex>,
         cause: &Unknown,
@@ -46,7 +46,7 @@ impl Interpreter {
     }
 
     /// Notes blocks that are passed over.
-    pub(in crate::interpreter) fn note_passed(
+    pub(crate) fn note_passed(
         &mut self,
         unit: usize,
         blocks: Range<EntryIndex>,
@@ -63,7 +63,7 @@ impl Interpreter {
 
     /// Makes unknown what the blocks of a region could change. Calls are kept for later, when
     /// their programs can be looked for.
-    pub(in crate::interpreter) fn havoc_region(
+    pub(crate) fn havoc_region(
         &mut self,
         unit: usize,
         range: Range<EntryIndex>,
@@ -126,11 +126,7 @@ impl Interpreter {
     }
 
     /// Makes unknown what one block could change, which may be of lines that are not kept.
-    pub(in crate::interpreter) fn havoc_block(
-        &mut self,
-        at: &BlockContext<'_>,
-        cause: &Unknown,
-    ) -> Region {
+    pub(crate) fn havoc_block(&mut self, at: &BlockContext<'_>, cause: &Unknown) -> Region {
         let version = self.state.control.memory.macro_version();
         let region = self.suffer_block(at, cause);
         if self.state.control.memory.macro_version() != version {
@@ -140,12 +136,7 @@ impl Interpreter {
     }
 
     /// Makes unknown what a call of an unknown program could change (R2.52).
-    pub(in crate::interpreter) fn havoc_call(
-        &mut self,
-        call: &Call,
-        at: &BlockContext<'_>,
-        cause: &Unknown,
-    ) {
+    pub(crate) fn havoc_call(&mut self, call: &Call, at: &BlockContext<'_>, cause: &Unknown) {
         let unit = self.running_unit();
         let region = self.region_of_call(unit, call, at);
         self.suffer_region(&region, unit, cause);
@@ -249,7 +240,7 @@ impl Interpreter {
     }
 
     /// Makes unknown the possible effects of programs that a region calls (R2.51).
-    pub(in crate::interpreter) fn havoc_called(&mut self, finder: &mut dyn Finder) {
+    pub(crate) fn havoc_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
         let mut seen = HashSet::new();
         let version = self.state.control.memory.macro_version();

@@ -23,7 +23,7 @@ impl Interpreter {
     }
 
     /// FC413: the program ended before the block at which it was to be started.
-    pub(in crate::interpreter) fn missed_search(&self) -> Option<Diagnostic> {
+    pub(crate) fn missed_search(&self) -> Option<Diagnostic> {
         let wanted = self.options.search.filter(|_| self.is_searching())?;
         let start = || {
             let main = self.programs.units().first()?;
@@ -40,7 +40,7 @@ impl Interpreter {
         ))
     }
 
-    pub(in crate::interpreter) fn begin_search(&mut self) {
+    pub(crate) fn begin_search(&mut self) {
         if self.options.search.is_some() {
             let control = &self.state.control;
             self.state.track.searching = Some(Box::new(BeforeSearch {
@@ -53,7 +53,7 @@ impl Interpreter {
 
     /// Ends the search if the block is the searched one.
     #[cold]
-    pub(in crate::interpreter) fn search(&mut self, at: &BlockContext<'_>) {
+    pub(crate) fn search(&mut self, at: &BlockContext<'_>) {
         if !self.options.search.is_some_and(|wanted| wanted.is(at)) {
             return;
         }

@@ -22,12 +22,7 @@ impl Interpreter {
     /// An error ends some of the ways that lead to the block: they end the program here. With
     /// [`StopPolicy::KeepGoing`] nothing does, as if the failing command were not there (R9.20).
     #[cold]
-    pub(in crate::interpreter) fn stop_on(
-        &mut self,
-        ways: &WaySet,
-        after: AfterError,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn stop_on(&mut self, ways: &WaySet, after: AfterError, at: &BlockContext<'_>) {
         if self.options.stop == StopPolicy::KeepGoing {
             return;
         }
@@ -65,7 +60,7 @@ impl Interpreter {
     /// Where the run goes on after errors, one ends the program on all ways that lead to the block; what follows is
     /// then executed as if the failing command were not there (R9.20).
     #[cold]
-    pub(in crate::interpreter) fn fail(&mut self, after: AfterError, at: &BlockContext<'_>) {
+    pub(crate) fn fail(&mut self, after: AfterError, at: &BlockContext<'_>) {
         if self.options.stop == StopPolicy::CheckAll && self.state.track.failed.is_none() {
             let ways = self.state.track.reach.clone();
             self.stop_on(&ways, after, at);
@@ -76,7 +71,7 @@ impl Interpreter {
 
     /// The same where a message on the block is about an error of the control.
     #[cold]
-    pub(in crate::interpreter) fn fail_if_refused(&mut self, at: &BlockContext<'_>) {
+    pub(crate) fn fail_if_refused(&mut self, at: &BlockContext<'_>) {
         let mut said = self.scratch.diagnostics.iter();
         if said.any(|said| stops(said) && !said.code.is_budget()) {
             self.fail(AfterError::Reset, at);
@@ -84,7 +79,7 @@ impl Interpreter {
     }
 
     /// The way that leads here ends the program.
-    pub(in crate::interpreter) fn ended_path(&mut self, by: EndedBy) -> EndedPath {
+    pub(crate) fn ended_path(&mut self, by: EndedBy) -> EndedPath {
         let mut path = self.state.leave_path();
         path.track.assumed.undo(&mut path.control.memory);
         path.control.frames.clear();
@@ -105,7 +100,7 @@ impl Interpreter {
     }
 
     /// Only after a reset does the next program run (R1.28).
-    pub(in crate::interpreter) fn reset_after_stop(&mut self) {
+    pub(crate) fn reset_after_stop(&mut self) {
         let start_up = self.machine.compensation();
         let compensation = &self.state.control.compensation;
         let is_away = |axis: AxisIndex| {

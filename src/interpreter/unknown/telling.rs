@@ -27,12 +27,7 @@ const MAX_NAMED: usize = 8;
 impl Interpreter {
     /// Prepares the message about a part of the program (FC901); [`Self::tell_undecided`] completes it, as
     /// soon as the programs that the part may call are known.
-    pub(in crate::interpreter) fn open_undecided(
-        &mut self,
-        cause: &Unknown,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
+    pub(crate) fn open_undecided(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
         if self.scratch.unread.get() || self.scratch.undecided.is_some() {
             return;
         }
@@ -62,7 +57,7 @@ impl Interpreter {
     /// Completes the message about a part of the program, or withholds it where nothing differs or
     /// where it was reported before.
     #[cold]
-    pub(in crate::interpreter) fn tell_undecided(&mut self, undecided: Undecided) {
+    pub(crate) fn tell_undecided(&mut self, undecided: Undecided) {
         let Undecided {
             cause,
             said,
@@ -148,7 +143,7 @@ impl Interpreter {
     }
 
     /// Notes what a region changes that may differ afterwards.
-    pub(in crate::interpreter) fn note_differing(&mut self, region: &Region) {
+    pub(crate) fn note_differing(&mut self, region: &Region) {
         let Some(mut undecided) = self.scratch.undecided.take() else {
             return;
         };
@@ -207,7 +202,7 @@ impl Interpreter {
     }
 
     /// Notes a way that leaves a part that may or may not be executed.
-    pub(in crate::interpreter) fn note_leaving(&mut self, to: JumpTarget, here: EntryIndex) {
+    pub(crate) fn note_leaving(&mut self, to: JumpTarget, here: EntryIndex) {
         if self.scratch.undecided.is_none() || !self.differs(to, here) {
             return;
         }
@@ -222,7 +217,7 @@ impl Interpreter {
     }
 
     /// Whether anything differs between a way and the one of the dry run, which continues at a block.
-    pub(in crate::interpreter) fn differs(&mut self, to: JumpTarget, here: EntryIndex) -> bool {
+    pub(crate) fn differs(&mut self, to: JumpTarget, here: EntryIndex) -> bool {
         let JumpTarget::Block(target) = to else {
             return true;
         };
@@ -271,7 +266,7 @@ impl Interpreter {
 }
 
 /// Returns the name of a kind of several axes in a message.
-pub(in crate::interpreter) fn of_axes(kind: Kind, axes: &[&str]) -> String {
+pub(crate) fn of_axes(kind: Kind, axes: &[&str]) -> String {
     let shown: Vec<String> = axes
         .iter()
         .take(MAX_NAMED)

@@ -127,7 +127,7 @@ impl Unknown {
     }
 
     /// A variable after the PLC may have changed the value that the program set.
-    pub(in crate::interpreter) fn changed(name: &str, value: String, at: &SetAt) -> Self {
+    pub(crate) fn changed(name: &str, value: String, at: &SetAt) -> Self {
         Self::Changed(Arc::new(ChangedVariable {
             name: name.into(),
             value: value.into(),
@@ -137,7 +137,7 @@ impl Unknown {
     }
 
     /// Its words in a message, with the reason why it is not known, as seen from a file.
-    pub(in crate::interpreter) fn seen_from(&self, file: &str) -> String {
+    pub(crate) fn seen_from(&self, file: &str) -> String {
         match self {
             Self::SkipLevel(_) => format!("{self}, a switch of the machine"),
             Self::Probe => format!("{self}, which only the machine knows"),
@@ -167,7 +167,7 @@ impl Unknown {
     }
 
     /// The advice by which a user makes it known.
-    pub(in crate::interpreter) fn advice(&self) -> Advice {
+    pub(crate) fn advice(&self) -> Advice {
         match self {
             Self::SkipLevel(level) => Advice::SetSkip(*level),
             Self::Probe => "set the state afterwards, for example with `X[COMP ON FRICT]`".into(),
@@ -192,7 +192,7 @@ impl Unknown {
     }
 
     /// Whether a block shows it.
-    pub(in crate::interpreter) fn is_shown_in(&self, text: &str) -> bool {
+    pub(crate) fn is_shown_in(&self, text: &str) -> bool {
         match self {
             Self::Text(of) => text.contains(&*of.text),
             Self::Changed(changed) => text.contains(&*changed.name),
@@ -203,7 +203,7 @@ impl Unknown {
     }
 
     /// Its words where it decides something: `` `V.E.A` ``, a missing jump label.
-    pub(in crate::interpreter) fn quoted(&self) -> String {
+    pub(crate) fn quoted(&self) -> String {
         match self {
             Self::Text(_) | Self::RemedyClass | Self::Cycle(_) => format!("`{self}`"),
             _ => self.to_string(),

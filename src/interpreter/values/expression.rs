@@ -23,36 +23,36 @@ use crate::syntax::{
 use crate::text::Span;
 
 /// Number of macros that one block may expand, whatever their depth: each may use others several times.
-pub(in crate::interpreter) const MAX_EXPANSIONS: u32 = 4096;
+pub(crate) const MAX_EXPANSIONS: u32 = 4096;
 
 /// Sources of an expression: the memory of the run and the variables of the machine.
 #[derive(Clone, Copy)]
-pub(in crate::interpreter) struct ExpressionScope<'a> {
-    pub(in crate::interpreter) memory: &'a Memory,
+pub(crate) struct ExpressionScope<'a> {
+    pub(crate) memory: &'a Memory,
     /// Notes on the values read, while they matter (R2.84).
-    pub(in crate::interpreter) reads: Option<&'a RefCell<Reads>>,
+    pub(crate) reads: Option<&'a RefCell<Reads>>,
     /// Records of what earlier programs may have written, if requested (R2.34).
-    pub(in crate::interpreter) used: Option<&'a RefCell<VariableUse>>,
+    pub(crate) used: Option<&'a RefCell<VariableUse>>,
     /// Own parameters of the call.
-    pub(in crate::interpreter) own: &'a BTreeMap<u32, Value>,
+    pub(crate) own: &'a BTreeMap<u32, Value>,
     /// Source of the values that it does not hold.
-    pub(in crate::interpreter) given: ParameterSource,
+    pub(crate) given: ParameterSource,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
-    pub(in crate::interpreter) system: &'a dyn Fn(&VariableName) -> Option<Value>,
+    pub(crate) system: &'a dyn Fn(&VariableName) -> Option<Value>,
     /// Called for every value that only the machine knows.
-    pub(in crate::interpreter) unknown: &'a dyn Fn(&str, Span),
+    pub(crate) unknown: &'a dyn Fn(&str, Span),
     /// Set where a text had no known meaning, which the block's faults report.
-    pub(in crate::interpreter) unread: &'a Cell<bool>,
+    pub(crate) unread: &'a Cell<bool>,
     /// Set where a variable is read for which the control waits until the axes rest.
-    pub(in crate::interpreter) waits: &'a Cell<bool>,
+    pub(crate) waits: &'a Cell<bool>,
     /// The variables read whose value is known and which the PLC may write.
-    pub(in crate::interpreter) relied: &'a RefCell<Vec<VariableName>>,
-    pub(in crate::interpreter) held: HeldValues,
+    pub(crate) relied: &'a RefCell<Vec<VariableName>>,
+    pub(crate) held: HeldValues,
 }
 
 /// Source of the own parameters of a program, `@P1` ….
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum ParameterSource {
+pub(crate) enum ParameterSource {
     /// A call gave some, and no others.
     ByCall,
     /// The program is a cycle that runs without a call: its caller gives them.
@@ -61,18 +61,18 @@ pub(in crate::interpreter) enum ParameterSource {
 
 /// Progress in the expansion of macros.
 #[derive(Clone, Copy)]
-pub(in crate::interpreter) struct Macros<'a> {
-    pub(in crate::interpreter) depth: u32,
-    pub(in crate::interpreter) limit: u32,
+pub(crate) struct Macros<'a> {
+    pub(crate) depth: u32,
+    pub(crate) limit: u32,
     /// Number of expansions in the block.
-    pub(in crate::interpreter) expansions: &'a Cell<u32>,
+    pub(crate) expansions: &'a Cell<u32>,
     /// The level of work up to which macros may expand.
-    pub(in crate::interpreter) until: u64,
+    pub(crate) until: u64,
 }
 
 impl Macros<'_> {
     /// One macro more, whose code is so long; FC914 past the budget.
-    pub(in crate::interpreter) fn expand(
+    pub(crate) fn expand(
         self,
         code: &str,
         work: &WorkBudget,
@@ -104,20 +104,20 @@ impl Macros<'_> {
 }
 
 /// Evaluates expressions of one block.
-pub(in crate::interpreter) struct Evaluator<'a> {
-    pub(in crate::interpreter) block: &'a Block,
-    pub(in crate::interpreter) text: &'a str,
+pub(crate) struct Evaluator<'a> {
+    pub(crate) block: &'a Block,
+    pub(crate) text: &'a str,
     /// Span of the macro whose code is evaluated.
-    pub(in crate::interpreter) shown: Option<Span>,
-    pub(in crate::interpreter) macros: Macros<'a>,
-    pub(in crate::interpreter) scope: ExpressionScope<'a>,
+    pub(crate) shown: Option<Span>,
+    pub(crate) macros: Macros<'a>,
+    pub(crate) scope: ExpressionScope<'a>,
     /// Meter of the work.
-    pub(in crate::interpreter) work: &'a WorkBudget,
+    pub(crate) work: &'a WorkBudget,
 }
 
 impl Evaluator<'_> {
     /// The value of an operand.
-    pub(in crate::interpreter) fn value(&self, operand: Operand, stack: &mut Vec<Slot>) -> Slot {
+    pub(crate) fn value(&self, operand: Operand, stack: &mut Vec<Slot>) -> Slot {
         match operand {
             Operand::Number(number) => Ok(Value::Number(number)),
             Operand::Expression(expression) => {
@@ -445,7 +445,7 @@ impl Evaluator<'_> {
     }
 
     /// The place that an assignment writes.
-    pub(in crate::interpreter) fn place(
+    pub(crate) fn place(
         &self,
         place: Expression,
         stack: &mut Vec<Slot>,
@@ -489,7 +489,7 @@ impl Evaluator<'_> {
     }
 
     /// The dimensions in a declaration's subscripts; for an unknown one, the cause.
-    pub(in crate::interpreter) fn dimensions(
+    pub(crate) fn dimensions(
         &self,
         place: Expression,
         stack: &mut Vec<Slot>,
@@ -541,7 +541,7 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
 }
 
 /// A text without its quotes.
-pub(in crate::interpreter) fn unquoted(text: &str) -> &str {
+pub(crate) fn unquoted(text: &str) -> &str {
     let inner = text.strip_prefix('"').unwrap_or(text);
     inner.strip_suffix('"').unwrap_or(inner)
 }

@@ -14,7 +14,7 @@ use crate::syntax::{VariableFamily, VariableName};
 
 /// The variables of the machine of which the configuration says who writes them, with all elements and fields.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ExternalNames {
+pub(crate) struct ExternalNames {
     /// Variables that keep their values while a program runs (R14.1).
     stable: BTreeSet<VariableName>,
     /// Variables that only programs write (R2.99).
@@ -22,7 +22,7 @@ pub(in crate::interpreter) struct ExternalNames {
 }
 
 impl ExternalNames {
-    pub(in crate::interpreter) fn new(stable: &[String], own: &[String]) -> Self {
+    pub(crate) fn new(stable: &[String], own: &[String]) -> Self {
         let names = |given: &[String]| given.iter().map(|name| VariableName::read(name)).collect();
         Self {
             stable: names(stable),
@@ -31,34 +31,34 @@ impl ExternalNames {
     }
 
     /// Whether only programs write a variable.
-    pub(in crate::interpreter) fn is_own(&self, name: &VariableName) -> bool {
+    pub(crate) fn is_own(&self, name: &VariableName) -> bool {
         is_named(&self.own, name)
     }
 
     /// Whether only programs write a variable or an array.
-    pub(in crate::interpreter) fn is_own_array(&self, array: &str) -> bool {
+    pub(crate) fn is_own_array(&self, array: &str) -> bool {
         !self.own.is_empty() && self.is_own(&VariableName::whole(array.to_owned()))
     }
 
     /// Whether a variable keeps its value while a program runs, unless the program writes it.
-    pub(in crate::interpreter) fn is_stable(&self, name: &VariableName) -> bool {
+    pub(crate) fn is_stable(&self, name: &VariableName) -> bool {
         is_named(&self.stable, name) || self.is_own(name)
     }
 
     /// Whether the PLC may write a variable while a program runs.
-    pub(in crate::interpreter) fn may_change(&self, name: &VariableName) -> bool {
+    pub(crate) fn may_change(&self, name: &VariableName) -> bool {
         name.family() == VariableFamily::External && !self.is_stable(name)
     }
 
     /// The variables that only programs write.
-    pub(in crate::interpreter) fn own(&self) -> impl Iterator<Item = &VariableName> {
+    pub(crate) fn own(&self) -> impl Iterator<Item = &VariableName> {
         self.own.iter()
     }
 }
 
 /// Use of the values that the program set in `V.E.` variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(in crate::interpreter) enum HeldValues {
+pub(crate) enum HeldValues {
     /// They count.
     #[default]
     Taken,
@@ -68,8 +68,8 @@ pub(in crate::interpreter) enum HeldValues {
 
 /// Facts about `V.E.` variables beside their values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ExternalVariables {
-    pub(in crate::interpreter) names: Arc<ExternalNames>,
+pub(crate) struct ExternalVariables {
+    pub(crate) names: Arc<ExternalNames>,
     /// The values of the program that variables may still have.
     pub(super) held: PersistentMap<VariableName, HeldVariable>,
     /// The block that set every other one to 0.
@@ -79,13 +79,13 @@ pub(in crate::interpreter) struct ExternalVariables {
 impl ExternalVariables {
     /// Whether any variable is held.
     #[inline]
-    pub(in crate::interpreter) fn are_held(&self) -> bool {
+    pub(crate) fn are_held(&self) -> bool {
         !self.held.is_empty() || self.initialised.is_some()
     }
 
     /// Another value takes the place of those that the program set, which are returned.
     #[inline]
-    pub(in crate::interpreter) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
+    pub(crate) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
         if self.held.is_empty() {
             return None;
         }
@@ -125,7 +125,7 @@ const MAX_VALUES: usize = 8;
 
 /// The values that the program set in a variable, one on each way, since the PLC acted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct HeldVariable {
+pub(crate) struct HeldVariable {
     /// The first block that set it.
     first: SetAt,
     /// Each value, with the first block that set it; none where there are too many.
@@ -134,7 +134,7 @@ pub(in crate::interpreter) struct HeldVariable {
 
 impl HeldVariable {
     /// A variable that the program has set.
-    pub(in crate::interpreter) fn of(value: Value, at: SetAt) -> Self {
+    pub(crate) fn of(value: Value, at: SetAt) -> Self {
         Self {
             first: at.clone(),
             values: vec![(value, at)],
@@ -142,12 +142,12 @@ impl HeldVariable {
     }
 
     /// The first block that set it.
-    pub(in crate::interpreter) fn first(&self) -> &SetAt {
+    pub(crate) fn first(&self) -> &SetAt {
         &self.first
     }
 
     /// What remains of it where a condition tells its value.
-    pub(in crate::interpreter) fn with(&self, value: &Value) -> Option<Self> {
+    pub(crate) fn with(&self, value: &Value) -> Option<Self> {
         let mut values = self.values.iter();
         let at = match values.find(|(known, _)| known == value) {
             Some((_, at)) => at,
@@ -184,10 +184,10 @@ fn is_named(names: &BTreeSet<VariableName>, name: &VariableName) -> bool {
 
 /// The block that set a variable.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(in crate::interpreter) struct SetAt {
-    pub(in crate::interpreter) file: Arc<str>,
+pub(crate) struct SetAt {
+    pub(crate) file: Arc<str>,
     /// Its line, from 1.
-    pub(in crate::interpreter) line: u32,
+    pub(crate) line: u32,
 }
 
 #[cfg(test)]

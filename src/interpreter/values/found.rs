@@ -40,7 +40,7 @@ impl FoundVariables {
     }
 
     /// The locations that may exist, with their values; none is known where anything may have been written.
-    pub(in crate::interpreter) fn values(&self) -> impl Iterator<Item = (&Location, Value)> {
+    pub(crate) fn values(&self) -> impl Iterator<Item = (&Location, Value)> {
         self.values.iter().map(|(location, value)| {
             let value = if self.anything {
                 unknown(location)
@@ -51,7 +51,7 @@ impl FoundVariables {
         })
     }
 
-    pub(in crate::interpreter) fn has_anything(&self) -> bool {
+    pub(crate) fn has_anything(&self) -> bool {
         self.anything
     }
 
@@ -83,10 +83,7 @@ pub(crate) struct VariableUse {
 }
 
 impl VariableUse {
-    pub(in crate::interpreter) fn new(
-        parameters: Parameters,
-        externals: &Arc<ExternalNames>,
-    ) -> Self {
+    pub(crate) fn new(parameters: Parameters, externals: &Arc<ExternalNames>) -> Self {
         Self {
             parameters,
             externals: Arc::clone(externals),
@@ -106,14 +103,14 @@ impl VariableUse {
     }
 
     /// Notes a parameter or a whole variable that is asked for without an earlier write.
-    pub(in crate::interpreter) fn want(&mut self, location: Location) {
+    pub(crate) fn want(&mut self, location: Location) {
         if self.outlives(&location) {
             self.wanted.insert(location);
         }
     }
 
     /// A value is written, or may be.
-    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: &Value) {
+    pub(crate) fn write(&mut self, location: &Location, value: &Value) {
         match location {
             Location::Parameter(Owner::Program, _) => {
                 if self.parameters == Parameters::Kept {
@@ -129,7 +126,7 @@ impl VariableUse {
     }
 
     /// A variable, or an element of an array, of which no value is followed from program to program.
-    pub(in crate::interpreter) fn write_name(&mut self, name: &VariableName, value: &Value) {
+    pub(crate) fn write_name(&mut self, name: &VariableName, value: &Value) {
         let whole = Location::named(name.at(Subscripts::default()));
         if !self.outlives(&whole) {
             return;

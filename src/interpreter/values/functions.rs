@@ -6,23 +6,16 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{BinaryOperator, Function};
 use crate::text::Span;
 
-pub(in crate::interpreter) fn fault(
-    code: Code,
-    span: Span,
-    message: impl Into<String>,
-) -> Box<Fault> {
+pub(crate) fn fault(code: Code, span: Span, message: impl Into<String>) -> Box<Fault> {
     Box::new(Fault::new(code, span, message))
 }
 
-pub(in crate::interpreter) fn wrong_type(span: Span, message: &str) -> Box<Fault> {
+pub(crate) fn wrong_type(span: Span, message: &str) -> Box<Fault> {
     fault(Code::Fc312, span, message)
 }
 
 /// The number where a number is expected; `None` for what only the machine knows, FC312 for a string (R2.37).
-pub(in crate::interpreter) fn numeric(
-    value: &Value,
-    span: Span,
-) -> Result<Option<f64>, Box<Fault>> {
+pub(crate) fn numeric(value: &Value, span: Span) -> Result<Option<f64>, Box<Fault>> {
     match value {
         Value::Text(_) => Err(wrong_type(
             span,
@@ -33,12 +26,7 @@ pub(in crate::interpreter) fn numeric(
     }
 }
 
-pub(in crate::interpreter) fn binary(
-    operator: BinaryOperator,
-    left: Slot,
-    right: Slot,
-    span: Span,
-) -> Slot {
+pub(crate) fn binary(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot {
     match operator {
         BinaryOperator::And | BinaryOperator::Or => return logic(operator, left, right, span),
         _ => {}
@@ -106,7 +94,7 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
 }
 
 /// FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.
-pub(in crate::interpreter) fn finite(value: f64, span: Span) -> Slot {
+pub(crate) fn finite(value: f64, span: Span) -> Slot {
     if value.is_finite() {
         Ok(Value::Number(value))
     } else {
@@ -139,7 +127,7 @@ fn type_test(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
     })
 }
 
-pub(in crate::interpreter) fn call(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
+pub(crate) fn call(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
     if function == Function::Exist {
         return match slots.into_iter().next() {
             Some(Ok(unknown @ Value::Unknown(_))) => Ok(unknown),

@@ -8,7 +8,7 @@ use crate::syntax::{VariableFamily, VariableName};
 
 impl Memory {
     /// Forgets what a restart of the control clears: `V.S.` and `V.E.` variables (R2.34, P-EXTV-00013).
-    pub(in crate::interpreter) fn restart(&mut self) {
+    pub(crate) fn restart(&mut self) {
         let arrays = self.variables.names.keys().cloned();
         let names = arrays.map(VariableName::whole);
         let goes = |name: &VariableName| {
@@ -29,7 +29,7 @@ impl Memory {
     }
 
     /// Returns the values that a program start leaves (R9.32).
-    pub(in crate::interpreter) fn carried(&self, parameters: Parameters) -> Carried {
+    pub(crate) fn carried(&self, parameters: Parameters) -> Carried {
         let mut carried = Carried::default();
         for (name, code) in self.macros.iter() {
             match code {
@@ -55,7 +55,7 @@ impl Memory {
     }
 
     /// Takes over what an earlier session left.
-    pub(in crate::interpreter) fn take_over(&mut self, carried: Carried) {
+    pub(crate) fn take_over(&mut self, carried: Carried) {
         for (name, shape) in carried.arrays {
             self.declare_array(&VariableName::read(&name), shape.dimensions, shape.default);
         }

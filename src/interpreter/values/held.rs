@@ -10,17 +10,17 @@ use crate::syntax::{VariableFamily, VariableName};
 
 impl Memory {
     /// Takes over what the configuration says of the writers of `V.E.` variables.
-    pub(in crate::interpreter) fn describe_externals(&mut self, names: &Arc<ExternalNames>) {
+    pub(crate) fn describe_externals(&mut self, names: &Arc<ExternalNames>) {
         self.externals.names = Arc::clone(names);
     }
 
     /// Whether the PLC may write a variable, and no value from the user says what it writes.
-    pub(in crate::interpreter) fn may_change(&self, name: &VariableName) -> bool {
+    pub(crate) fn may_change(&self, name: &VariableName) -> bool {
         self.externals.names.may_change(name) && self.given.get(name).is_none()
     }
 
     /// The program has set a variable, which keeps its value until the PLC acts.
-    pub(in crate::interpreter) fn hold(&mut self, name: &VariableName, at: SetAt) {
+    pub(crate) fn hold(&mut self, name: &VariableName, at: SetAt) {
         if let Some(known) = self.known(name)
             && self.externals.names.may_change(name)
         {
@@ -30,7 +30,7 @@ impl Memory {
     }
 
     /// Returns the block that set a variable, while it has that value.
-    pub(in crate::interpreter) fn set_at(&self, name: &VariableName) -> Option<&SetAt> {
+    pub(crate) fn set_at(&self, name: &VariableName) -> Option<&SetAt> {
         let externals = &self.externals;
         let is_initial = || self.variables.value(name).is_none();
         let initialised = externals.initialised.as_ref();
@@ -40,7 +40,7 @@ impl Memory {
     }
 
     /// The PLC may write variables. Returns those of them that were held.
-    pub(in crate::interpreter) fn let_change(
+    pub(crate) fn let_change(
         &mut self,
         is_it: impl Fn(&VariableName) -> bool,
     ) -> Vec<VariableName> {
@@ -67,23 +67,19 @@ impl Memory {
 
     /// Whether any variable is held.
     #[inline]
-    pub(in crate::interpreter) fn holds_any(&self) -> bool {
+    pub(crate) fn holds_any(&self) -> bool {
         self.externals.are_held()
     }
 
     /// Values that the program set are held again.
-    pub(in crate::interpreter) fn hold_again(
-        &mut self,
-        name: &VariableName,
-        held: Option<HeldVariable>,
-    ) {
+    pub(crate) fn hold_again(&mut self, name: &VariableName, held: Option<HeldVariable>) {
         if let Some(held) = held {
             self.externals.held.insert(name.clone(), held);
         }
     }
 
     /// Variables that `#INIT V.E.` set are held one by one.
-    pub(in crate::interpreter) fn hold_initial(&mut self, names: &[VariableName]) {
+    pub(crate) fn hold_initial(&mut self, names: &[VariableName]) {
         for name in names {
             if let Some(at) = self.externals.initialised.clone()
                 && self.variables.value(name).is_none()
@@ -95,12 +91,12 @@ impl Memory {
     }
 
     /// The PLC may write every variable that `#INIT V.E.` set.
-    pub(in crate::interpreter) fn end_initialisation(&mut self) {
+    pub(crate) fn end_initialisation(&mut self) {
         self.externals.initialised = None;
     }
 
     /// Sets a variable, with its elements and fields, to 0.
-    pub(in crate::interpreter) fn zero(&mut self, whole: &VariableName, at: &SetAt) {
+    pub(crate) fn zero(&mut self, whole: &VariableName, at: &SetAt) {
         let names = self.variables.held().into_keys();
         let parts = names.filter(|name| name.is_in(whole) && name != whole);
         for name in parts.chain([whole.clone()]).collect::<Vec<_>>() {
@@ -110,7 +106,7 @@ impl Memory {
     }
 
     /// Sets every `V.E.` variable to 0 (PM/207988747).
-    pub(in crate::interpreter) fn initialise(&mut self, at: SetAt) {
+    pub(crate) fn initialise(&mut self, at: SetAt) {
         let arrays = self.variables.names.keys().cloned();
         let names = arrays.map(VariableName::whole);
         let names = names.filter(|it| it.family() == VariableFamily::External);

@@ -13,7 +13,7 @@ use crate::text::Span;
 
 /// A location of memory, or several of which one is meant.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Location {
+pub(crate) enum Location {
     Parameter(Owner, u32),
     /// A variable, or an element of an array.
     Variable(VariableName),
@@ -25,7 +25,7 @@ pub(in crate::interpreter) enum Location {
 
 impl Location {
     /// The parameter or variable of a name.
-    pub(in crate::interpreter) fn named(name: VariableName) -> Self {
+    pub(crate) fn named(name: VariableName) -> Self {
         match name.parameter_index() {
             Some(index) => Self::Parameter(Owner::Program, index),
             None => Self::Variable(name),
@@ -33,7 +33,7 @@ impl Location {
     }
 
     /// The name under which the user gives its value.
-    pub(in crate::interpreter) fn name(&self) -> VariableName {
+    pub(crate) fn name(&self) -> VariableName {
         match self {
             Self::Parameter(Owner::Program, index) => VariableName::parameter(*index),
             Self::Parameter(Owner::Call, index) => VariableName::own_parameter(*index),
@@ -56,15 +56,15 @@ impl fmt::Display for Location {
 
 /// The location that an expression denotes.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::interpreter) struct Denoted {
-    pub(in crate::interpreter) location: Location,
+pub(crate) struct Denoted {
+    pub(crate) location: Location,
     /// The value that decides which of several locations it is.
-    pub(in crate::interpreter) decided_by: Option<Unknown>,
+    pub(crate) decided_by: Option<Unknown>,
 }
 
 impl Denoted {
     /// One of several locations.
-    pub(in crate::interpreter) fn any_of(location: Location, decided_by: Unknown) -> Self {
+    pub(crate) fn any_of(location: Location, decided_by: Unknown) -> Self {
         Self {
             location,
             decided_by: Some(decided_by),
@@ -72,7 +72,7 @@ impl Denoted {
     }
 
     /// The name of the variable, where it is one that is known.
-    pub(in crate::interpreter) fn variable(&self) -> Option<&VariableName> {
+    pub(crate) fn variable(&self) -> Option<&VariableName> {
         match &self.location {
             Location::Variable(name) => Some(name),
             _ => None,
@@ -80,7 +80,7 @@ impl Denoted {
     }
 
     /// The location with the value that it has after an assignment.
-    pub(in crate::interpreter) fn assigned(self, value: Value) -> (Location, Value) {
+    pub(crate) fn assigned(self, value: Value) -> (Location, Value) {
         let value = self.decided_by.map_or(value, Value::Unknown);
         (self.location, value)
     }

@@ -18,7 +18,7 @@ use crate::syntax::{VariableFamily, VariableName};
 
 /// Everything a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Memory {
+pub(crate) struct Memory {
     pub(super) parameters: ParameterValues,
     /// Set when an unknown parameter was written: the value that decides which.
     pub(super) lost: Option<Unknown>,
@@ -48,7 +48,7 @@ impl Memory {
     /// Forgets what a program start clears: P parameters unless they are kept, and `V.P.`, `V.L.`, `V.CYC.` variables
     /// (R2.33, R2.34). `V.S.`, macros (PM/206014219: valid across programs) and what the machine
     /// holds stay.
-    pub(in crate::interpreter) fn start_program(&mut self, parameters: Parameters) {
+    pub(crate) fn start_program(&mut self, parameters: Parameters) {
         if parameters == Parameters::Cleared {
             self.parameters = ParameterValues::default();
             self.lost = None;
@@ -63,7 +63,7 @@ impl Memory {
     }
 
     /// Returns the amount held, in values and shares of texts (R2.60).
-    pub(in crate::interpreter) fn weight(&self) -> usize {
+    pub(crate) fn weight(&self) -> usize {
         let levels = self.locals.iter().chain([&self.variables]);
         let weights = levels.map(|names| names.weight.0);
         weights
@@ -71,7 +71,7 @@ impl Memory {
             .fold(0, usize::saturating_add)
     }
 
-    pub(in crate::interpreter) fn parameter(&self, index: u32) -> Option<Value> {
+    pub(crate) fn parameter(&self, index: u32) -> Option<Value> {
         match (self.parameters.get(index), &self.lost) {
             (Some(value), _) => Some(value.clone()),
             (None, Some(cause)) => Some(Value::Unknown(cause.clone())),
@@ -79,14 +79,14 @@ impl Memory {
         }
     }
 
-    pub(in crate::interpreter) fn set_parameter(&mut self, index: u32, value: Value) {
+    pub(crate) fn set_parameter(&mut self, index: u32, value: Value) {
         self.found
             .remove(&Location::Parameter(Owner::Program, index));
         self.parameters.set(index, value);
     }
 
     /// The value of a variable, the declared default of an array element that was never written.
-    pub(in crate::interpreter) fn variable(&self, name: &VariableName) -> Option<Value> {
+    pub(crate) fn variable(&self, name: &VariableName) -> Option<Value> {
         if name.family() == VariableFamily::Local {
             return self.locals.iter().rev().find_map(|level| level.value(name));
         }
@@ -115,7 +115,7 @@ impl Memory {
     }
 
     /// Sets what the program finds in variables that outlive programs. Values from the user take precedence.
-    pub(in crate::interpreter) fn find(&mut self, found: &FoundVariables) {
+    pub(crate) fn find(&mut self, found: &FoundVariables) {
         self.may_find = found.has_anything();
         for (location, value) in found.values() {
             if self.given.get(&location.name()).is_some() {
@@ -143,7 +143,7 @@ impl Memory {
     }
 
     /// Whether a parameter or a whole variable may exist and the program has not certainly written it.
-    pub(in crate::interpreter) fn is_found(&self, location: &Location) -> bool {
+    pub(crate) fn is_found(&self, location: &Location) -> bool {
         let is_new = |name: &VariableName| {
             self.may_find(name) && self.variables.names.get(name.array()).is_none()
         };
@@ -152,7 +152,7 @@ impl Memory {
     }
 
     /// Whether a parameter or a whole variable still has the value that the program found, or none.
-    pub(in crate::interpreter) fn is_unwritten(&self, location: &Location) -> bool {
+    pub(crate) fn is_unwritten(&self, location: &Location) -> bool {
         let holds = match location {
             Location::Parameter(_, index) => self.parameters.get(*index).is_some(),
             _ => false,
@@ -162,7 +162,7 @@ impl Memory {
     }
 
     /// A value from the user (R2.36). Values that programs write take precedence.
-    pub(in crate::interpreter) fn give(&mut self, name: VariableName, value: Value) {
+    pub(crate) fn give(&mut self, name: VariableName, value: Value) {
         if !self.is_written(&name) {
             self.set_variable(&name, value.clone());
         }
@@ -170,11 +170,11 @@ impl Memory {
     }
 
     /// The value that the user gave.
-    pub(in crate::interpreter) fn given(&self, name: &VariableName) -> Option<&Value> {
+    pub(crate) fn given(&self, name: &VariableName) -> Option<&Value> {
         self.given.get(name)
     }
 
-    pub(in crate::interpreter) fn set_variable(&mut self, name: &VariableName, value: Value) {
+    pub(crate) fn set_variable(&mut self, name: &VariableName, value: Value) {
         if name.family() != VariableFamily::Local {
             self.lose_found(name);
             self.externals.release(name);
@@ -214,7 +214,7 @@ impl Memory {
     }
 
     /// Declares a P parameter; one that an earlier program may have left may keep its value.
-    pub(in crate::interpreter) fn declare_parameter(&mut self, index: u32, value: Value) {
+    pub(crate) fn declare_parameter(&mut self, index: u32, value: Value) {
         let location = Location::Parameter(Owner::Program, index);
         let mut start = Some(value);
         if self.found.contains(&location) {
@@ -227,16 +227,13 @@ impl Memory {
     }
 
     /// Declares a scalar on the current level.
-    pub(in crate::interpreter) fn declare(&mut self, name: &VariableName, value: Value) {
+    pub(crate) fn declare(&mut self, name: &VariableName, value: Value) {
         self.lose_found(name);
         self.declared(name).set(name, value);
     }
 
     /// The variable of a declared name, if it outlives programs and exists, or may.
-    pub(in crate::interpreter) fn before_declaration(
-        &self,
-        name: &VariableName,
-    ) -> Option<NamedVariable> {
+    pub(crate) fn before_declaration(&self, name: &VariableName) -> Option<NamedVariable> {
         let held = self.variables.names.get(name.array());
         let held = held.filter(|_| name.family() == VariableFamily::Shared);
         held.cloned().or_else(|| {
@@ -251,11 +248,7 @@ impl Memory {
 
     /// A variable was declared that existed before. Whether the start value replaces its present value is not
     /// documented, so it is unknown where the two differ (R2.34); the user's value decides.
-    pub(in crate::interpreter) fn declare_anew(
-        &mut self,
-        name: &VariableName,
-        before: &NamedVariable,
-    ) {
+    pub(crate) fn declare_anew(&mut self, name: &VariableName, before: &NamedVariable) {
         let cause = Unknown::text(name.array());
         self.variables.join_name(name.array(), before, &cause);
         if let Some(given) = self.given.get(name)
@@ -266,7 +259,7 @@ impl Memory {
     }
 
     /// Declares an array on the current level; its elements have a default value.
-    pub(in crate::interpreter) fn declare_array(
+    pub(crate) fn declare_array(
         &mut self,
         name: &VariableName,
         dimensions: Vec<Option<u32>>,
@@ -281,13 +274,13 @@ impl Memory {
     }
 
     /// A declared array.
-    pub(in crate::interpreter) fn array(&self, name: &str) -> Option<&Array> {
+    pub(crate) fn array(&self, name: &str) -> Option<&Array> {
         let mut levels = self.locals.iter().rev();
         let local = levels.find_map(|level| level.array(name));
         local.or_else(|| self.variables.array(name))
     }
 
-    pub(in crate::interpreter) fn delete(&mut self, name: &VariableName) {
+    pub(crate) fn delete(&mut self, name: &VariableName) {
         if name.family() != VariableFamily::Local {
             self.lose_found(name);
             self.externals.release(name);
@@ -306,7 +299,7 @@ impl Memory {
     }
 
     /// Some element of an array was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &VariableName, cause: &Unknown) {
+    pub(crate) fn havoc_elements(&mut self, name: &VariableName, cause: &Unknown) {
         let array = name.array();
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         let holding = levels.filter(|names| names.names.get(array).is_some());
@@ -317,14 +310,14 @@ impl Memory {
     }
 
     /// Some P parameter was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn havoc_parameters(&mut self, cause: &Unknown) {
+    pub(crate) fn havoc_parameters(&mut self, cause: &Unknown) {
         self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
     }
 
     /// Everything that a program can write may have been written: nothing is known any more.
     /// Values that only the machine holds are kept.
-    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Unknown) {
+    pub(crate) fn havoc_all(&mut self, cause: &Unknown) {
         self.havoc_parameters(cause);
         self.unknown_names = Some(cause.clone());
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
@@ -342,17 +335,17 @@ impl Memory {
     }
 
     /// A missing program may have written what the run never wrote.
-    pub(in crate::interpreter) fn miss(&mut self, cause: &Unknown) {
+    pub(crate) fn miss(&mut self, cause: &Unknown) {
         self.lost.get_or_insert_with(|| cause.clone());
         self.unknown_names.get_or_insert_with(|| cause.clone());
     }
 
     /// Releases a variable that is held. Returns what the program had set.
-    pub(in crate::interpreter) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
+    pub(crate) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
         self.externals.release(name)
     }
 
-    pub(in crate::interpreter) fn delete_parameter(&mut self, index: u32) {
+    pub(crate) fn delete_parameter(&mut self, index: u32) {
         self.found
             .remove(&Location::Parameter(Owner::Program, index));
         self.parameters.remove(index);
@@ -360,7 +353,7 @@ impl Memory {
 
     /// The names whose numbers differ in another memory; `None` where anything else does, or more
     /// than a few.
-    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
+    pub(crate) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let same = self.lost == other.lost
             && self.externals == other.externals
             && self.unknown_names == other.unknown_names
@@ -389,7 +382,7 @@ impl Memory {
 
     /// Makes unknown what differs in another memory where two ways join (R14.1). Returns the number
     /// of differences.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Unknown) -> usize {
+    pub(crate) fn join(&mut self, other: &Self, cause: &Unknown) -> usize {
         let Self {
             parameters,
             lost,
@@ -443,7 +436,7 @@ impl Memory {
 
     /// The variables that are read not only by the program and that differ in another memory, beyond what the PLC
     /// may have changed.
-    pub(in crate::interpreter) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
+    pub(crate) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
         let names = self.variables.names.differing(&other.variables.names);
         let is_lost = |memory: &Self, name: &VariableName| {
             let value = memory.variables.value(name);
@@ -458,7 +451,7 @@ impl Memory {
     }
 
     /// Writes a value; one that may be in several locations is not known.
-    pub(in crate::interpreter) fn write(&mut self, location: &Location, value: Value) {
+    pub(crate) fn write(&mut self, location: &Location, value: Value) {
         match (location, value) {
             (Location::Parameter(_, index), value) => self.set_parameter(*index, value),
             (Location::Variable(name), value) => self.set_variable(name, value),
@@ -469,22 +462,22 @@ impl Memory {
     }
 
     /// Whether the macros of another memory are the same.
-    pub(in crate::interpreter) fn has_macros_of(&self, other: &Self) -> bool {
+    pub(crate) fn has_macros_of(&self, other: &Self) -> bool {
         self.macros == other.macros
     }
 
-    pub(in crate::interpreter) fn enter_call(&mut self, depth: usize) {
+    pub(crate) fn enter_call(&mut self, depth: usize) {
         while self.locals.len() < depth {
             self.locals.push(VariableNames::default());
         }
         self.locals.push(VariableNames::default());
     }
 
-    pub(in crate::interpreter) fn leave_call(&mut self, depth: usize) {
+    pub(crate) fn leave_call(&mut self, depth: usize) {
         self.locals.truncate(depth);
     }
 
-    pub(in crate::interpreter) fn define_macro(&mut self, name: &str, code: &str) {
+    pub(crate) fn define_macro(&mut self, name: &str, code: &str) {
         self.hold_macro(name.trim(), Value::Text(unescaped(code).into()));
     }
 
@@ -497,7 +490,7 @@ impl Memory {
     }
 
     /// A macro may have been defined, or redefined (R2.51).
-    pub(in crate::interpreter) fn havoc_macro(&mut self, name: &str, cause: &Unknown) {
+    pub(crate) fn havoc_macro(&mut self, name: &str, cause: &Unknown) {
         if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
@@ -505,11 +498,7 @@ impl Memory {
 
     /// Any of the macros may have been taken away, or redefined, except for those that `stays`
     /// names with their code.
-    pub(in crate::interpreter) fn havoc_macros(
-        &mut self,
-        cause: &Unknown,
-        stays: impl Fn(&str, &str) -> bool,
-    ) {
+    pub(crate) fn havoc_macros(&mut self, cause: &Unknown, stays: impl Fn(&str, &str) -> bool) {
         let goes = |(name, code): &(&String, &Value)| match code {
             Value::Text(code) => !stays(name, code),
             Value::Number(_) | Value::Unknown(_) => false,
@@ -525,7 +514,7 @@ impl Memory {
     }
 
     /// `#INIT MACRO TAB`
-    pub(in crate::interpreter) fn clear_macros(&mut self) {
+    pub(crate) fn clear_macros(&mut self) {
         self.macro_version = self.macro_version.wrapping_add(1);
         let weights = self
             .macros
@@ -536,23 +525,23 @@ impl Memory {
     }
 
     /// The code of a macro, which may be unknown.
-    pub(in crate::interpreter) fn macro_code(&self, name: &str) -> Option<&Value> {
+    pub(crate) fn macro_code(&self, name: &str) -> Option<&Value> {
         self.macros.get(name.trim())
     }
 
     /// Returns the meaning of a quoted name: the code of its macro, or the text itself.
-    pub(in crate::interpreter) fn macro_or_text(&self, name: &str) -> Value {
+    pub(crate) fn macro_or_text(&self, name: &str) -> Value {
         let code = self.macro_code(name).cloned();
         code.unwrap_or_else(|| Value::Text(name.into()))
     }
 
     /// Rises with every change of the macros.
-    pub(in crate::interpreter) fn macro_version(&self) -> u64 {
+    pub(crate) fn macro_version(&self) -> u64 {
         self.macro_version
     }
 
     /// The `V.S.` variables, which outlive programs.
-    pub(in crate::interpreter) fn shared(&self) -> BTreeMap<String, Value> {
+    pub(crate) fn shared(&self) -> BTreeMap<String, Value> {
         let held = self.variables.held().into_iter();
         let shared = held.filter(|(name, _)| {
             name.family() == VariableFamily::Shared || self.externals.names.is_own(name)
@@ -563,7 +552,7 @@ impl Memory {
     }
 
     /// The parameters, and the variables that the running program sees.
-    pub(in crate::interpreter) fn all(&self) -> Vec<(String, Value)> {
+    pub(crate) fn all(&self) -> Vec<(String, Value)> {
         let parameters = self.parameters.iter();
         let parameters = parameters.map(|(index, value)| (format!("P{index}"), value.clone()));
         let mut variables = self.variables.held();
@@ -577,7 +566,7 @@ impl Memory {
 }
 
 /// The code of a macro as it is used.
-pub(in crate::interpreter) fn unescaped(code: &str) -> String {
+pub(crate) fn unescaped(code: &str) -> String {
     code.replace("\\\"", "\"")
 }
 

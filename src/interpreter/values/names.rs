@@ -13,52 +13,52 @@ use crate::syntax::{Subscripts, VariableName};
 
 /// Number of bytes of a text or a name that count as one more value in the budget of values
 /// (R2.60).
-pub(in crate::interpreter) const WEIGHT: usize = 32;
+pub(crate) const WEIGHT: usize = 32;
 
 /// A sum of weights. A damaged snapshot may hold any, so nothing here overflows.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Weight(pub(in crate::interpreter) usize);
+pub(crate) struct Weight(pub(in crate::interpreter) usize);
 
 impl Weight {
-    pub(in crate::interpreter) fn add(&mut self, weight: usize) {
+    pub(crate) fn add(&mut self, weight: usize) {
         self.0 = self.0.saturating_add(weight);
     }
 
-    pub(in crate::interpreter) fn take(&mut self, weight: usize) {
+    pub(crate) fn take(&mut self, weight: usize) {
         self.0 = self.0.saturating_sub(weight);
     }
 }
 
 /// Variables by name, those of an array under the array's name.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct VariableNames {
-    pub(in crate::interpreter) names: PersistentMap<String, NamedVariable>,
-    pub(in crate::interpreter) weight: Weight,
+pub(crate) struct VariableNames {
+    pub(crate) names: PersistentMap<String, NamedVariable>,
+    pub(crate) weight: Weight,
 }
 
 /// The value or array that a name denotes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct NamedVariable {
-    pub(in crate::interpreter) scalar: Option<Value>,
-    pub(in crate::interpreter) array: Option<Array>,
+pub(crate) struct NamedVariable {
+    pub(crate) scalar: Option<Value>,
+    pub(crate) array: Option<Array>,
     /// The elements that were written.
-    pub(in crate::interpreter) elements: PersistentMap<Subscripts, Value>,
+    pub(crate) elements: PersistentMap<Subscripts, Value>,
     /// Set when some element was written, but it is not known which.
-    pub(in crate::interpreter) lost: Option<Unknown>,
+    pub(crate) lost: Option<Unknown>,
 }
 
 /// A declared array.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Array {
+pub(crate) struct Array {
     /// `None` is a dimension that is not known.
-    pub(in crate::interpreter) dimensions: Vec<Option<u32>>,
+    pub(crate) dimensions: Vec<Option<u32>>,
     /// The value of elements that were never written; unknown where a dimension is.
-    pub(in crate::interpreter) default: Value,
+    pub(crate) default: Value,
 }
 
 impl Array {
     /// Whether the subscripts are, or may be, those of an element.
-    pub(in crate::interpreter) fn has(&self, subscripts: &Subscripts) -> bool {
+    pub(crate) fn has(&self, subscripts: &Subscripts) -> bool {
         let is_inside = |(number, size): (&i64, &Option<u32>)| {
             u32::try_from(*number).is_ok_and(|at| size.is_none_or(|size| at < size))
         };
@@ -70,7 +70,7 @@ impl Array {
 }
 
 impl NamedVariable {
-    pub(in crate::interpreter) fn element(&self, subscripts: &Subscripts) -> Option<Value> {
+    pub(crate) fn element(&self, subscripts: &Subscripts) -> Option<Value> {
         if let Some(value) = self.elements.get(subscripts) {
             return Some(value.clone());
         }
@@ -85,7 +85,7 @@ impl NamedVariable {
     }
 
     /// Appends the values that the next program finds.
-    pub(in crate::interpreter) fn carry(&self, name: &str, carried: &mut Carried) {
+    pub(crate) fn carry(&self, name: &str, carried: &mut Carried) {
         if let Some(value) = &self.scalar {
             carried.variables.insert(name.to_owned(), value.clone());
         }
@@ -106,7 +106,7 @@ impl NamedVariable {
     }
 
     /// Makes its value and that of every element unknown.
-    pub(in crate::interpreter) fn havoc(&mut self, cause: &Unknown) {
+    pub(crate) fn havoc(&mut self, cause: &Unknown) {
         if let Some(scalar) = &mut self.scalar {
             *scalar = Value::Unknown(cause.clone());
         }
@@ -152,12 +152,12 @@ impl NamedVariable {
         values.map(|value| weight(name.len(), value)).sum()
     }
 
-    pub(in crate::interpreter) fn elements_weight(&self) -> usize {
+    pub(crate) fn elements_weight(&self) -> usize {
         let weight = |(key, value): (&Subscripts, &Value)| weight(key.len(), value);
         self.elements.iter().map(weight).sum()
     }
 
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.scalar.is_none()
             && self.array.is_none()
             && self.lost.is_none()
@@ -167,7 +167,7 @@ impl NamedVariable {
 
 impl VariableNames {
     /// All values by name, those of an array element by element.
-    pub(in crate::interpreter) fn held(&self) -> BTreeMap<VariableName, Value> {
+    pub(crate) fn held(&self) -> BTreeMap<VariableName, Value> {
         let mut held = BTreeMap::new();
         for (array, variable) in self.names.iter() {
             let whole = VariableName::whole(array.clone());
@@ -181,7 +181,7 @@ impl VariableNames {
         held
     }
 
-    pub(in crate::interpreter) fn value(&self, name: &VariableName) -> Option<Value> {
+    pub(crate) fn value(&self, name: &VariableName) -> Option<Value> {
         let variable = self.names.get(name.array())?;
         if name.is_element() {
             variable.element(name.subscripts())
@@ -190,7 +190,7 @@ impl VariableNames {
         }
     }
 
-    pub(in crate::interpreter) fn set(&mut self, name: &VariableName, value: Value) {
+    pub(crate) fn set(&mut self, name: &VariableName, value: Value) {
         let array = name.array().to_owned();
         let variable = self.names.slot(array, NamedVariable::default);
         let length = if name.is_element() {
@@ -208,7 +208,7 @@ impl VariableNames {
             .take(before.map_or(0, |before| weight(length, &before)));
     }
 
-    pub(in crate::interpreter) fn declare_array(&mut self, name: &str, array: Array) {
+    pub(crate) fn declare_array(&mut self, name: &str, array: Array) {
         self.weight.add(weight(name.len(), &array.default));
         let variable = self.names.slot(name.to_owned(), NamedVariable::default);
         let before = variable.array.replace(array);
@@ -218,24 +218,24 @@ impl VariableNames {
         self.drop_elements(name);
     }
 
-    pub(in crate::interpreter) fn drop_elements(&mut self, name: &str) {
+    pub(crate) fn drop_elements(&mut self, name: &str) {
         if let Some(variable) = self.names.get_mut(name) {
             self.weight.take(variable.elements_weight());
             variable.elements.clear();
         }
     }
 
-    pub(in crate::interpreter) fn array(&self, name: &str) -> Option<&Array> {
+    pub(crate) fn array(&self, name: &str) -> Option<&Array> {
         self.names.get(name)?.array.as_ref()
     }
 
-    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Unknown) {
+    pub(crate) fn havoc_elements(&mut self, name: &str, cause: &Unknown) {
         self.drop_elements(name);
         let variable = self.names.slot(name.to_owned(), NamedVariable::default);
         variable.lost = Some(cause.clone());
     }
 
-    pub(in crate::interpreter) fn delete(&mut self, name: &VariableName) {
+    pub(crate) fn delete(&mut self, name: &VariableName) {
         let array = name.array();
         if !name.is_element() {
             self.drop_elements(array);
@@ -260,11 +260,7 @@ impl VariableNames {
         }
     }
 
-    pub(in crate::interpreter) fn differing(
-        &self,
-        other: &Self,
-        differing: &mut Vec<Location>,
-    ) -> Option<()> {
+    pub(crate) fn differing(&self, other: &Self, differing: &mut Vec<Location>) -> Option<()> {
         if self.names.len() != other.names.len() {
             return None;
         }
@@ -295,7 +291,7 @@ impl VariableNames {
     }
 
     /// Makes unknown what differs in another memory; returns the number of names that do.
-    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Unknown) -> usize {
+    pub(crate) fn join(&mut self, other: &Self, cause: &Unknown) -> usize {
         let differing = self.names.differing(&other.names);
         let nothing = NamedVariable::default();
         for name in &differing {
@@ -306,19 +302,14 @@ impl VariableNames {
     }
 
     /// Makes unknown what differs from another variable of a name.
-    pub(in crate::interpreter) fn join_name(
-        &mut self,
-        name: &str,
-        theirs: &NamedVariable,
-        cause: &Unknown,
-    ) {
+    pub(crate) fn join_name(&mut self, name: &str, theirs: &NamedVariable, cause: &Unknown) {
         let mine = self.names.slot(name.to_owned(), NamedVariable::default);
         self.weight.take(mine.own_weight(name));
         mine.join(theirs, cause, &mut self.weight);
         self.weight.add(mine.own_weight(name));
     }
 
-    pub(in crate::interpreter) fn weigh(&self) -> usize {
+    pub(crate) fn weigh(&self) -> usize {
         let weight_of = |(name, variable): (&String, &NamedVariable)| {
             variable.own_weight(name) + variable.elements_weight()
         };
@@ -327,11 +318,7 @@ impl VariableNames {
 }
 
 /// The value on two ways: unknown where they differ.
-pub(in crate::interpreter) fn join_value(
-    mine: &mut Option<Value>,
-    theirs: Option<&Value>,
-    cause: &Unknown,
-) {
+pub(crate) fn join_value(mine: &mut Option<Value>, theirs: Option<&Value>, cause: &Unknown) {
     let joined = match (mine.as_ref(), theirs) {
         (Some(Value::Unknown(_)), _) => return,
         (mine, theirs) if mine == theirs => return,
@@ -345,7 +332,7 @@ pub(in crate::interpreter) fn join_value(
 const MAX_DIFFERING: usize = 16;
 
 /// Compares two values under one name; `None` where they differ in more than a number.
-pub(in crate::interpreter) fn compare(
+pub(crate) fn compare(
     mine: &Value,
     theirs: &Value,
     target: impl Fn() -> Location,
@@ -362,7 +349,7 @@ pub(in crate::interpreter) fn compare(
 }
 
 /// Returns the weight of a value under a name of so many bytes.
-pub(in crate::interpreter) fn weight(name: usize, value: &Value) -> usize {
+pub(crate) fn weight(name: usize, value: &Value) -> usize {
     let text = match value {
         Value::Text(text) => text.len(),
         // The name of an unknown value is shared.

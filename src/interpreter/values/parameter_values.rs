@@ -17,7 +17,7 @@ type Page = [Option<Value>; PAGE];
 
 /// The values of P parameters. Copies share the pages in which nothing was written since.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ParameterValues {
+pub(crate) struct ParameterValues {
     pages: Vec<Shared<Page>>,
     further: PersistentMap<u32, Value>,
     /// Weight of the texts among the further ones.
@@ -25,7 +25,7 @@ pub(in crate::interpreter) struct ParameterValues {
 }
 
 impl ParameterValues {
-    pub(in crate::interpreter) fn get(&self, index: u32) -> Option<&Value> {
+    pub(crate) fn get(&self, index: u32) -> Option<&Value> {
         if index >= DIRECT {
             return self.further.get(&index);
         }
@@ -33,7 +33,7 @@ impl ParameterValues {
         self.pages.get(page)?[place].as_ref()
     }
 
-    pub(in crate::interpreter) fn set(&mut self, index: u32, value: Value) {
+    pub(crate) fn set(&mut self, index: u32, value: Value) {
         if index >= DIRECT {
             self.texts.add(weight(0, &value) - 1);
             if let Some(before) = self.further.insert(index, value) {
@@ -48,7 +48,7 @@ impl ParameterValues {
         self.pages[page][place] = Some(value);
     }
 
-    pub(in crate::interpreter) fn remove(&mut self, index: u32) {
+    pub(crate) fn remove(&mut self, index: u32) {
         if let Some(before) = self.further.remove(&index) {
             self.texts.take(weight(0, &before) - 1);
         }
@@ -59,7 +59,7 @@ impl ParameterValues {
     }
 
     /// The parameters that have a value, in the order of their numbers.
-    pub(in crate::interpreter) fn iter(&self) -> impl Iterator<Item = (u32, &Value)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, &Value)> {
         let direct = (0..).zip(self.pages.iter().flat_map(|page| page.iter()));
         let direct = direct.filter_map(|(index, value)| Some((index, value.as_ref()?)));
         let further = self.further.iter().map(|(index, value)| (*index, value));
@@ -67,7 +67,7 @@ impl ParameterValues {
     }
 
     /// The numbers whose values differ in another set, or that only one of the two has.
-    pub(in crate::interpreter) fn differing(&self, other: &Self) -> Vec<u32> {
+    pub(crate) fn differing(&self, other: &Self) -> Vec<u32> {
         let none = Shared::default();
         let mut found = Vec::new();
         for number in 0..self.pages.len().max(other.pages.len()) {
@@ -84,7 +84,7 @@ impl ParameterValues {
         found
     }
 
-    pub(in crate::interpreter) fn weight(&self) -> usize {
+    pub(crate) fn weight(&self) -> usize {
         let count = self.pages.len() * PAGE + self.further.len();
         count.saturating_add(self.texts.0)
     }

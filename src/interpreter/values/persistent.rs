@@ -18,7 +18,7 @@ static RANKS: LazyLock<RandomState> = LazyLock::new(RandomState::new);
 
 /// An ordered map; a copy shares everything with its original until one of them changes.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct PersistentMap<K, V> {
+pub(crate) struct PersistentMap<K, V> {
     root: TreeLink<K, V>,
     len: usize,
 }
@@ -48,30 +48,30 @@ impl<K, V> Default for PersistentMap<K, V> {
 }
 
 impl<K, V> PersistentMap<K, V> {
-    pub(in crate::interpreter) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.len
     }
 
-    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    pub(in crate::interpreter) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         *self = Self::default();
     }
 
     /// All entries in the order of their keys.
-    pub(in crate::interpreter) fn iter(&self) -> MapEntries<'_, K, V> {
+    pub(crate) fn iter(&self) -> MapEntries<'_, K, V> {
         let mut entries = MapEntries { open: Vec::new() };
         entries.descend(self.root.as_deref());
         entries
     }
 
-    pub(in crate::interpreter) fn keys(&self) -> impl Iterator<Item = &K> {
+    pub(crate) fn keys(&self) -> impl Iterator<Item = &K> {
         self.iter().map(|(key, _)| key)
     }
 
-    pub(in crate::interpreter) fn get<Q>(&self, key: &Q) -> Option<&V>
+    pub(crate) fn get<Q>(&self, key: &Q) -> Option<&V>
     where
         K: Borrow<Q>,
         Q: Ord + ?Sized,
@@ -88,7 +88,7 @@ impl<K, V> PersistentMap<K, V> {
     }
 
     /// The entries from a key on.
-    pub(in crate::interpreter) fn from<Q>(&self, key: &Q) -> MapEntries<'_, K, V>
+    pub(crate) fn from<Q>(&self, key: &Q) -> MapEntries<'_, K, V>
     where
         K: Borrow<Q>,
         Q: Ord + ?Sized,
@@ -108,7 +108,7 @@ impl<K, V> PersistentMap<K, V> {
 }
 
 impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
-    pub(in crate::interpreter) fn get_mut<Q>(&mut self, key: &Q) -> Option<&mut V>
+    pub(crate) fn get_mut<Q>(&mut self, key: &Q) -> Option<&mut V>
     where
         K: Borrow<Q>,
         Q: Ord + ?Sized,
@@ -128,7 +128,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
     }
 
     /// Puts a value under a key and returns the one before.
-    pub(in crate::interpreter) fn insert(&mut self, key: K, value: V) -> Option<V> {
+    pub(crate) fn insert(&mut self, key: K, value: V) -> Option<V> {
         if let Some(place) = self.get_mut(&key) {
             return Some(std::mem::replace(place, value));
         }
@@ -137,7 +137,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
     }
 
     /// The value under a key, put there first where there is none.
-    pub(in crate::interpreter) fn slot(&mut self, key: K, first: impl FnOnce() -> V) -> &mut V {
+    pub(crate) fn slot(&mut self, key: K, first: impl FnOnce() -> V) -> &mut V {
         let rank = RANKS.hash_one(&key);
         let mut link = &mut self.root;
         while link
@@ -170,7 +170,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
         &mut Arc::make_mut(link.insert(node)).value
     }
 
-    pub(in crate::interpreter) fn remove<Q>(&mut self, key: &Q) -> Option<V>
+    pub(crate) fn remove<Q>(&mut self, key: &Q) -> Option<V>
     where
         K: Borrow<Q>,
         Q: Ord + ?Sized,
@@ -197,7 +197,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
 
 impl<K: Ord + Hash + Clone, V: Clone + PartialEq> PersistentMap<K, V> {
     /// The keys whose values differ in another map, or that only one of the two has.
-    pub(in crate::interpreter) fn differing(&self, other: &Self) -> Vec<K> {
+    pub(crate) fn differing(&self, other: &Self) -> Vec<K> {
         let mut keys = Vec::new();
         compare(&self.root, &other.root, &mut keys);
         keys
@@ -242,7 +242,7 @@ where
 
 /// The entries of a map in the order of their keys.
 #[derive(Debug)]
-pub(in crate::interpreter) struct MapEntries<'a, K, V> {
+pub(crate) struct MapEntries<'a, K, V> {
     /// The nodes whose left side is done.
     open: Vec<&'a TreeNode<K, V>>,
 }

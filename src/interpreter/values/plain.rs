@@ -14,7 +14,7 @@ use crate::text::Span;
 
 /// Whether a condition holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Truth {
+pub(crate) enum Truth {
     Holds,
     Fails,
 }
@@ -22,7 +22,7 @@ pub(in crate::interpreter) enum Truth {
 impl Truth {
     /// Returns the position of a switch from its number: 1 is on, 0 is off.
     #[allow(clippy::float_cmp)] // Any other number says nothing.
-    pub(in crate::interpreter) fn of_switch(number: f64) -> Option<Self> {
+    pub(crate) fn of_switch(number: f64) -> Option<Self> {
         match number {
             1.0 => Some(Self::Holds),
             0.0 => Some(Self::Fails),
@@ -30,7 +30,7 @@ impl Truth {
         }
     }
 
-    pub(in crate::interpreter) fn turned(self) -> Self {
+    pub(crate) fn turned(self) -> Self {
         match self {
             Self::Holds => Self::Fails,
             Self::Fails => Self::Holds,
@@ -39,7 +39,7 @@ impl Truth {
 }
 
 /// The values that follow from a condition that holds or does not: `V.E.A == 2`, `NOT`, `&&`.
-pub(in crate::interpreter) fn conclusions(
+pub(crate) fn conclusions(
     block: &Block,
     text: &str,
     condition: Expression,
@@ -87,11 +87,7 @@ pub(in crate::interpreter) fn conclusions(
 
 /// Whether an expression only compares one variable with one number, so that either answer tells whether
 /// they are equal.
-pub(in crate::interpreter) fn is_one_comparison(
-    block: &Block,
-    text: &str,
-    expression: Expression,
-) -> bool {
+pub(crate) fn is_one_comparison(block: &Block, text: &str, expression: Expression) -> bool {
     let Some((node, operands)) = root(block, expression) else {
         return false;
     };
@@ -138,11 +134,7 @@ fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Location, 
 }
 
 /// The parameter or variable of an expression that consists only of it.
-pub(in crate::interpreter) fn variable(
-    block: &Block,
-    text: &str,
-    part: Expression,
-) -> Option<Location> {
+pub(crate) fn variable(block: &Block, text: &str, part: Expression) -> Option<Location> {
     let (start, end) = (part.start as usize, part.end as usize);
     let [node] = block.nodes.get(start..end)? else {
         return None;
@@ -208,7 +200,7 @@ fn popped(node: Node) -> usize {
 
 /// Writer of a value other than the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Writer {
+pub(crate) enum Writer {
     /// Nothing: parameters, `V.P.`, `V.L.`, `V.S.`, and `stable` variables.
     Nothing,
     /// The machine at any time: `V.E.`, skip levels.
@@ -231,17 +223,17 @@ impl Writer {
 
 /// What a condition is about, in a form independent of its text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct ConditionMeaning {
-    pub(in crate::interpreter) subject: ConditionSubject,
+pub(crate) struct ConditionMeaning {
+    pub(crate) subject: ConditionSubject,
     /// The locations that its expression reads.
-    pub(in crate::interpreter) reads: Vec<Location>,
+    pub(crate) reads: Vec<Location>,
     /// The steps of the expression.
     nodes: Vec<Node>,
 }
 
 /// Subject of a condition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum ConditionSubject {
+pub(crate) enum ConditionSubject {
     /// Whether an expression holds.
     Truth,
     /// Which of some cases an expression is.
@@ -253,14 +245,14 @@ pub(in crate::interpreter) enum ConditionSubject {
 }
 
 /// A condition and the writer of the values that it is about.
-pub(in crate::interpreter) struct Asking {
-    pub(in crate::interpreter) writer: Writer,
-    pub(in crate::interpreter) meaning: Arc<ConditionMeaning>,
+pub(crate) struct Asking {
+    pub(crate) writer: Writer,
+    pub(crate) meaning: Arc<ConditionMeaning>,
 }
 
 impl Asking {
     /// A condition on something that only the machine knows.
-    pub(in crate::interpreter) fn of_unknown(writer: Writer, unknown: Unknown) -> Self {
+    pub(crate) fn of_unknown(writer: Writer, unknown: Unknown) -> Self {
         let meaning = Arc::new(ConditionMeaning {
             subject: ConditionSubject::Unknown(unknown),
             reads: Vec::new(),
@@ -270,14 +262,14 @@ impl Asking {
     }
 
     /// The same expression for another subject.
-    pub(in crate::interpreter) fn about(mut self, subject: ConditionSubject) -> Self {
+    pub(crate) fn about(mut self, subject: ConditionSubject) -> Self {
         Arc::make_mut(&mut self.meaning).subject = subject;
         self
     }
 }
 
 /// Returns the values that an expression reads, where these are parameters and whole variables.
-pub(in crate::interpreter) fn reads(
+pub(crate) fn reads(
     block: &Block,
     text: &str,
     expression: Expression,
@@ -312,7 +304,7 @@ pub(in crate::interpreter) fn reads(
 }
 
 /// Whether an expression reads, or may read, a value that the machine writes while the program waits.
-pub(in crate::interpreter) fn is_written_by_machine(
+pub(crate) fn is_written_by_machine(
     block: &Block,
     text: &str,
     expression: Expression,
@@ -333,7 +325,7 @@ pub(in crate::interpreter) fn is_written_by_machine(
 }
 
 /// A subscript that is a plain number.
-pub(in crate::interpreter) fn subscript(node: &Node) -> Subscript {
+pub(crate) fn subscript(node: &Node) -> Subscript {
     let number = match node {
         Node::Number(number) => rounded(*number),
         _ => None,
@@ -350,11 +342,7 @@ fn is_pure(function: Function) -> bool {
 }
 
 /// The text of an expression, with the brackets that belong to it, and its span.
-pub(in crate::interpreter) fn text_of(
-    block: &Block,
-    text: &str,
-    expression: Expression,
-) -> (String, Span) {
+pub(crate) fn text_of(block: &Block, text: &str, expression: Expression) -> (String, Span) {
     let range = expression.start as usize..expression.end as usize;
     let spans = block.spans.get(range).unwrap_or_default();
     let start = spans.iter().map(|span| span.start as usize).min();

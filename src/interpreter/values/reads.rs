@@ -11,13 +11,13 @@ const MAX_READS: usize = 256;
 
 /// Values read since a loop was examined.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Reads {
+pub(crate) struct Reads {
     targets: BTreeSet<Location>,
     too_many: bool,
 }
 
 impl Reads {
-    pub(in crate::interpreter) fn note(&mut self, target: Location) {
+    pub(crate) fn note(&mut self, target: Location) {
         if self.targets.len() < MAX_READS {
             self.targets.insert(target);
         } else {
@@ -25,7 +25,7 @@ impl Reads {
         }
     }
 
-    pub(in crate::interpreter) fn has(&self, target: &Location) -> bool {
+    pub(crate) fn has(&self, target: &Location) -> bool {
         self.too_many || self.targets.contains(target)
     }
 }

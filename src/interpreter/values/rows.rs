@@ -4,16 +4,14 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-pub(in crate::interpreter) fn serialize<S: Serializer>(
+pub(crate) fn serialize<S: Serializer>(
     map: &BTreeMap<impl Serialize, impl Serialize>,
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(map)
 }
 
-pub(in crate::interpreter) fn deserialize<'de, K, V, D>(
-    deserializer: D,
-) -> Result<BTreeMap<K, V>, D::Error>
+pub(crate) fn deserialize<'de, K, V, D>(deserializer: D) -> Result<BTreeMap<K, V>, D::Error>
 where
     K: Deserialize<'de> + Ord,
     V: Deserialize<'de>,

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 /// A value that copies share until one of them changes.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(in crate::interpreter) struct Shared<T>(Arc<T>);
+pub(crate) struct Shared<T>(Arc<T>);
 
 impl<T> Shared<T> {
     /// Whether two are copies of each other, neither of which has changed since.
-    pub(in crate::interpreter) fn is_copy_of(&self, other: &Self) -> bool {
+    pub(crate) fn is_copy_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 }

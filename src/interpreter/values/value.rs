@@ -21,7 +21,7 @@ pub enum Value {
 
 /// One operand on the stack. A failure waits until something needs its value, so that `EXIST` and
 /// the second operand of `&&` and `||` may fail without harm.
-pub(in crate::interpreter) type Slot = Result<Value, Box<Fault>>;
+pub(crate) type Slot = Result<Value, Box<Fault>>;
 
 impl Value {
     /// The number, where it is one.
@@ -33,7 +33,7 @@ impl Value {
     }
 
     /// The value as a program writes it.
-    pub(in crate::interpreter) fn as_written(&self) -> String {
+    pub(crate) fn as_written(&self) -> String {
         match self {
             Self::Number(number) => number.to_string(),
             Self::Text(text) => format!("\"{text}\""),
@@ -48,7 +48,7 @@ impl Value {
 }
 
 /// R2.31
-pub(in crate::interpreter) fn is_true(number: f64) -> bool {
+pub(crate) fn is_true(number: f64) -> bool {
     number.abs() >= 0.5
 }
 
@@ -74,7 +74,7 @@ impl From<&crate::machine::Setting> for Value {
 }
 
 /// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
-pub(in crate::interpreter) fn same_case(wanted: &Value, value: &Value) -> bool {
+pub(crate) fn same_case(wanted: &Value, value: &Value) -> bool {
     match (wanted, value) {
         (Value::Number(wanted), Value::Number(value)) => (wanted - value).abs() < 0.001,
         (wanted, value) => wanted == value,
@@ -83,7 +83,7 @@ pub(in crate::interpreter) fn same_case(wanted: &Value, value: &Value) -> bool {
 
 /// A number that is a whole number, 0 or more.
 #[inline]
-pub(in crate::interpreter) fn exact(number: f64) -> Option<u32> {
+pub(crate) fn exact(number: f64) -> Option<u32> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
     let whole = number as u32;
     #[allow(clippy::float_cmp)] // whole numbers are exact
@@ -92,7 +92,7 @@ pub(in crate::interpreter) fn exact(number: f64) -> Option<u32> {
 }
 
 /// A number as a whole number, rounded half away from zero; `None` if out of range.
-pub(in crate::interpreter) fn rounded(number: f64) -> Option<i64> {
+pub(crate) fn rounded(number: f64) -> Option<i64> {
     // 2^53: beyond it, numbers of the language are not exact whole numbers any more.
     const LIMIT: f64 = 9_007_199_254_740_992.0;
     if number.is_nan() || number.abs() > LIMIT {

@@ -10,7 +10,7 @@ use std::cell::Cell;
 use serde::{Deserialize, Serialize};
 
 /// The cost of looking at one block or one name, whatever its length.
-pub(in crate::interpreter) const ITEM: usize = 32;
+pub(crate) const ITEM: usize = 32;
 
 /// Units of work that an executed block allows.
 const PER_BLOCK: u64 = 500;
@@ -25,14 +25,14 @@ const PER_MESSAGE: u64 = 1500;
 const PER_WORK: u64 = 2;
 
 /// Units of a way that a unit of a region needs: regions are read, ways are only copied and compared.
-pub(in crate::interpreter) const PER_REGION_UNIT: u64 = 40;
+pub(crate) const PER_REGION_UNIT: u64 = 40;
 
 /// Units of ways that a block allows when it is executed for the first time.
 const PER_NEW_BLOCK: u64 = 15_000;
 
 /// The work of a session, in units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct WorkBudget {
+pub(crate) struct WorkBudget {
     spent: Cell<u64>,
     /// Work beyond the share that each executed block allows.
     level: Cell<u64>,
@@ -45,19 +45,19 @@ pub(in crate::interpreter) struct WorkBudget {
 
 impl WorkBudget {
     /// Counts work.
-    pub(in crate::interpreter) fn charge(&self, units: usize) {
+    pub(crate) fn charge(&self, units: usize) {
         let units = u64::try_from(units).unwrap_or(u64::MAX);
         self.spent.set(self.spent.get().saturating_add(units));
         self.level.set(self.level.get().saturating_add(units));
     }
 
     /// Counts work of following ways.
-    pub(in crate::interpreter) fn charge_ways(&self, units: u64) {
+    pub(crate) fn charge_ways(&self, units: u64) {
         self.ways.set(self.ways.get().saturating_add(units));
     }
 
     /// Counts work of reading regions that may or may not be executed.
-    pub(in crate::interpreter) fn charge_region(&self, units: usize) {
+    pub(crate) fn charge_region(&self, units: usize) {
         let units = u64::try_from(units).unwrap_or(u64::MAX);
         self.spent.set(self.spent.get().saturating_add(units));
         self.charge_ways(units.saturating_mul(PER_REGION_UNIT));
@@ -65,18 +65,18 @@ impl WorkBudget {
 
     /// The work of following ways and of reading regions.
     #[inline]
-    pub(in crate::interpreter) fn ways(&self) -> u64 {
+    pub(crate) fn ways(&self) -> u64 {
         self.ways.get()
     }
 
     /// A program begins.
-    pub(in crate::interpreter) fn begin_ways(&self) {
+    pub(crate) fn begin_ways(&self) {
         self.ways.set(0);
     }
 
     /// Grants the work on ways that a block allows when it is executed for the first time.
     #[inline]
-    pub(in crate::interpreter) fn grant_ways(&self) {
+    pub(crate) fn grant_ways(&self) {
         let ways = self.ways.get();
         if ways > 0 {
             self.ways.set(ways.saturating_sub(PER_NEW_BLOCK));
@@ -85,7 +85,7 @@ impl WorkBudget {
 
     /// Grants the work that an executed block allows.
     #[inline]
-    pub(in crate::interpreter) fn grant(&self, text: &str) {
+    pub(crate) fn grant(&self, text: &str) {
         let level = self.level.get();
         if level > 0 {
             let bytes = u64::try_from(text.len()).unwrap_or(u64::MAX);
@@ -96,7 +96,7 @@ impl WorkBudget {
 
     /// A block was executed again; `before` is all work before it.
     #[inline]
-    pub(in crate::interpreter) fn repeat(&mut self, weight: u64, said: u64, before: u64) {
+    pub(crate) fn repeat(&mut self, weight: u64, said: u64, before: u64) {
         let work = self.spent.get().saturating_sub(before);
         let units = weight + PER_MESSAGE.saturating_mul(said) + PER_WORK.saturating_mul(work);
         self.repeated = self.repeated.saturating_add(units);
@@ -104,18 +104,18 @@ impl WorkBudget {
 
     /// Returns the work of blocks that were executed again.
     #[inline]
-    pub(in crate::interpreter) fn repeated(&self) -> u64 {
+    pub(crate) fn repeated(&self) -> u64 {
         self.repeated
     }
 
     /// All work so far.
-    pub(in crate::interpreter) fn spent(&self) -> u64 {
+    pub(crate) fn spent(&self) -> u64 {
         self.spent.get()
     }
 
     /// Returns the level of work.
     #[inline]
-    pub(in crate::interpreter) fn level(&self) -> u64 {
+    pub(crate) fn level(&self) -> u64 {
         self.level.get()
     }
 }

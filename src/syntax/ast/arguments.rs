@@ -5,7 +5,7 @@ use crate::text::Span;
 
 /// The arguments in the brackets of a command, from left to right.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct BracketArguments(pub(in crate::syntax) Vec<Argument>);
+pub struct BracketArguments(pub(crate) Vec<Argument>);
 
 /// A word or value in a bracket, with the key before it where there is one: `ON`, `5`, `AX=X`.
 #[derive(Debug, Clone, Copy, PartialEq)]

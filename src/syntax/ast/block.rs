@@ -39,7 +39,7 @@ pub struct Block {
 impl Block {
     /// Appends a word to the block.
     #[inline]
-    pub(in crate::syntax) fn push_word(&mut self, word: Word) {
+    pub(crate) fn push_word(&mut self, word: Word) {
         if self.items.is_empty() {
             self.words.push(word);
         } else {

@@ -14,12 +14,12 @@ use crate::syntax::skip_levels::SkipLevels;
 use crate::text::Span;
 
 /// Parses the code of a block into an empty block.
-pub(in crate::syntax) fn block(code: &str, block: &mut Block) {
+pub(crate) fn block(code: &str, block: &mut Block) {
     block_as(Rule::block, code, block);
 }
 
 /// Parses the code of a block with a rule other than the one for all blocks.
-pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
+pub(crate) fn block_as(rule: Rule, code: &str, block: &mut Block) {
     let Brackets { read, unclosed } = match brackets(code) {
         Ok(brackets) => brackets,
         Err(fault) => return give_up(fault, block),
@@ -28,7 +28,7 @@ pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
 }
 
 /// Parses the code of a block whose brackets are known.
-pub(in crate::syntax) fn read_as(
+pub(crate) fn read_as(
     rule: Rule,
     code: &str,
     (read, unclosed): (&str, Option<usize>),

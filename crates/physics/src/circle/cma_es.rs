@@ -6,7 +6,7 @@
 //! generator; these here give the same numbers everywhere and always.
 
 /// Points of a generation.
-pub(in crate::circle) const POINTS: usize = 12;
+pub(crate) const POINTS: usize = 12;
 
 /// Points that count, the better half.
 const COUNTED: usize = POINTS / 2;
@@ -16,7 +16,7 @@ const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The search: [`ask`](Self::ask) for points, [`tell`](Self::tell) their values.
 #[derive(Debug, Clone)]
-pub(in crate::circle) struct CmaEs {
+pub(crate) struct CmaEs {
     mean: Vec<f64>,
     step: f64,
     /// The spread along each variable, squared, in steps.
@@ -75,7 +75,7 @@ impl Rates {
 
 impl CmaEs {
     /// Creates a search around a point with a first step; `seed` selects the random numbers.
-    pub(in crate::circle) fn new(mean: Vec<f64>, step: f64, seed: u64) -> Self {
+    pub(crate) fn new(mean: Vec<f64>, step: f64, seed: u64) -> Self {
         let variables = mean.len();
         Self {
             mean,
@@ -90,7 +90,7 @@ impl CmaEs {
     }
 
     /// The points whose values are requested.
-    pub(in crate::circle) fn ask(&mut self) -> Vec<Vec<f64>> {
+    pub(crate) fn ask(&mut self) -> Vec<Vec<f64>> {
         self.asked = (0..POINTS)
             .map(|_| {
                 let along = self.mean.iter().zip(&self.spread);
@@ -103,7 +103,7 @@ impl CmaEs {
     }
 
     /// Takes the values of the requested points, in their order.
-    pub(in crate::circle) fn tell(&mut self, values: &[f64]) {
+    pub(crate) fn tell(&mut self, values: &[f64]) {
         let variables = real(self.mean.len());
         let rates = Rates::of(variables);
         self.generation += 1;
@@ -151,16 +151,16 @@ impl CmaEs {
 
 /// Reproducible random numbers.
 #[derive(Debug, Clone)]
-pub(in crate::circle) struct XorShift(u64);
+pub(crate) struct XorShift(u64);
 
 impl XorShift {
     /// Creates the numbers of a seed.
-    pub(in crate::circle) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(SEED ^ seed.wrapping_mul(0xd1b5_4a32_d192_ed03))
     }
 
     /// A uniformly distributed number from 0 to 1.
-    pub(in crate::circle) fn even(&mut self) -> f64 {
+    pub(crate) fn even(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -169,7 +169,7 @@ impl XorShift {
     }
 
     /// A number below a count.
-    pub(in crate::circle) fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -180,7 +180,7 @@ impl XorShift {
     }
 
     /// A normally distributed number with a variance of 1: the sum of twelve.
-    pub(in crate::circle) fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }
 }

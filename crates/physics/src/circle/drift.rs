@@ -15,17 +15,17 @@ const LEAST_MM: f64 = 0.0005;
 
 /// A steady shift of both axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::circle) struct CircleDrift {
+pub(crate) struct CircleDrift {
     /// The shift in mm per turn.
-    pub(in crate::circle) per_turn_mm: [f64; 2],
+    pub(crate) per_turn_mm: [f64; 2],
     /// Its standard error.
-    pub(in crate::circle) error_mm: [f64; 2],
+    pub(crate) error_mm: [f64; 2],
 }
 
 impl CircleDrift {
     /// The shift shown by differences between two turns, each with the effects of a constant and of a shift
     /// of either axis; `None` if they do not show one.
-    pub(in crate::circle) fn shown(differences: &[([f64; 3], f64)]) -> Option<Self> {
+    pub(crate) fn shown(differences: &[([f64; 3], f64)]) -> Option<Self> {
         Self::fit(differences).filter(Self::is_carried)
     }
 
@@ -62,7 +62,7 @@ impl CircleDrift {
 
     /// Points of a circle without its shift, as in the middle of a turn; each has its angle along
     /// the run.
-    pub(in crate::circle) fn removed(&self, points: &[[f64; 2]], angles: &[f64]) -> Vec<[f64; 2]> {
+    pub(crate) fn removed(&self, points: &[[f64; 2]], angles: &[f64]) -> Vec<[f64; 2]> {
         let ends = [angles.first(), angles.last()].map(|it| it.copied().unwrap_or_default());
         let middle = f64::midpoint(ends[0], ends[1]);
         points

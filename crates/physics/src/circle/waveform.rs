@@ -26,10 +26,7 @@ pub struct Waveform {
 
 impl Waveform {
     /// The reversals at the four crossings of a recorded turn; `None` if it has no glitches or no times.
-    pub(in crate::circle) fn at_crossings(
-        profile: &RadialProfile,
-        direction: Direction,
-    ) -> Option<[Self; 4]> {
+    pub(crate) fn at_crossings(profile: &RadialProfile, direction: Direction) -> Option<[Self; 4]> {
         let angles_per_s = 360.0 / profile.turn_s()? * f64::from(PER_DEGREE);
         let paths = straightened(profile, direction)?;
         Some(paths.map(|path| {
@@ -40,7 +37,7 @@ impl Waveform {
 
     /// Samples points, ascending times since the reversal in s with deviations in m: each sample is the mean over
     /// 8 ms, or is on the straight line if points are farther apart.
-    pub(in crate::circle) fn sampled(points: &[(f64, f64)]) -> Self {
+    pub(crate) fn sampled(points: &[(f64, f64)]) -> Self {
         let [Some(begin), Some(end)] = [points.first(), points.last()] else {
             return Self::default();
         };
@@ -69,7 +66,7 @@ impl Waveform {
     }
 
     /// The mean of waveforms over the samples that all of them have.
-    pub(in crate::circle) fn mean(waveforms: &[&Self]) -> Self {
+    pub(crate) fn mean(waveforms: &[&Self]) -> Self {
         let first = waveforms.iter().map(|it| it.first).max().unwrap_or(0);
         let end = waveforms.iter().map(|it| it.end()).min().unwrap_or(0);
         let mean = |number: i32| {
@@ -84,7 +81,7 @@ impl Waveform {
 
     /// The number of independent samples in a mean over 8 ms, for samples a number of seconds apart and a turn of
     /// a number of seconds: a profile has one at each fixed angle at most.
-    pub(in crate::circle) fn samples_of_a_mean(step_s: f64, turn_s: f64) -> f64 {
+    pub(crate) fn samples_of_a_mean(step_s: f64, turn_s: f64) -> f64 {
         let angle_s = turn_s / 360.0 / f64::from(PER_DEGREE);
         (2.0 * HALF_MEAN_S / step_s.max(angle_s)).max(1.0)
     }
@@ -92,7 +89,7 @@ impl Waveform {
     /// The height in µm without the noise of its samples, and its standard error. Each sample becomes the mean over
     /// as many neighbours as show nothing but noise (Lepski), so that the noise of the flat part does not count as
     /// height. `None` without samples.
-    pub(in crate::circle) fn without_noise(&self, noise_um: f64) -> Option<(f64, f64)> {
+    pub(crate) fn without_noise(&self, noise_um: f64) -> Option<(f64, f64)> {
         let mut sums = vec![0.0];
         for it in &self.um {
             sums.push(sums[sums.len() - 1] + it);
@@ -117,7 +114,7 @@ impl Waveform {
     }
 
     /// Returns the waveform with a change added to the samples that the change has.
-    pub(in crate::circle) fn changed(&self, change: &Self) -> Self {
+    pub(crate) fn changed(&self, change: &Self) -> Self {
         let numbers = self.first..self.end();
         Self {
             first: self.first,
@@ -126,7 +123,7 @@ impl Waveform {
     }
 
     /// The difference from another one on the samples of this one.
-    pub(in crate::circle) fn less(&self, other: &Self) -> Self {
+    pub(crate) fn less(&self, other: &Self) -> Self {
         let numbers = self.first..self.end();
         Self {
             first: self.first,
@@ -135,7 +132,7 @@ impl Waveform {
     }
 
     /// The samples that another one also has.
-    pub(in crate::circle) fn within(&self, other: &Self) -> Self {
+    pub(crate) fn within(&self, other: &Self) -> Self {
         Self::mean(&[
             self,
             &Self {
@@ -152,7 +149,7 @@ impl Waveform {
     }
 
     /// Returns the waveform less the straight line through both ends.
-    pub(in crate::circle) fn levelled(mut self) -> Self {
+    pub(crate) fn levelled(mut self) -> Self {
         let ends = ENDS.min(self.um.len() / 2).max(1);
         if self.um.len() <= ends {
             return self;
@@ -169,13 +166,13 @@ impl Waveform {
     }
 
     /// The samples: the time since the reversal in s, and the deviation in µm.
-    pub(in crate::circle) fn samples(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+    pub(crate) fn samples(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let times = (self.first..).map(|it| f64::from(it) * STEP_S);
         times.zip(self.um.iter().copied())
     }
 
     /// The mean square in µm².
-    pub(in crate::circle) fn power(&self) -> f64 {
+    pub(crate) fn power(&self) -> f64 {
         let squares: f64 = self.um.iter().map(|it| it * it).sum();
         squares / real(self.um.len().max(1))
     }

@@ -17,15 +17,15 @@ use frictcomp_recordings::commission::{
 use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
 /// The inputs for fitting plants.
-pub(in crate::commission) struct Fitting<'a> {
-    pub(in crate::commission) args: &'a CommissionRunArgs,
+pub(crate) struct Fitting<'a> {
+    pub(crate) args: &'a CommissionRunArgs,
     /// The previously known plant.
-    pub(in crate::commission) base: &'a Plant,
-    pub(in crate::commission) plans: &'a [PlanFile],
-    pub(in crate::commission) results: &'a [RecordingResult],
+    pub(crate) base: &'a Plant,
+    pub(crate) plans: &'a [PlanFile],
+    pub(crate) results: &'a [RecordingResult],
     /// Plants of an earlier run.
-    pub(in crate::commission) known: &'a [PlantFound],
-    pub(in crate::commission) registry: &'a FileRegistry,
+    pub(crate) known: &'a [PlantFound],
+    pub(crate) registry: &'a FileRegistry,
 }
 
 /// Why no plant was found.

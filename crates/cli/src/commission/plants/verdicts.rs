@@ -15,7 +15,7 @@ use frictcomp_report::value_lists::tuned_on;
 impl Fitting<'_> {
     /// Returns a plant for each round whose circles are recorded, fitted to those of all rounds up to it, and lists
     /// that are tuned on the last one.
-    pub(in crate::commission) fn plants(&self, outputs: &mut Outputs) -> Result<Plants, Failure> {
+    pub(crate) fn plants(&self, outputs: &mut Outputs) -> Result<Plants, Failure> {
         let [off, on] = [Stage::Off, Stage::On].map(|stage| self.driven(stage));
         let mut plants = Plants::default();
         let axes = match self.axes() {

@@ -38,7 +38,7 @@ pub struct RecordedCircle {
     pub widest_step_s: Option<f64>,
     /// The rest of the recording.
     pub left_out: LeftOut,
-    pub(in crate::circle) profile: RadialProfile,
+    pub(crate) profile: RadialProfile,
     /// The points of each whole turn about its own centre, in m.
     pub(super) turns_m: Vec<Vec<[f64; 2]>>,
 }

@@ -132,7 +132,7 @@ impl RecordedCircle {
     }
 
     /// The waveforms at the four crossings in each whole turn, or in the evaluated turn if it is the only one.
-    pub(in crate::circle) fn reversals(&self) -> Option<Vec<[Waveform; 4]>> {
+    pub(crate) fn reversals(&self) -> Option<Vec<[Waveform; 4]>> {
         let profiles = self.turns_m.iter().filter_map(|it| self.profile_of(it));
         let all: Vec<[Waveform; 4]> = profiles
             .filter_map(|it| Waveform::at_crossings(&it, self.direction))
@@ -144,7 +144,7 @@ impl RecordedCircle {
     }
 
     /// The reversals of an axis in each whole turn, at its largest and at its smallest position.
-    pub(in crate::circle) fn reversals_of(&self, axis: PlaneAxis) -> Option<Vec<[Waveform; 2]>> {
+    pub(crate) fn reversals_of(&self, axis: PlaneAxis) -> Option<Vec<[Waveform; 2]>> {
         let turns = self.reversals()?.into_iter();
         let of_axis = turns.map(|[x_plus, y_plus, x_minus, y_minus]| match axis {
             PlaneAxis::X => [x_plus, x_minus],
@@ -154,7 +154,7 @@ impl RecordedCircle {
     }
 
     /// Returns the standard deviation in µm of the noise of a mean over 8 ms.
-    pub(in crate::circle) fn mean_noise_um(&self) -> f64 {
+    pub(crate) fn mean_noise_um(&self) -> f64 {
         let noise_um = self.profile.quality().map_or(0.0, |it| it.noise_um);
         let turn_s = self.turn_s.unwrap_or(f64::INFINITY);
         #[allow(clippy::cast_precision_loss)] // points of a turn

@@ -37,7 +37,7 @@ impl Candidate {
     }
 
     /// A list with these parameters, its points in their written form.
-    pub(in crate::circle) fn with_table(self, list: &FrictionList, points: Points) -> FrictionList {
+    pub(crate) fn with_table(self, list: &FrictionList, points: Points) -> FrictionList {
         FrictionList {
             position_delay: self.position_delay,
             reversal_lookahead: self.reversal_lookahead,

@@ -2,7 +2,7 @@
 
 /// The glitch in µm on each circle.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::circle) struct Heights(pub(in crate::circle) Vec<f64>);
+pub(crate) struct Heights(pub(in crate::circle) Vec<f64>);
 
 /// The exponent of the norm that approximates the largest glitch if a search needs a smooth value.
 const SMOOTH: i32 = 16;
@@ -14,19 +14,19 @@ impl Heights {
     }
 
     /// The largest.
-    pub(in crate::circle) fn worst_um(&self) -> f64 {
+    pub(crate) fn worst_um(&self) -> f64 {
         self.0.iter().copied().fold(0.0, f64::max)
     }
 
     /// The mean.
-    pub(in crate::circle) fn mean_um(&self) -> f64 {
+    pub(crate) fn mean_um(&self) -> f64 {
         #[allow(clippy::cast_precision_loss)] // a few circles
         let count = self.0.len().max(1) as f64;
         self.0.iter().sum::<f64>() / count
     }
 
     /// A value between both that is close to the largest and decreases with each of them.
-    pub(in crate::circle) fn smooth_um(&self) -> f64 {
+    pub(crate) fn smooth_um(&self) -> f64 {
         let worst = self.worst_um();
         if !worst.is_finite() || worst <= 0.0 {
             return worst;

@@ -21,7 +21,7 @@ mod tuned;
 
 pub use candidate::Candidate;
 pub use check::RemainingGlitch;
-pub(in crate::circle) use heights::Heights;
+pub(crate) use heights::Heights;
 pub use ranges::{FreeParameter, Ranges};
 pub use task::{Shaping, Task, TuningAim};
 pub use tuned::{FeedResult, Robust, Simulations, Tuned, TunedAxis, tune, tune_with};

@@ -37,13 +37,13 @@ const ENDS: usize = 20;
 
 /// One axis, and the computation of its friction.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::circle) struct AxisAlone<'a> {
-    pub(in crate::circle) axis: PlaneAxis,
-    pub(in crate::circle) drive: &'a DriveParameters,
-    pub(in crate::circle) model: FrictionModel,
-    pub(in crate::circle) reading: Reading,
+pub(crate) struct AxisAlone<'a> {
+    pub(crate) axis: PlaneAxis,
+    pub(crate) drive: &'a DriveParameters,
+    pub(crate) model: FrictionModel,
+    pub(crate) reading: Reading,
     /// Delay of the reversal within its CNC cycle relative to a whole run, in cycles.
-    pub(in crate::circle) phase: f64,
+    pub(crate) phase: f64,
 }
 
 /// The commanded angle of one reversal of an axis in the turn that a whole run evaluates, which
@@ -97,7 +97,7 @@ impl AxisAlone<'_> {
     ///
     /// # Errors
     /// A drive that is unstable.
-    pub(in crate::circle) fn deviations(
+    pub(crate) fn deviations(
         &self,
         circle: Circle,
         compensation: Option<&Method>,

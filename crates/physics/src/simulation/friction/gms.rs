@@ -10,7 +10,7 @@ use super::curve::{Friction, GmsElement, LEAST_N};
 
 /// A contact with its elements.
 #[derive(Debug, Clone)]
-pub(in crate::simulation) struct Gms {
+pub(crate) struct Gms {
     friction: Friction,
     elements: Vec<Element>,
     /// Σ kᵢ in N/m.

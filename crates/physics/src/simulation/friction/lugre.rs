@@ -9,7 +9,7 @@ use super::curve::{Friction, LEAST_N, fading};
 
 /// A contact with its bristle.
 #[derive(Debug, Clone)]
-pub(in crate::simulation) struct Lugre {
+pub(crate) struct Lugre {
     friction: Friction,
     /// Reciprocal of the stiffness: a step multiplies where it would wait for a division.
     per_stiffness: f64,

@@ -54,7 +54,7 @@ impl FromStr for FrictionModel {
 
 /// A contact with its state.
 #[derive(Debug, Clone)]
-pub(in crate::simulation) enum Contact {
+pub(crate) enum Contact {
     Stribeck(Stribeck),
     Lugre(Lugre),
     Gms(Gms),
@@ -62,22 +62,18 @@ pub(in crate::simulation) enum Contact {
 
 /// A mass at the beginning of a step, and the force that drives it.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::simulation) struct Push {
+pub(crate) struct Push {
     /// Velocity at the beginning of the step in m/s.
-    pub(in crate::simulation) velocity: f64,
+    pub(crate) velocity: f64,
     /// Driving force in N.
-    pub(in crate::simulation) force: f64,
+    pub(crate) force: f64,
     /// The step divided by the mass, in s/kg.
-    pub(in crate::simulation) per_mass: f64,
+    pub(crate) per_mass: f64,
 }
 
 impl Contact {
     /// A contact that has slid at this velocity, in m/s, for a long time.
-    pub(in crate::simulation) fn settled(
-        friction: &Friction,
-        model: FrictionModel,
-        velocity: f64,
-    ) -> Self {
+    pub(crate) fn settled(friction: &Friction, model: FrictionModel, velocity: f64) -> Self {
         match model {
             FrictionModel::Stribeck => Self::Stribeck(Stribeck::new(friction)),
             FrictionModel::Lugre => Self::Lugre(Lugre::settled(friction, velocity)),
@@ -87,7 +83,7 @@ impl Contact {
 
     /// The velocity in m/s at the end of the step, from `m·dv/dt = F - friction`.
     #[inline]
-    pub(in crate::simulation) fn push(&mut self, push: Push) -> f64 {
+    pub(crate) fn push(&mut self, push: Push) -> f64 {
         let friction = match self {
             Self::Stribeck(contact) => {
                 return contact.velocity_after(push.velocity, push.force, push.per_mass);

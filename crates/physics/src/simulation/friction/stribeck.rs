@@ -4,7 +4,7 @@ use super::curve::Friction;
 
 /// A contact without a state.
 #[derive(Debug, Clone)]
-pub(in crate::simulation) struct Stribeck {
+pub(crate) struct Stribeck {
     friction: Friction,
 }
 

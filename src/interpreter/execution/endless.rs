@@ -8,6 +8,9 @@
 //! Where a value that is not known offline may lead out of such a loop, the loop is not endless: the
 //! run follows that way (R2.51, R2.52).
 
+use std::ops::RangeInclusive;
+
+use super::heads::Repeats;
 use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
@@ -38,22 +41,6 @@ const MOST_PASSES: u64 = 1 << 20;
 /// Number of times that a loop is run until its state repeats. A loop that is left more often is
 /// inside another loop, and nested loops must not multiply their passes.
 const RUN_THROUGH: u32 = 2;
-
-/// Most passes of a loop that is left on other ways and whose own condition is known.
-const MOST_FOLLOWED_PASSES: u64 = 32;
-
-/// Most passes of such a `$FOR`, which ends by itself.
-const MOST_COUNTED_PASSES: u64 = 1000;
-
-/// Passes after which a loop that is joined at its head is given up (R14.4).
-const MOST_JOINED_PASSES: u64 = 64;
-
-/// Whether it is known that a loop is repeated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Repeats {
-    Known,
-    Unknown,
-}
 
 /// Reason why a loop need not be run any further.
 #[derive(Debug)]
@@ -86,9 +73,10 @@ impl Interpreter {
                 self.let_plc_write(|name| names.contains(name));
             }
         }
-        if is_left {
+        if is_left || self.is_joined_at(target) {
             return self.follow_loop(target, Repeats::Known, finder);
         }
+        self.state.drop_heads_in_known_loop();
         let left = why.and_then(|why| {
             if let Enough::TooMany(cause) = &why {
                 self.havoc_loop(cause, finder);
@@ -103,77 +91,6 @@ impl Interpreter {
     pub(crate) fn come_back(&mut self, target: EntryIndex, finder: &mut dyn Finder) -> ControlStep {
         let _ = self.note_pass(target);
         self.follow_loop(target, Repeats::Unknown, finder)
-    }
-
-    /// Follows a loop that is left on other ways until a pass begins in the same state as earlier ones
-    /// (R14.3).
-    #[cold]
-    fn follow_loop(
-        &mut self,
-        target: EntryIndex,
-        repeats: Repeats,
-        finder: &mut dyn Finder,
-    ) -> ControlStep {
-        let Some(mut known) = self.state.track.loops.pop() else {
-            return ControlStep::Jump(target);
-        };
-        if let Some(counters) = known.endless.take() {
-            self.state.lose_counters(&counters, known.since);
-        }
-        let index = self.programs.index(known.unit);
-        let place = (known.depth, known.unit, known.head);
-        let counts = index.links(known.head).opener == known.head && target == known.head + 1;
-        let most = match repeats {
-            Repeats::Unknown => 0,
-            Repeats::Known if self.state.track.open_loops.contains(&place) => 0,
-            Repeats::Known if counts => MOST_COUNTED_PASSES,
-            Repeats::Known => MOST_FOLLOWED_PASSES,
-        };
-        if known.passes > most + MOST_JOINED_PASSES {
-            let after = known.from.saturating_add(1);
-            self.state.track.loops.push(known);
-            self.havoc_loop(&Unknown::Passes, finder);
-            return ControlStep::Jump(after);
-        }
-        let now = self.at_head(target);
-        let cause = Unknown::Passes;
-        match known.covered.take() {
-            Some(before) if before.covers(&now, &cause) => return ControlStep::Covered,
-            Some(mut before) if known.passes > most => {
-                before.join(now, &cause);
-                let Path { control, track, .. } = (*before).clone();
-                self.state.control = control;
-                self.state.track.reach = track.reach;
-                self.state.track.assumed = track.assumed;
-                self.state.track.asked = track.asked;
-                self.state.track.failed = track.failed;
-                self.journal.begin_anew();
-                known.covered = Some(before);
-            }
-            _ => known.covered = Some(Box::new(now)),
-        }
-        self.state.track.loops.push(known);
-        ControlStep::Jump(target)
-    }
-
-    /// The state with which a pass begins.
-    fn at_head(&mut self, target: EntryIndex) -> Path {
-        if let Some(frame) = self.state.control.frames.running_mut() {
-            frame.next = target;
-        }
-        let (control, track) = (&self.state.control, &self.state.track);
-        self.charge_copies(control, &track.reach);
-        Path {
-            control: control.clone(),
-            track: RunTrack {
-                reach: track.reach.clone(),
-                asked: track.asked.clone(),
-                assumed: track.assumed.clone(),
-                failed: track.failed.clone(),
-                ..RunTrack::default()
-            },
-            parted: self.state.seq,
-        }
     }
 
     /// Counts a pass of a loop. Returns the reason why it need not be run any further, if there is one.
@@ -203,12 +120,13 @@ impl Interpreter {
                 unit: place.unit,
                 section: place.section,
                 head,
+                target,
                 from,
                 passes: 0,
                 since: self.state.seq,
                 mark: None,
                 endless: None,
-                covered: None,
+                last: None,
             });
         }
         let last = self.state.track.loops.last_mut()?;
@@ -236,7 +154,7 @@ impl Interpreter {
 
     /// Makes unknown what the innermost loop could change in the passes that are not run.
     #[cold]
-    fn havoc_loop(&mut self, cause: &Unknown, finder: &mut dyn Finder) {
+    pub(super) fn havoc_loop(&mut self, cause: &Unknown, finder: &mut dyn Finder) {
         let Some(last) = self.state.track.loops.last() else {
             return;
         };
@@ -309,7 +227,7 @@ impl Interpreter {
 
 impl State {
     /// Makes counters unknown where other ways have left a loop that is not run to its end.
-    fn lose_counters(&mut self, counters: &[Location], since: u64) {
+    pub(super) fn lose_counters(&mut self, counters: &[Location], since: u64) {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
         for path in self.waiting.iter_mut().chain(ended) {
             if path.parted >= since {
@@ -318,6 +236,29 @@ impl State {
                     path.control.memory.write(counter, unknown);
                 }
             }
+        }
+    }
+
+    /// The innermost loop begins a new pass: what is kept of loops in it is of the last one, unless only the machine
+    /// ends it.
+    fn drop_heads_in_known_loop(&mut self) {
+        let Some(known) = self
+            .track
+            .loops
+            .last()
+            .filter(|_| !self.loop_heads.is_empty())
+        else {
+            return;
+        };
+        if !self.track.open_loops.contains(&known.place()) {
+            let blocks = known.head..=known.from;
+            self.drop_heads(&blocks);
+        }
+    }
+
+    pub(super) fn drop_heads(&mut self, blocks: &RangeInclusive<EntryIndex>) {
+        if !self.loop_heads.is_empty() {
+            self.loop_heads.drop_within(&self.control.frames, blocks);
         }
     }
 

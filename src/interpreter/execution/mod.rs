@@ -10,6 +10,7 @@ pub(super) mod ending;
 pub(super) mod endless;
 pub(super) mod fingerprint;
 pub(super) mod handover;
+mod heads;
 pub(super) mod merging;
 pub(super) mod parting;
 pub(super) mod paths;

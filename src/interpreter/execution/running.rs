@@ -44,6 +44,12 @@ impl Interpreter {
                 self.end_of_pass();
                 continue;
             }
+            if !self.state.loop_heads.is_empty() && self.enters_covered(next) {
+                match self.follow_to_end(ControlStep::Covered, finder) {
+                    Some(by) => return RunOutcome::Ended(by),
+                    None => continue,
+                }
+            }
             let is_repeated = self.programs.was_read(unit, next);
             let parsed = self.programs.parsed(unit, next);
             if let Some(frame) = self.state.control.frames.running_mut() {

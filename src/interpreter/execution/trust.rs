@@ -57,7 +57,8 @@ impl<'a> Trust<'a> {
         self.check_parked()?;
         self.check_path(&state.control, &state.track)?;
         let ended = state.ended.iter().map(|ended| &ended.path);
-        for path in state.waiting.iter().chain(ended) {
+        let heads = state.loop_heads.states();
+        for path in state.waiting.iter().chain(heads).chain(ended) {
             self.check_path(&path.control, &path.track)?;
         }
         let begins = !self.programs.units().is_empty()
@@ -124,9 +125,9 @@ impl<'a> Trust<'a> {
     fn check_loop(&self, it: &Loop) -> Validity {
         let known = it.fits(MOST_COUNTED) && self.has(it.program());
         holds(known, "a loop in a program that is not there")?;
-        it.covered.as_deref().map_or(Ok(()), |covered| {
-            self.check_path(&covered.control, &covered.track)
-        })
+        it.last
+            .as_deref()
+            .map_or(Ok(()), |last| self.check_path(&last.control, &last.track))
     }
 
     fn check_counters(&self) -> Validity {

@@ -57,6 +57,7 @@ impl Interpreter {
             joined.join(way, &cause);
         }
         joined.track.loops.clear();
+        self.state.loop_heads.clear();
         joined.track.open_loops.clear();
         joined.track.marked = None;
         self.enter_path(joined);

@@ -336,6 +336,12 @@ impl Index {
         self.loops.iter().filter(around).max().copied()
     }
 
+    /// The innermost loop that contains a block and does not begin with it, by its opener.
+    pub(crate) fn loop_around(&self, entry: EntryIndex) -> Option<EntryIndex> {
+        let around = |opener: &&EntryIndex| **opener < entry && entry <= self.links(**opener).end;
+        self.loops.iter().filter(around).max().copied()
+    }
+
     /// Returns the end of the branches of an `#IF`.
     pub(crate) fn interpreted_to(&self, entry: EntryIndex) -> Option<EntryIndex> {
         self.interpreted.get(&entry).copied()

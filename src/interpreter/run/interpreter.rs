@@ -9,6 +9,7 @@ use super::block_scratch::BlockScratch;
 use super::channel_axes::AxisNameMeaning;
 use super::control::ControlState;
 use super::journal::{Journal, RegionCall, Regions};
+use super::loop_heads::LoopHeads;
 use super::options::{Options, SourceMode};
 use super::path::{BranchSide, RunTrack};
 use super::possible_state::{PossibleStates, shown, ways_of};
@@ -165,6 +166,7 @@ impl Interpreter {
             control: ControlState::new(compensation, modal),
             track: RunTrack::default(),
             waiting: WaitingPaths::default(),
+            loop_heads: LoopHeads::default(),
             ended: Vec::new(),
             conditions: Vec::new(),
             seq: 0,

@@ -18,6 +18,7 @@ pub(super) mod jumped_to;
 pub(super) mod last_commands;
 pub(super) mod limits;
 pub(super) mod lone_part;
+pub(super) mod loop_heads;
 pub(super) mod options;
 pub(super) mod outcome;
 pub(super) mod path;

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::clash::RememberedConditions;
 use super::control::ControlState;
 use super::event::EndedBy;
+use super::loop_heads::Arrival;
 use super::search::BeforeSearch;
 use super::stack::{CallFrame, CallStack, Seeking};
 use super::stopping::FailedAt;
@@ -346,6 +347,29 @@ impl Path {
     }
 }
 
+impl Path {
+    /// Another way begins a pass of the loop at whose head this state is kept. The conditions that only that way has
+    /// asked are left out of what leads here: they are asked in every pass.
+    pub(crate) fn take_in(&mut self, way: Self, cause: &Unknown) -> Arrival {
+        let named: BTreeSet<u32> = self.track.reach.conditions().collect();
+        let mut reach = way.track.reach.clone();
+        for condition in way.track.reach.conditions() {
+            if !named.contains(&condition) {
+                reach.havoc(condition);
+            }
+        }
+        let mut both = self.clone();
+        both.join(way, cause);
+        both.track.reach.clone_from(&self.track.reach);
+        both.track.reach.or(&reach);
+        if both.control == self.control && both.track.reach == self.track.reach {
+            return Arrival::Covered;
+        }
+        *self = both;
+        Arrival::Grown
+    }
+}
+
 /// A way that has ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EndedPath {
@@ -442,6 +466,8 @@ pub(crate) struct Loop {
     /// The block that opens it, or to which it goes back, and the last one from which it does.
     pub(crate) head: EntryIndex,
     pub(crate) from: EntryIndex,
+    /// The block with which a pass begins.
+    pub(crate) target: EntryIndex,
     pub(crate) passes: u64,
     /// The executed block at which it was first repeated.
     pub(crate) since: u64,
@@ -449,9 +475,8 @@ pub(crate) struct Loop {
     pub(crate) mark: Option<Box<Mark>>,
     /// Counters, once it is known that nothing else changes any more.
     pub(crate) endless: Option<Vec<Location>>,
-    /// Join of the states at the beginnings of all passes, where the loop is left on some ways
-    /// (R14.3).
-    pub(crate) covered: Option<Box<Path>>,
+    /// The state at the beginning of the last pass, where the loop is left on some ways and followed (R14.3).
+    pub(crate) last: Option<Box<Path>>,
 }
 
 impl Loop {
@@ -461,6 +486,11 @@ impl Loop {
             unit: self.unit,
             section: self.section,
         }
+    }
+
+    /// Its place among the loops whose condition is not known.
+    pub(crate) fn place(&self) -> (usize, usize, EntryIndex) {
+        (self.depth, self.unit, self.head)
     }
 
     /// Whether its counters are below a bound.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
 use super::control::ControlState;
+use super::loop_heads::LoopHeads;
 use super::path::{EndedPath, Last, Path, RunTrack};
 use super::step::ControlStep;
 use super::undecided::MentionedUnknowns;
@@ -28,6 +29,8 @@ pub(crate) struct State {
     pub(crate) track: RunTrack,
     /// The other ways that are still executed.
     pub(crate) waiting: WaitingPaths,
+    /// The loops that are joined at their heads.
+    pub(crate) loop_heads: LoopHeads,
     /// The ways that have ended.
     pub(crate) ended: Vec<EndedPath>,
     /// The conditions that ways name, by their numbers.
@@ -62,7 +65,8 @@ impl State {
     /// The states of the control on all ways.
     pub(crate) fn controls_mut(&mut self) -> impl Iterator<Item = &mut ControlState> {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
-        let others = self.waiting.iter_mut().chain(ended);
+        let heads = self.loop_heads.states_mut();
+        let others = self.waiting.iter_mut().chain(heads).chain(ended);
         let others = others.map(|path| &mut path.control);
         std::iter::once(&mut self.control).chain(others)
     }

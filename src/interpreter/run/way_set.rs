@@ -75,10 +75,10 @@ impl WaySet {
         self.0.iter().flatten().map(|answer| answer.condition)
     }
 
-    /// The number of pairs of its answers.
+    /// The number of its answers that are compared with each of its ways.
     pub(crate) fn pairs(&self) -> u64 {
         let answers: usize = self.0.iter().map(|way| 1 + way.len()).sum();
-        (answers as u64).saturating_mul(answers as u64)
+        (answers as u64).saturating_mul(self.0.len() as u64)
     }
 
     /// The ways on which both hold; ways that contradict each other are dropped.
@@ -89,14 +89,30 @@ impl WaySet {
         if self.is_always() {
             return other.clone();
         }
-        let mut both = Self::never();
-        for mine in &self.0 {
-            for theirs in &other.0 {
-                both.0.extend(together(mine, theirs));
-            }
-            both.simplify();
+        if self.is_within(other) {
+            return self.clone();
         }
-        both
+        let mut both = Reduction::default();
+        for mine in &self.0 {
+            let ways = other.0.iter();
+            both.add(ways.filter_map(|theirs| together(mine, theirs)));
+        }
+        Self(both.ways)
+    }
+
+    /// Whether each of the ways is one of others.
+    fn is_within(&self, others: &Self) -> bool {
+        let is_one = |way: &Way| {
+            let mut others = others.0.iter();
+            others.any(|other| relation(way, other) == Relation::Contained)
+        };
+        self.0.iter().all(is_one)
+    }
+
+    /// Whether no way is one of both sets.
+    pub(crate) fn is_apart_from(&self, other: &Self) -> bool {
+        let is_apart = |way: &Way| other.0.iter().all(|other| contradict(way, other));
+        self.0.iter().all(is_apart)
     }
 
     /// Renumbers the conditions, in the same order.
@@ -112,7 +128,7 @@ impl WaySet {
     /// Those of the ways that do not contradict others, as they are.
     pub(crate) fn within(&self, others: &Self) -> Self {
         let ways = self.0.iter();
-        let agree = |way: &&Way| others.0.iter().any(|other| together(way, other).is_some());
+        let agree = |way: &&Way| others.0.iter().any(|other| !contradict(way, other));
         Self(ways.filter(agree).cloned().collect())
     }
 
@@ -136,8 +152,9 @@ impl WaySet {
     /// The ways on which at least one of both holds.
     pub(crate) fn or(&mut self, other: &Self) {
         if !self.is_always() {
-            self.0.extend_from_slice(&other.0);
-            self.simplify();
+            let mut either = Reduction::of_reduced(std::mem::take(&mut self.0));
+            either.add(other.0.iter().cloned());
+            self.0 = either.ways;
         }
     }
 
@@ -151,103 +168,189 @@ impl WaySet {
 
     /// Drops ways without information, and conditions while there are too many ways.
     fn simplify(&mut self) {
-        for way in &mut self.0 {
-            let beyond = way.len().saturating_sub(MAX_CONDITIONS);
-            way.drain(..beyond);
-        }
-        while self.absorb() || self.shorten() {}
-        while self.0.len() > MAX_WAYS {
-            let Some(condition) = self.most_named() else {
-                return;
-            };
-            for way in &mut self.0 {
-                way.retain(|answer| answer.condition != condition);
-            }
-            while self.absorb() || self.shorten() {}
-        }
-    }
-
-    /// Drops a way that another one contains.
-    fn absorb(&mut self) -> bool {
-        let count = self.0.len();
-        for inner in 0..count {
-            for outer in 0..count {
-                if inner != outer && contains(&self.0[outer], &self.0[inner], None) {
-                    self.0.remove(inner);
-                    return true;
-                }
-            }
-        }
-        false
-    }
-
-    /// Widens an answer of a way by another way that agrees with all the rest of it.
-    fn shorten(&mut self) -> bool {
-        let count = self.0.len();
-        for inner in 0..count {
-            for outer in (0..count).filter(|outer| *outer != inner) {
-                for place in 0..self.0[inner].len() {
-                    let answer = self.0[inner][place];
-                    let same = |it: &&WayAnswer| it.condition == answer.condition;
-                    let Some(other) = self.0[outer].iter().find(same).copied() else {
-                        continue;
-                    };
-                    if other.sides & !answer.sides == 0
-                        || !contains(&self.0[outer], &self.0[inner], Some(answer.condition))
-                    {
-                        continue;
-                    }
-                    let way = &mut self.0[inner];
-                    way[place].sides |= other.sides;
-                    if way[place].is_any() {
-                        way.remove(place);
-                    }
-                    return true;
-                }
-            }
-        }
-        false
-    }
-
-    /// The condition that most ways name.
-    fn most_named(&self) -> Option<u32> {
-        let mut named: Vec<u32> = self.conditions().collect();
-        named.sort_unstable();
-        let groups = named.chunk_by(|one, other| one == other);
-        groups
-            .max_by_key(|group| group.len())
-            .and_then(|group| group.first())
-            .copied()
+        let mut reduction = Reduction::default();
+        reduction.add(std::mem::take(&mut self.0).into_iter());
+        self.0 = reduction.ways;
     }
 }
 
-/// Whether a way contains another one, except for a condition.
-fn contains(outer: &Way, inner: &Way, but: Option<u32>) -> bool {
-    outer
-        .iter()
-        .filter(|answer| Some(answer.condition) != but)
-        .all(|answer| {
-            let same = |it: &&WayAnswer| it.condition == answer.condition;
-            let found = inner.iter().find(same);
-            found.is_some_and(|found| found.sides & !answer.sides == 0)
+/// The relation of a way to another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Relation {
+    /// The other one contains it.
+    Contained,
+    /// The other one contains it except for one answer, by which it can be widened.
+    Adjacent,
+    Neither,
+}
+
+/// Ways of which none contains another one or can be widened by it. Each pair is compared once for each change.
+#[derive(Default)]
+struct Reduction {
+    ways: Vec<Way>,
+    /// A bit for each condition that a way names; conditions may share one.
+    named: Vec<u64>,
+    /// The relations of each way to all.
+    relations: Vec<Vec<Relation>>,
+}
+
+impl Reduction {
+    /// Ways that are a whole set.
+    fn of_reduced(ways: Vec<Way>) -> Self {
+        Self {
+            named: ways.iter().map(names).collect(),
+            relations: vec![vec![Relation::Neither; ways.len()]; ways.len()],
+            ways,
+        }
+    }
+
+    /// Takes further ways; while there are too many, conditions are left out.
+    fn add(&mut self, further: impl Iterator<Item = Way>) {
+        for mut way in further {
+            let beyond = way.len().saturating_sub(MAX_CONDITIONS);
+            way.drain(..beyond);
+            self.named.push(0);
+            self.ways.push(way);
+            for row in &mut self.relations {
+                row.push(Relation::Neither);
+            }
+            self.relations
+                .push(vec![Relation::Neither; self.ways.len()]);
+            self.compare(self.ways.len() - 1);
+        }
+        self.reduce();
+        while self.ways.len() > MAX_WAYS {
+            let Some(condition) = most_named(&self.ways) else {
+                return;
+            };
+            for way in &mut self.ways {
+                way.retain(|answer| answer.condition != condition);
+            }
+            (0..self.ways.len()).for_each(|way| self.compare(way));
+            self.reduce();
+        }
+    }
+
+    /// Drops ways that others contain, and widens an answer of a way by another way that agrees with all the rest
+    /// of it.
+    fn reduce(&mut self) {
+        loop {
+            if let Some((inner, _)) = self.first(Relation::Contained) {
+                self.ways.remove(inner);
+                self.named.remove(inner);
+                self.relations.remove(inner);
+                for row in &mut self.relations {
+                    row.remove(inner);
+                }
+            } else if let Some((inner, outer)) = self.first(Relation::Adjacent) {
+                let Some((place, sides)) = adjacent(&self.ways[inner], &self.ways[outer]) else {
+                    return;
+                };
+                let way = &mut self.ways[inner];
+                way[place].sides |= sides;
+                if way[place].is_any() {
+                    way.remove(place);
+                }
+                self.compare(inner);
+            } else {
+                return;
+            }
+        }
+    }
+
+    /// Compares a way that is new or has changed with all others.
+    fn compare(&mut self, changed: usize) {
+        self.named[changed] = names(&self.ways[changed]);
+        for other in (0..self.ways.len()).filter(|other| *other != changed) {
+            for (inner, outer) in [(changed, other), (other, changed)] {
+                let may = self.named[outer] & !self.named[inner] == 0;
+                self.relations[inner][outer] = if may {
+                    relation(&self.ways[inner], &self.ways[outer])
+                } else {
+                    Relation::Neither
+                };
+            }
+        }
+    }
+
+    fn first(&self, wanted: Relation) -> Option<(usize, usize)> {
+        self.relations.iter().enumerate().find_map(|(inner, row)| {
+            let outer = row.iter().position(|it| *it == wanted)?;
+            Some((inner, outer))
         })
+    }
+}
+
+/// The condition that most ways name.
+fn most_named(ways: &[Way]) -> Option<u32> {
+    let answers = ways.iter().flatten();
+    let mut named: Vec<u32> = answers.map(|answer| answer.condition).collect();
+    named.sort_unstable();
+    let groups = named.chunk_by(|one, other| one == other);
+    groups
+        .max_by_key(|group| group.len())
+        .and_then(|group| group.first())
+        .copied()
+}
+
+fn names(way: &Way) -> u64 {
+    way.iter()
+        .fold(0, |named, answer| named | 1 << (answer.condition % 64))
+}
+
+fn relation(inner: &Way, outer: &Way) -> Relation {
+    let mut differing = 0;
+    let mut rest = inner.iter();
+    for theirs in outer {
+        let Some(mine) = rest.find(|it| it.condition >= theirs.condition) else {
+            return Relation::Neither;
+        };
+        if mine.condition != theirs.condition {
+            return Relation::Neither;
+        }
+        differing += usize::from(mine.sides & !theirs.sides != 0);
+    }
+    match differing {
+        0 => Relation::Contained,
+        1 if adjacent(inner, outer).is_some() => Relation::Adjacent,
+        _ => Relation::Neither,
+    }
+}
+
+/// The first answer of a way that differs from that of one that contains the rest of it, and the sides that the
+/// other one adds.
+fn adjacent(inner: &Way, outer: &Way) -> Option<(usize, u64)> {
+    let mut theirs = outer.iter().peekable();
+    inner.iter().enumerate().find_map(|(place, mine)| {
+        let theirs = theirs.next_if(|it| it.condition == mine.condition)?;
+        let differs = mine.sides & !theirs.sides != 0 && theirs.sides & !mine.sides != 0;
+        differs.then_some((place, theirs.sides))
+    })
 }
 
 /// Both ways together; `None` where they contradict each other.
 fn together(mine: &Way, theirs: &Way) -> Option<Way> {
+    if contradict(mine, theirs) {
+        return None;
+    }
     let mut both = mine.clone();
     for answer in theirs {
         match both.binary_search_by_key(&answer.condition, |it| it.condition) {
-            Ok(place) => {
-                both[place].sides &= answer.sides;
-                if both[place].sides == 0 {
-                    return None;
-                }
-            }
+            Ok(place) => both[place].sides &= answer.sides,
             Err(place) => both.insert(place, *answer),
         }
     }
     Some(both)
+}
+
+/// Whether two ways have different answers to a condition.
+fn contradict(mine: &Way, theirs: &Way) -> bool {
+    let mut rest = mine.iter().peekable();
+    theirs.iter().any(|theirs| {
+        while rest.next_if(|it| it.condition < theirs.condition).is_some() {}
+        let same = rest.next_if(|it| it.condition == theirs.condition);
+        same.is_some_and(|mine| mine.sides & theirs.sides == 0)
+    })
 }
 
 #[cfg(test)]

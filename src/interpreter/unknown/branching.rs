@@ -160,13 +160,25 @@ impl Interpreter {
             own.values.clear();
         }
         if question.kind == ConditionKind::Loop {
-            self.state.note_open_loop();
+            self.note_open_loop();
         }
         let condition = self.ask(question, goals.iter().map(Goal::says).collect(), at);
         let answers = answers(condition, goals.len());
         let sides = goals.into_iter().zip(answers);
         self.sides = sides.map(|(goal, answer)| goal.side(answer)).collect();
         true
+    }
+
+    /// Joins a loop whose own condition is not known at its head from the second pass on.
+    fn note_open_loop(&mut self) {
+        let frames = &self.state.control.frames;
+        if let Some(program) = frames.program()
+            && let Some(entry) = frames.entry()
+        {
+            let opener = self.programs.index(program.unit).links(entry).opener;
+            let place = (frames.depth(), program.unit, opener);
+            self.state.track.open_loops.insert(place);
+        }
     }
 
     /// The ways on which an error ends the program at the block, and those on which it goes on; `None` where ways are
@@ -377,17 +389,6 @@ impl State {
         let mut asked = paths.flat_map(|path| &path.track.asked);
         let found = asked.find(|asked| asked.reads_nothing() && *asked.meaning == *meaning);
         found.cloned()
-    }
-
-    /// Joins a loop whose own condition is not known at its head from the second pass on.
-    fn note_open_loop(&mut self) {
-        let frames = &self.control.frames;
-        if let Some(program) = frames.program()
-            && let Some(entry) = frames.entry()
-        {
-            let place = (frames.depth(), program.unit, entry);
-            self.track.open_loops.insert(place);
-        }
     }
 
     /// The number of a condition of which no way knows the answer yet.

@@ -1,0 +1,188 @@
+//! Loops that other ways leave: they are followed pass by pass, or joined at their heads (R14.3).
+
+use std::ops::RangeInclusive;
+
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::loop_heads::{Arrival, LoopHead, head_place};
+use crate::interpreter::run::path::{Path, RunTrack};
+use crate::interpreter::run::step::ControlStep;
+use crate::interpreter::values::cause::Unknown;
+
+/// Most passes of a loop that is left on other ways and whose own condition is known.
+const MOST_FOLLOWED_PASSES: u64 = 32;
+
+/// Most passes of such a `$FOR`, which ends by itself.
+const MOST_COUNTED_PASSES: u64 = 1000;
+
+/// Passes after which a loop that is joined at its head is given up (R14.4).
+const MOST_JOINED_PASSES: u64 = 64;
+
+/// Whether it is known that a loop is repeated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Repeats {
+    Known,
+    Unknown,
+}
+
+impl Interpreter {
+    /// Follows a loop that is left on other ways until a pass begins in the same state as earlier ones.
+    #[cold]
+    pub(super) fn follow_loop(
+        &mut self,
+        target: EntryIndex,
+        repeats: Repeats,
+        finder: &mut dyn Finder,
+    ) -> ControlStep {
+        let Some(mut known) = self.state.track.loops.pop() else {
+            return ControlStep::Jump(target);
+        };
+        if let Some(counters) = known.endless.take() {
+            self.state.lose_counters(&counters, known.since);
+        }
+        let index = self.programs.index(known.unit);
+        let counts = index.links(known.head).opener == known.head && target == known.head + 1;
+        let most = match repeats {
+            Repeats::Unknown => 0,
+            Repeats::Known if self.state.track.open_loops.contains(&known.place()) => 0,
+            Repeats::Known if counts => MOST_COUNTED_PASSES,
+            Repeats::Known => MOST_FOLLOWED_PASSES,
+        };
+        if known.passes > most + MOST_JOINED_PASSES {
+            let after = known.from.saturating_add(1);
+            self.state.track.loops.push(known);
+            self.havoc_loop(&Unknown::Passes, finder);
+            return ControlStep::Jump(after);
+        }
+        let now = self.at_head(target);
+        let blocks = known.head..=known.from;
+        let last = known.last.take();
+        if known.passes <= most {
+            if last.is_some_and(|last| last.covers(&now, &Unknown::Passes)) {
+                return ControlStep::Covered;
+            }
+            self.state.drop_heads(&blocks);
+            known.last = Some(Box::new(now));
+            self.state.track.loops.push(known);
+            return ControlStep::Jump(target);
+        }
+        self.state.track.loops.push(known);
+        match self.reach_head(target, (last.map(|last| *last), now), &blocks) {
+            Arrival::Covered => ControlStep::Covered,
+            Arrival::Grown => ControlStep::Jump(target),
+        }
+    }
+
+    /// A pass of a loop that is joined begins.
+    fn reach_head(
+        &mut self,
+        target: EntryIndex,
+        (last, now): (Option<Path>, Path),
+        blocks: &RangeInclusive<EntryIndex>,
+    ) -> Arrival {
+        let frames = &self.state.control.frames;
+        let place = head_place(frames, target);
+        let heads = &mut self.state.loop_heads;
+        if heads.get(&place).is_none() {
+            let is_first = last.is_none();
+            let head = LoopHead {
+                blocks: blocks.clone(),
+                state: last.unwrap_or_else(|| now.clone()),
+            };
+            heads.insert(place.clone(), head);
+            if !self.is_repeated_around(*blocks.start()) {
+                let frames = &self.state.control.frames;
+                self.state.loop_heads.drop_without(frames, blocks);
+            }
+            if is_first {
+                return Arrival::Grown;
+            }
+        }
+        let Some((arrival, state)) = self.state.loop_heads.arrive(&place, now) else {
+            return Arrival::Grown;
+        };
+        if arrival == Arrival::Grown {
+            let Path { control, track, .. } = state.clone();
+            self.state.control = control;
+            self.state.track.reach = track.reach;
+            self.state.track.assumed = track.assumed;
+            self.state.track.asked = track.asked;
+            self.state.track.failed = track.failed;
+            self.journal.begin_anew();
+            self.version += 1;
+        }
+        arrival
+    }
+
+    /// Returns whether the run enters a loop at a block with nothing that earlier passes of a loop around it did not
+    /// enter it with.
+    #[cold]
+    pub(super) fn enters_covered(&mut self, block: EntryIndex) -> bool {
+        let frames = &self.state.control.frames;
+        let (depth, unit) = (frames.depth(), frames.running().map(|frame| frame.unit));
+        let mut repeated = self.state.track.loops.iter();
+        if repeated.any(|it| it.depth == depth && Some(it.unit) == unit && it.target == block) {
+            return false;
+        }
+        let Some(head) = self.state.loop_heads.get(&head_place(frames, block)) else {
+            return false;
+        };
+        let blocks = head.blocks.clone();
+        if !self.is_repeated_around(*blocks.start()) {
+            self.state.drop_heads(&blocks);
+            return false;
+        }
+        let now = self.at_head(block);
+        self.reach_head(block, (None, now), &blocks) == Arrival::Covered
+    }
+
+    /// Whether the innermost loop around another one is joined at its head, or a jump leads back to before it.
+    fn is_repeated_around(&self, opener: EntryIndex) -> bool {
+        let mut inner = Some(opener);
+        let frames = self.state.control.frames.iter().rev();
+        let depths = (1..=self.state.control.frames.depth()).rev();
+        for (frame, depth) in frames.zip(depths) {
+            let block = inner.take().unwrap_or(frame.next.saturating_sub(1));
+            let track = &self.state.track;
+            let index = self.programs.index(frame.unit);
+            if let Some(around) = index.loop_around(block) {
+                return track.open_loops.contains(&(depth, frame.unit, around));
+            }
+            let mut repeated = track.loops.iter();
+            if repeated.any(|it| it.depth == depth && it.head < block && block <= it.from) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether the loop whose passes begin with a block is joined there.
+    pub(super) fn is_joined_at(&self, target: EntryIndex) -> bool {
+        let heads = &self.state.loop_heads;
+        !heads.is_empty() && {
+            let place = head_place(&self.state.control.frames, target);
+            heads.get(&place).is_some()
+        }
+    }
+
+    /// The state with which a pass begins.
+    fn at_head(&mut self, target: EntryIndex) -> Path {
+        if let Some(frame) = self.state.control.frames.running_mut() {
+            frame.next = target;
+        }
+        let (control, track) = (&self.state.control, &self.state.track);
+        self.charge_copies(control, &track.reach);
+        Path {
+            control: control.clone(),
+            track: RunTrack {
+                reach: track.reach.clone(),
+                asked: track.asked.clone(),
+                assumed: track.assumed.clone(),
+                failed: track.failed.clone(),
+                ..RunTrack::default()
+            },
+            parted: self.state.seq,
+        }
+    }
+}

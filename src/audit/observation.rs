@@ -7,7 +7,7 @@ use super::effect::{FirstMotion, Site, WhyUnknown};
 use super::motions::{SelectionAtMotions, Stood};
 use super::scope::{AuditedKind, Scope, Selected};
 use super::within::Within;
-use crate::comp::{AxisIndex, Compensation, KindSet};
+use crate::comp::{AxisIndex, Compensation, KindSet, Membership};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{
     Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome, PossibleStates, VariableUse,
@@ -381,15 +381,19 @@ impl Observation {
     fn commands_at(&mut self, scope: &Scope, ended: &Ended<'_>) {
         let subjects = scope.subjects().iter().enumerate();
         for (at, &AuditedKind { axis, kind }) in subjects {
-            let is_on = match self.left[at] {
-                Selected::On => true,
-                Selected::Off => false,
+            let selected = match self.left[at] {
+                Selected::On => Membership::In,
+                Selected::Off => Membership::Out,
                 Selected::Unknown if self.possible[at].is_some() => {
-                    !scope.is_on_at_start_up(AuditedKind { axis, kind })
+                    if scope.is_on_at_start_up(AuditedKind { axis, kind }) {
+                        Membership::Out
+                    } else {
+                        Membership::In
+                    }
                 }
                 Selected::Unknown => continue,
             };
-            if let Some(command) = ended.last_commands.latest(axis, kind, is_on) {
+            if let Some(command) = ended.history.latest(axis, kind, selected) {
                 self.observed[at].last = Some(SelectionOrigin::Command(Site {
                     file: Arc::clone(&command.place.file),
                     line: command.place.first_line,

@@ -36,12 +36,12 @@ pub use run::carried_ways::CarriedWays;
 pub use run::event::{
     Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
 };
+pub(crate) use run::found_states::{FoundOn, UntouchedOn};
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
 pub use run::possible_state::{PossibleState, PossibleStates};
 pub use run::search::{NoSearchedBlock, SearchedBlock};
-pub(crate) use run::untouched::{FoundOn, UntouchedOn};
 pub use run::way_condition::{BlockCondition, WayChange, WayCondition};
 pub(crate) use run::way_condition::{limit_to, ways_in_words};
 pub use values::carried::{ArrayShape, Carried};

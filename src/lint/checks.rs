@@ -75,7 +75,7 @@ impl Linter<'_> {
     /// which keeps the state unless another reading is selected (R1.28). Where the run went on after errors, the state
     /// at them is judged, too.
     pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
-        self.history
+        self.states
             .program_ended(&self.program, &self.memory, ended);
         let is_kept = !self.machine.readings.takes_second(Question::Reset);
         // The blocks that a block search passes are not judged.
@@ -95,11 +95,11 @@ impl Linter<'_> {
                 ends: &stopped.ends,
                 compensation: &stopped.compensation,
                 possible: &stopped.possible,
-                last_commands: &stopped.last_commands,
+                history: &stopped.history,
                 ..*ended
             };
             let mut found = left_away::lint(self, &at_errors);
-            let start_up = &self.history.start_up;
+            let start_up = &self.states.start_up;
             found.retain(|it| {
                 let is_known = left
                     .iter()

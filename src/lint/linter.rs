@@ -1,7 +1,7 @@
 //! State and messages of the lints.
 
-use super::history::{History, LeftAwayNotice};
 use super::memory::{ProgramEffects, SwitchAfterMove};
+use super::session_states::{LeftAwayNotice, SessionStates};
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Executed, Outcome, WayCondition};
@@ -37,7 +37,7 @@ pub(super) struct Taken<'a> {
 /// Working memory of the lints while a program runs.
 pub(crate) struct Linter<'m> {
     pub(super) machine: &'m Machine,
-    pub(super) history: &'m mut History,
+    pub(super) states: &'m mut SessionStates,
     /// The name of the program after `%`, else its file.
     pub(super) program: String,
     pub(super) memory: ProgramEffects,
@@ -55,11 +55,11 @@ pub(crate) struct Linter<'m> {
 
 impl<'m> Linter<'m> {
     /// Creates the lints for a program.
-    pub(crate) fn new(machine: &'m Machine, history: &'m mut History, file: &str) -> Self {
+    pub(crate) fn new(machine: &'m Machine, states: &'m mut SessionStates, file: &str) -> Self {
         Self {
             memory: ProgramEffects::new(machine.axes.len()),
             machine,
-            history,
+            states,
             program: file.to_owned(),
             file: file.to_owned(),
             begin: None,
@@ -74,7 +74,7 @@ impl<'m> Linter<'m> {
         let axes = (0..with.len()).map(AxisIndex::new);
         self.found = axes.map(|axis| with.state(axis, Kind::Frict)).collect();
         for axis in (0..with.len()).map(AxisIndex::new) {
-            let is_at_start_up = self.found(axis) == self.history.start_up(axis, Kind::Frict);
+            let is_at_start_up = self.found(axis) == self.states.start_up(axis, Kind::Frict);
             self.memory.inherited(axis).is_settled = is_at_start_up;
         }
     }
@@ -89,7 +89,7 @@ impl<'m> Linter<'m> {
 
     /// Returns the state of friction compensation that the program found.
     pub(super) fn found(&self, axis: AxisIndex) -> State {
-        let start_up = || self.history.start_up(axis, Kind::Frict);
+        let start_up = || self.states.start_up(axis, Kind::Frict);
         self.found.get(axis.get()).copied().unwrap_or_else(start_up)
     }
 
@@ -114,7 +114,7 @@ impl<'m> Linter<'m> {
         for (at, of) in self.machine.axes.iter().enumerate() {
             let axis = AxisIndex::new(at);
             let memory = self.memory.axis(axis);
-            let unswitched = of.configured.intersection(self.history.unswitched(axis));
+            let unswitched = of.configured.intersection(self.states.unswitched(axis));
             for kind in unswitched.iter() {
                 let did = memory.kind(kind);
                 let counts = kind == Kind::Frict || of.required.contains(kind) || did.is_commanded;
@@ -132,7 +132,7 @@ impl<'m> Linter<'m> {
 
     /// Records the outcome of a note of [`end`](Self::end).
     pub(crate) fn settle(&mut self, left: &LeftAway, notice: LeftAwayNotice) {
-        self.history.set_notice(left.axis, left.kind, notice);
+        self.states.set_notice(left.axis, left.kind, notice);
     }
 
     pub(super) fn name(&self, axis: AxisIndex) -> &str {

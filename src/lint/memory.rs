@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, Selection, State};
+use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, Membership, Selection, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{
     Certainty, Ended, Executed, FoundOn, MotionKind, MovedAxis, Outcome, WayCondition,
@@ -248,15 +248,20 @@ pub(super) fn command_to(
     (axis, kind): (AxisIndex, Kind),
     start_up: &Compensation,
 ) -> Option<Arc<BlockSite>> {
-    let is_on = match ended.compensation.state(axis, kind) {
+    let is_off = match ended.compensation.state(axis, kind) {
         State::Unknown => {
             let mut possible = ended.possible.iter();
             possible.find(|it| (it.axis, it.kind) == (axis, kind))?;
-            start_up.state(axis, kind) == State::Inactive
+            start_up.state(axis, kind) != State::Inactive
         }
-        state => state != State::Inactive,
+        state => state == State::Inactive,
     };
-    let latest = ended.last_commands.latest(axis, kind, is_on)?;
+    let selected = if is_off {
+        Membership::Out
+    } else {
+        Membership::In
+    };
+    let latest = ended.history.latest(axis, kind, selected)?;
     Some(Arc::new(BlockSite::at(latest.seq, latest.place.clone())))
 }
 

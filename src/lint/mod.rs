@@ -4,11 +4,11 @@
 //! FC404 and FC406 are statements about a block's text and come from `syntax`.
 
 mod checks;
-mod history;
 mod linter;
 mod memory;
+mod session_states;
 
-pub use history::Maker;
-pub(crate) use history::{History, LeftAwayNotice};
 pub use linter::EndNote;
 pub(crate) use linter::Linter;
+pub use session_states::Maker;
+pub(crate) use session_states::{LeftAwayNotice, SessionStates};

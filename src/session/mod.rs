@@ -33,7 +33,7 @@ pub use crate::interpreter::{
 };
 use crate::interpreter::{Interpreter, RunOutcome, Value};
 pub use crate::lint::Maker;
-use crate::lint::{History, LeftAwayNotice, Linter};
+use crate::lint::{LeftAwayNotice, Linter, SessionStates};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::syntax::VariableName;
 use crate::text::{LineSource, Place, SourceFile};
@@ -159,7 +159,7 @@ pub struct Session {
     levels: Levels,
     /// The state that the session began with.
     start: Compensation,
-    history: History,
+    states: SessionStates,
     /// The variables that the user gave.
     given: BTreeMap<VariableName, Value>,
     remark: Option<String>,
@@ -193,7 +193,7 @@ impl Session {
             wording: options.wording,
             interpreter,
             levels: options.levels,
-            history: History::new(compensation),
+            states: SessionStates::new(compensation),
             given,
             start,
             programs: 0,
@@ -248,14 +248,14 @@ impl Session {
         };
         if !state.is_assumed_anew(self.machine.axis(axis), &self.machine) {
             self.start.restore(axis, saved.selected, saved.unknown);
-            self.history.inherit(axis);
+            self.states.inherit(axis);
         }
         for away in &saved.away {
             if let Some(maker) = &away.by {
-                self.history.restore(axis, away.kind, maker.clone());
+                self.states.restore(axis, away.kind, maker.clone());
             }
             if away.allowed {
-                self.history
+                self.states
                     .set_notice(axis, away.kind, LeftAwayNotice::Silenced);
             }
         }
@@ -335,7 +335,7 @@ impl Session {
             machine: &machine,
             levels: &self.levels,
             wording: self.wording,
-            linter: Linter::new(&machine, &mut self.history, file),
+            linter: Linter::new(&machine, &mut self.states, file),
             totals: &mut self.totals,
             notes: &mut self.notes,
             sink,
@@ -399,13 +399,13 @@ impl Session {
             others_away: Kind::ALL
                 .into_iter()
                 .filter(|kind| *kind != Kind::Frict)
-                .filter(|kind| state.state(axis, *kind) != self.history.start_up(axis, *kind))
+                .filter(|kind| state.state(axis, *kind) != self.states.start_up(axis, *kind))
                 .collect(),
             axis,
             start: self.start.state(axis, Kind::Frict),
             end: state.state(axis, Kind::Frict),
-            start_up: self.history.start_up(axis, Kind::Frict),
-            told: self.history.notice(axis, Kind::Frict) != LeftAwayNotice::No,
+            start_up: self.states.start_up(axis, Kind::Frict),
+            told: self.states.notice(axis, Kind::Frict) != LeftAwayNotice::No,
             changed_by: self.totals.changed_by[axis.get()].clone(),
             changes: self.totals.changes[axis.get()],
             feed_moves: self.totals.feed_moves.of(axis),
@@ -454,7 +454,7 @@ impl Session {
         let compensation = self.interpreter.compensation();
         let axis = self.machine.axis(index);
         let away =
-            |kind: &Kind| compensation.state(index, *kind) != self.history.start_up(index, *kind);
+            |kind: &Kind| compensation.state(index, *kind) != self.states.start_up(index, *kind);
         let position = self.interpreter.position(index).value;
         SavedAxis {
             axis: axis.name.clone(),
@@ -470,8 +470,8 @@ impl Session {
                 .filter(away)
                 .map(|kind| SavedAway {
                     kind,
-                    by: self.history.maker(index, kind).cloned(),
-                    allowed: self.history.notice(index, kind) == LeftAwayNotice::Silenced,
+                    by: self.states.maker(index, kind).cloned(),
+                    allowed: self.states.notice(index, kind) == LeftAwayNotice::Silenced,
                 })
                 .collect(),
             occurred: self.machine.axis_set == AxisSet::AsTheyOccur

@@ -32,7 +32,7 @@ impl Interpreter {
             }
             let selection = self.not_yet_switched(command.selection, axis);
             let control = &mut self.state.control;
-            control.possible.replace(axis, selection.kinds());
+            control.history.close(axis, selection.kinds());
             control
                 .compensation
                 .switch(axis, selection, &mut self.scratch.changes)
@@ -40,8 +40,6 @@ impl Interpreter {
         });
         match &result {
             Ok(axis) => {
-                let kinds = command.selection.kinds();
-                self.state.control.untouched.switch(*axis, kinds);
                 self.warn_coupled(command, *axis, at);
                 self.warn_transformed(command, at);
                 self.warn_opposite(command, *axis, at);

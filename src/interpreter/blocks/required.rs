@@ -7,9 +7,9 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::AfterError;
+use crate::interpreter::run::history::Split;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Branches, StopPolicy};
-use crate::interpreter::run::possible::Split;
 use crate::interpreter::run::possible_state::ways_of;
 use crate::interpreter::run::way_condition::limit_to;
 use crate::language::{AxisWords, Certainty, MotionKind};
@@ -118,9 +118,9 @@ impl Interpreter {
     ) -> bool {
         let mut changes = self.scratch.changes.iter();
         let is_switched = changes.any(|change| (change.axis, change.kind) == (axis, kind));
-        let possible = &self.state.control.possible;
+        let history = &self.state.control.history;
         let reach = &self.state.track.reach;
-        let split = possible.of(axis, kind).filter(|_| !is_switched);
+        let split = history.states(axis, kind).filter(|_| !is_switched);
         let Some(Split { on, off }) = split.map(|split| split.and(reach)) else {
             return false;
         };

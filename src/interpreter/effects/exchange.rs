@@ -101,9 +101,7 @@ impl Interpreter {
         let start = self.machine.compensation();
         let kinds = KindSet::of(Kind::Frict);
         let control = &mut self.state.control;
-        control.possible.replace(axis, kinds);
-        control.untouched.switch(axis, kinds);
-        control.last_commands.forget(axis, kinds);
+        control.history.set(axis, kinds);
         let changes = &mut self.scratch.changes;
         control
             .compensation

@@ -75,7 +75,7 @@ impl Interpreter {
 
     /// Every kind of every axis becomes unknown.
     pub(crate) fn havoc_compensation(&mut self) {
-        self.state.control.possible.clear();
+        self.state.control.history.close_all();
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);
             self.state

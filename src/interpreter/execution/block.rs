@@ -8,8 +8,9 @@ use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
+use crate::interpreter::run::found_states::FoundStates;
+use crate::interpreter::run::history::LastCommand;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::last_commands::LastCommand;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
@@ -17,7 +18,6 @@ use crate::interpreter::run::path::RunTrack;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, NextBlock, Request};
 use crate::interpreter::run::stopping::{ended_by, stops};
-use crate::interpreter::run::untouched::FoundStates;
 use crate::interpreter::run::way_condition::limit_to;
 use crate::language::AxisWords;
 use crate::syntax::Fault;
@@ -197,7 +197,7 @@ impl Interpreter {
             compensation: &self.state.control.compensation,
             possible: &self.shown.possible,
             found: FoundStates {
-                untouched: &self.state.control.untouched,
+                history: &self.state.control.history,
                 reach: &self.state.track.reach,
                 conditions: &self.state.conditions,
             },
@@ -348,8 +348,8 @@ impl Interpreter {
                     seq: self.state.seq,
                     place: at.place(outcome.command.span),
                 };
-                let commands = &mut self.state.control.last_commands;
-                commands.switch(axis, outcome.command.selection, &last);
+                let history = &mut self.state.control.history;
+                history.switch(axis, outcome.command.selection, last);
             }
         }
         if let Some(cause) = self.scratch.unknown_call.take() {
@@ -359,9 +359,9 @@ impl Interpreter {
 
     /// Drops the sets of states that a change by the block has decided.
     fn replace_possible(&mut self) {
-        let possible = &mut self.state.control.possible;
+        let history = &mut self.state.control.history;
         for change in &self.scratch.changes {
-            possible.replace(change.axis, KindSet::of(change.kind));
+            history.close(change.axis, KindSet::of(change.kind));
         }
         if let Some(left) = self.scratch.left_open.take() {
             self.leave_open(&left);

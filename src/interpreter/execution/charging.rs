@@ -37,9 +37,7 @@ impl Interpreter {
 impl ControlState {
     /// Pairs of answers that are compared where ways to this state meet others.
     fn pairs(&self, reach: &WaySet) -> u64 {
-        let splits = self.possible.iter();
-        let sets = splits.flat_map(|(_, split)| [&split.on, &split.off]);
-        let sets = sets.chain(self.untouched.sets()).chain([reach]);
+        let sets = self.history.sets().chain([reach]);
         sets.map(WaySet::pairs).fold(0, u64::saturating_add)
     }
 }

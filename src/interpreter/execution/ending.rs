@@ -104,14 +104,14 @@ impl Interpreter {
         }
         for change in &changes {
             let kinds = KindSet::of(change.kind);
-            self.state.control.possible.replace(change.axis, kinds);
+            self.state.control.history.close(change.axis, kinds);
         }
         self.state.control.frames.clear();
         self.release_couplings();
         self.state.control.couplings.end_following();
         // The program ends on all ways.
         self.state.track.reach = WaySet::always();
-        self.version += u64::from(!self.state.control.possible.is_empty());
+        self.version += u64::from(self.state.control.history.is_open());
         self.show_ways();
         // Whether or not the observer wants more events, the program has ended.
         let _ = observer.event(Event::Ended(Ended {
@@ -120,7 +120,7 @@ impl Interpreter {
             endless: std::mem::take(&mut self.scratch.endless),
             at: at.as_ref().map(|end| &end.place),
             ends: &ends,
-            last_commands: &self.state.control.last_commands,
+            history: &self.state.control.history,
             stopped: ended.stopped.as_ref(),
             failed: self.state.track.failed.as_deref(),
             changes: &changes,

@@ -22,7 +22,7 @@ impl Interpreter {
                 .map(|axis| name(&axis))
                 .collect(),
             ways: CarriedWays::of(
-                &self.state.control.possible,
+                &self.state.control.history,
                 &self.state.conditions,
                 &self.machine,
             ),
@@ -34,7 +34,7 @@ impl Interpreter {
     pub fn take_over(&mut self, mut carried: Carried) {
         let ways = std::mem::take(&mut carried.ways);
         let compensation = &self.state.control.compensation;
-        (self.state.conditions, self.state.control.possible) =
+        (self.state.conditions, self.state.control.history) =
             ways.into_parts(&self.machine, compensation);
         self.version += 1;
         self.show_ways();

@@ -162,11 +162,11 @@ impl State {
         }
         let mut control = all.control;
         let _ = control.compensation.program_end();
-        let state = (&control.compensation, &control.possible);
+        let state = (&control.compensation, &control.history);
         Some(StoppedState {
             ends: self.ends_of(ended),
             possible: shown(state, &WaySet::always(), &self.conditions),
-            last_commands: control.last_commands,
+            history: control.history,
             compensation: control.compensation,
         })
     }

@@ -63,11 +63,11 @@ impl State {
             frame.seeking = side.seeking;
         }
         if let Some((axis, kind, state)) = side.state {
-            control.possible.replace(axis, KindSet::of(kind));
+            control.history.close(axis, KindSet::of(kind));
             control.compensation.decide(axis, kind, state);
         }
         control
-            .possible
+            .history
             .narrow(&self.track.reach, &mut control.compensation);
         for (target, value) in &side.values {
             let track = &mut self.track;

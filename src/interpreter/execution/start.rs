@@ -105,8 +105,7 @@ impl Interpreter {
             .control
             .memory
             .start_program(self.machine.parameters);
-        self.state.control.untouched.clear();
-        self.state.control.last_commands.clear();
+        self.state.control.history.begin_program();
         self.state.control.frames.clear();
         self.state.seq = 0;
         self.state.control.cycles = ModalCycles::default();

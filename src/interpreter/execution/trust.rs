@@ -5,14 +5,13 @@ use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
+use crate::interpreter::run::history::History;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Loop, RunTrack};
-use crate::interpreter::run::possible::PossibleKinds;
 use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, Request};
-use crate::interpreter::run::untouched::Untouched;
 use crate::interpreter::run::ways::Ways;
 use crate::machine::Machine;
 use crate::text::Place;
@@ -71,7 +70,7 @@ impl<'a> Trust<'a> {
         let is_machine = control.compensation.fits(self.machine.axis_setups());
         holds(is_machine, "a way on another machine")?;
         self.check_axes(control)?;
-        self.check_possible(&control.possible, &control.untouched)?;
+        self.check_history(&control.history)?;
         self.check_frames(control)?;
         holds(
             self.has_cycles(&control.cycles),
@@ -98,16 +97,13 @@ impl<'a> Trust<'a> {
             "positions of other axes",
         )?;
         holds(control.couplings.fits(axes), "a coupling of other axes")?;
-        let commands = control.last_commands.fits(axes);
-        holds(commands, "a command on another axis")?;
         holds(control.channel_axes.fits(axes), "a name of another axis")
     }
 
-    fn check_possible(&self, possible: &PossibleKinds, untouched: &Untouched) -> Validity {
+    fn check_history(&self, history: &History) -> Validity {
         let axes = self.machine.axes.len();
-        let conditions = self.state.conditions.len();
-        let fit = possible.fits(axes, conditions) && untouched.fits(axes, conditions);
-        holds(fit, "a condition that is not there")
+        let fits = history.fits(axes, self.state.conditions.len());
+        holds(fits, "a condition or an axis that is not there")
     }
 
     fn check_conditions(&self, mut named: impl Iterator<Item = u32>) -> Validity {
@@ -119,7 +115,7 @@ impl<'a> Trust<'a> {
     fn check_search(&self, before: &BeforeSearch) -> Validity {
         let is_machine = before.compensation.fits(self.machine.axis_setups());
         holds(is_machine, "a block search on another machine")?;
-        self.check_possible(&before.possible, &before.untouched)
+        self.check_history(&before.history)
     }
 
     fn check_loop(&self, it: &Loop) -> Validity {

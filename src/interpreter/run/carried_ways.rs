@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
-use super::possible::{PossibleKinds, Split};
+use super::history::{History, Split};
 use crate::comp::{Compensation, Kind};
 use crate::machine::Machine;
 
@@ -25,12 +25,11 @@ struct CarriedState {
 }
 
 impl CarriedWays {
-    pub(crate) fn of(
-        possible: &PossibleKinds,
-        conditions: &[Condition],
-        machine: &Machine,
-    ) -> Self {
-        let mut named: Vec<u32> = possible.conditions().collect();
+    pub(crate) fn of(history: &History, conditions: &[Condition], machine: &Machine) -> Self {
+        let of_states = history.open_kinds();
+        let mut named: Vec<u32> = of_states
+            .flat_map(|(_, split)| split.conditions())
+            .collect();
         named.sort_unstable();
         named.dedup();
         let renumbered = |number: u32| {
@@ -39,11 +38,13 @@ impl CarriedWays {
         };
         let found = named.iter().filter_map(|it| conditions.get(*it as usize));
         let found = found.map(|condition| condition.renumbered(renumbered));
-        let states = possible.iter().map(|((axis, kind), split)| CarriedState {
-            axis: machine.axis(*axis).name.clone(),
-            kind: *kind,
-            ways: split.renumbered(|number| renumbered(number).unwrap_or(0)),
-        });
+        let states = history
+            .open_kinds()
+            .map(|((axis, kind), split)| CarriedState {
+                axis: machine.axis(axis).name.clone(),
+                kind,
+                ways: split.renumbered(|number| renumbered(number).unwrap_or(0)),
+            });
         Self {
             conditions: found.collect(),
             states: states.collect(),
@@ -69,12 +70,12 @@ impl CarriedWays {
         self,
         machine: &Machine,
         compensation: &Compensation,
-    ) -> (Vec<Condition>, PossibleKinds) {
+    ) -> (Vec<Condition>, History) {
         let states = self.states.into_iter().filter_map(|state| {
             let axis = machine.find(&state.axis)?;
             let is_unknown = compensation.unknown(axis).contains(state.kind);
             is_unknown.then_some(((axis, state.kind), state.ways))
         });
-        (self.conditions, states.collect())
+        (self.conditions, History::of_states(states))
     }
 }

@@ -9,10 +9,8 @@ use super::coupling::Couplings;
 use super::cycles::ModalCycles;
 use super::description::Description;
 use super::event::EndedBy;
-use super::last_commands::LastCommands;
-use super::possible::{self, PossibleKinds};
+use super::history::{History, HistorySide};
 use super::stack::CallStack;
-use super::untouched::Untouched;
 use super::way_set::WaySet;
 use super::ways::join_names;
 use crate::comp::Compensation;
@@ -27,12 +25,8 @@ use crate::language::{Holds, Simplification};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ControlState {
     pub(crate) compensation: Compensation,
-    /// Kinds that are unknown because ways differ.
-    pub(crate) possible: PossibleKinds,
-    /// Kinds that are as the program found them.
-    pub(crate) untouched: Untouched,
-    /// The last commands on kinds, on each way that leads here.
-    pub(crate) last_commands: LastCommands,
+    /// What switched each kind, on each way that leads here.
+    pub(crate) history: History,
     pub(crate) memory: Memory,
     pub(crate) modal: Modal,
     pub(crate) frames: CallStack,
@@ -56,9 +50,7 @@ impl ControlState {
     pub(crate) fn new(compensation: Compensation, modal: Modal) -> Self {
         Self {
             compensation,
-            possible: PossibleKinds::default(),
-            untouched: Untouched::default(),
-            last_commands: LastCommands::default(),
+            history: History::default(),
             memory: Memory::default(),
             modal,
             frames: CallStack::default(),
@@ -77,9 +69,7 @@ impl ControlState {
     pub(crate) fn join(&mut self, other: &Self, reach: [&WaySet; 2], cause: &Unknown) -> usize {
         let Self {
             compensation,
-            possible,
-            untouched,
-            last_commands,
+            history,
             memory,
             modal,
             frames,
@@ -92,19 +82,12 @@ impl ControlState {
             named,
             described,
         } = other;
-        let mine = possible::PossibleSide {
-            compensation: &self.compensation,
-            possible: &self.possible,
-            reach: reach[0],
-        };
-        let theirs = possible::PossibleSide {
+        let theirs = HistorySide {
             compensation,
-            possible,
+            history,
             reach: reach[1],
         };
-        (self.compensation, self.possible) = possible::join(&mine, &theirs);
-        self.untouched.join(untouched, reach);
-        self.last_commands.join(last_commands);
+        self.history.join(&mut self.compensation, reach[0], &theirs);
         let differing = self.memory.join(memory, cause);
         self.modal.join(modal);
         self.frames.join(frames, cause);
@@ -147,9 +130,7 @@ impl ControlState {
     pub(crate) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let Self {
             compensation,
-            possible,
-            untouched,
-            last_commands,
+            history,
             memory,
             modal,
             frames,
@@ -164,9 +145,7 @@ impl ControlState {
         let same = *frames == other.frames
             && *modal == other.modal
             && *compensation == other.compensation
-            && *possible == other.possible
-            && *untouched == other.untouched
-            && *last_commands == other.last_commands
+            && *history == other.history
             && *couplings == other.couplings
             && *cycles == other.cycles
             && *refused == other.refused

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::last_commands::LastCommands;
+use super::found_states::FoundStates;
+use super::history::History;
 use super::possible_state::PossibleStates;
 use super::stopping::FailedAt;
-use super::untouched::FoundStates;
 use super::way_condition::WayCondition;
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
@@ -259,7 +259,7 @@ pub(crate) struct StoppedState {
     pub(crate) ends: Vec<ProgramEnd>,
     pub(crate) compensation: Compensation,
     pub(crate) possible: Vec<PossibleStates>,
-    pub(crate) last_commands: LastCommands,
+    pub(crate) history: History,
 }
 
 /// The end of a program.
@@ -276,8 +276,8 @@ pub struct Ended<'a> {
     pub at: Option<&'a Place>,
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
-    /// The last commands on each way that ends.
-    pub(crate) last_commands: &'a LastCommands,
+    /// What switched each kind, on each way that ends.
+    pub(crate) history: &'a History,
     /// The state at the errors on all ways, where the run went on after them.
     pub(crate) stopped: Option<&'a StoppedState>,
     /// The error at which the control stops on all ways, where the run went on after it.

@@ -113,25 +113,20 @@ impl Interpreter {
     /// Updates the ways that are shown.
     #[inline]
     pub(crate) fn show_ways(&mut self) {
-        let is_plain = self.state.control.possible.is_empty() && self.state.track.reach.is_always();
-        if is_plain && self.shown.possible.is_empty() && self.shown.branch.is_none() {
-            return;
+        if self.shown.version != self.version {
+            self.show_ways_anew();
         }
-        self.show_ways_anew();
     }
 
-    #[cold]
+    #[inline(never)]
     fn show_ways_anew(&mut self) {
-        if self.shown.version == self.version {
-            return;
-        }
         let State {
             control,
             track,
             conditions,
             ..
         } = &self.state;
-        let state = (&control.compensation, &control.possible);
+        let state = (&control.compensation, &control.history);
         self.shown = ShownWays {
             version: self.version,
             possible: shown(state, &track.reach, conditions),
@@ -346,7 +341,7 @@ impl Interpreter {
 
     /// Takes over the compensation state of an earlier session.
     pub fn set_compensation(&mut self, compensation: Compensation) {
-        self.state.control.possible.clear();
+        self.state.control.history.close_all();
         self.state.control.compensation = compensation;
         self.version += 1;
     }
@@ -481,7 +476,7 @@ impl Interpreter {
 
     /// Kinds of an axis become unknown.
     pub(crate) fn havoc(&mut self, axis: AxisIndex, kinds: KindSet) {
-        self.state.control.possible.replace(axis, kinds);
+        self.state.control.history.close(axis, kinds);
         let compensation = &mut self.state.control.compensation;
         compensation.havoc(axis, kinds, &mut self.scratch.changes);
         let doubted = compensation.unknown(axis).intersection(kinds);

@@ -313,12 +313,7 @@ impl Path {
 
     /// The conditions that its ways name.
     fn conditions(&self) -> BTreeSet<u32> {
-        let ControlState {
-            possible,
-            untouched,
-            ..
-        } = &self.control;
-        let named = possible.conditions().chain(untouched.conditions());
+        let named = self.control.history.conditions();
         named.chain(self.track.reach.conditions()).collect()
     }
 

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::clash::clash;
 use super::condition::{Condition, ConditionKind, KeptAnswer};
-use super::possible::{PossibleKinds, Split};
+use super::history::{History, Split};
 use super::way_condition::{
     BlockCondition, MAX_NAMED, WayChange, WayCondition, after_if, all_need_change, needs_change,
     unless,
@@ -186,18 +186,18 @@ impl PossibleState {
 
 /// Returns the possible states of the unknown kinds on the ways of `reach`.
 pub(crate) fn shown(
-    (compensation, possible): (&Compensation, &PossibleKinds),
+    (compensation, history): (&Compensation, &History),
     reach: &WaySet,
     conditions: &[Condition],
 ) -> Vec<PossibleStates> {
-    let splits = possible
-        .iter()
+    let splits = history
+        .open_kinds()
         .filter(|((axis, kind), _)| compensation.state(*axis, *kind) == State::Unknown);
     let rows = splits.map(|((axis, kind), split)| {
         let state = |membership| {
             let mut decided = compensation.clone();
-            decided.decide(*axis, *kind, membership);
-            decided.state(*axis, *kind)
+            decided.decide(axis, kind, membership);
+            decided.state(axis, kind)
         };
         let Split { on, off } = split;
         // Sets that were widened until they overlap do not tell which state a way leaves.
@@ -224,11 +224,7 @@ pub(crate) fn shown(
         } else {
             vec![named(if_on, &on, conditions), otherwise(if_off)]
         };
-        PossibleStates {
-            axis: *axis,
-            kind: *kind,
-            states,
-        }
+        PossibleStates { axis, kind, states }
     });
     rows.collect()
 }

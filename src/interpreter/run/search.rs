@@ -6,8 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::block_context::BlockContext;
-use super::possible::PossibleKinds;
-use super::untouched::Untouched;
+use super::history::History;
 use crate::comp::Compensation;
 use crate::syntax::ast::Operand;
 
@@ -71,6 +70,5 @@ impl SearchedBlock {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BeforeSearch {
     pub(crate) compensation: Compensation,
-    pub(crate) possible: PossibleKinds,
-    pub(crate) untouched: Untouched,
+    pub(crate) history: History,
 }

@@ -76,7 +76,7 @@ impl State {
         self.track.reach = ways;
         let control = &mut self.control;
         control
-            .possible
+            .history
             .narrow(&self.track.reach, &mut control.compensation);
     }
 

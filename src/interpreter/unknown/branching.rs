@@ -346,7 +346,7 @@ impl Interpreter {
         goals: [Goal; 2],
         at: &BlockContext<'_>,
     ) -> bool {
-        let Some(split) = self.state.control.possible.of(axis, kind) else {
+        let Some(split) = self.state.control.history.states(axis, kind) else {
             return false;
         };
         let ways = [split.on.clone(), split.off.clone()];
@@ -395,8 +395,7 @@ impl State {
     pub(crate) fn ask_anew(&mut self, wanted: Condition) -> u32 {
         let condition = self.condition_at(wanted);
         self.track.reach.havoc(condition);
-        self.control.possible.havoc(condition);
-        self.control.untouched.havoc(condition);
+        self.control.history.havoc(condition);
         condition
     }
 
@@ -410,10 +409,9 @@ impl State {
             last = Some(number);
             wanted.round = wanted.round.max(known.round.saturating_add(1));
             let mut named = self.track.reach.conditions();
-            let mut possible = self.control.possible.conditions();
-            let mut untouched = self.control.untouched.conditions();
+            let mut switched = self.control.history.conditions();
             let is_it = |it| it == number;
-            if !(named.any(is_it) || possible.any(is_it) || untouched.any(is_it)) {
+            if !(named.any(is_it) || switched.any(is_it)) {
                 return number;
             }
         }

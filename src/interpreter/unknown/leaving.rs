@@ -7,9 +7,9 @@ use super::branching::{MAX_CONDITIONS, answers};
 use crate::comp::{AxisIndex, Kind};
 use crate::interpreter::run::block_scratch::LeftOpen;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
+use crate::interpreter::run::history::Split;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
-use crate::interpreter::run::possible::Split;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
@@ -45,8 +45,8 @@ impl Interpreter {
         let reach = &self.state.track.reach;
         let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
         if let (Some(on), Some(off)) = (sides.next(), sides.next()) {
-            let possible = &mut self.state.control.possible;
-            possible.insert(axis, kind, Split { on, off });
+            let history = &mut self.state.control.history;
+            history.open(axis, kind, Split { on, off });
         }
     }
 }

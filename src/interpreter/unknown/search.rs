@@ -7,9 +7,9 @@ use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
+use crate::interpreter::run::history::HistorySide;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Last;
-use crate::interpreter::run::possible::{PossibleSide, join};
 use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::values::cause::Unknown;
@@ -45,8 +45,7 @@ impl Interpreter {
             let control = &self.state.control;
             self.state.track.searching = Some(Box::new(BeforeSearch {
                 compensation: control.compensation.clone(),
-                possible: control.possible.clone(),
-                untouched: control.untouched.clone(),
+                history: control.history.clone(),
             }));
         }
     }
@@ -68,9 +67,7 @@ impl Interpreter {
             Some(Alternative::Second) => {
                 let control = &mut self.state.control;
                 control.compensation = before.compensation;
-                control.possible = before.possible;
-                control.untouched = before.untouched;
-                control.last_commands.clear();
+                control.history = before.history;
                 self.version += 1;
             }
             None => self.search_either_way(&before, at),
@@ -110,21 +107,14 @@ impl Interpreter {
             return;
         };
         let control = &mut self.state.control;
-        let mine = PossibleSide {
-            compensation: &control.compensation,
-            possible: &control.possible,
-            reach: executed,
-        };
-        let theirs = PossibleSide {
+        let theirs = HistorySide {
             compensation: &before.compensation,
-            possible: &before.possible,
+            history: &before.history,
             reach: decoded,
         };
-        let joined = join(&mine, &theirs);
-        (control.compensation, control.possible) = joined;
         control
-            .untouched
-            .join(&before.untouched, [executed, decoded]);
+            .history
+            .join(&mut control.compensation, executed, &theirs);
     }
 
     fn differing_since(&self, before: &BeforeSearch) -> Vec<(AxisIndex, Kind)> {

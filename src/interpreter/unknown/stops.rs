@@ -38,7 +38,7 @@ impl Interpreter {
                 NextStart::Reset => self.reset_after_stop(),
                 NextStart::Restart => {
                     self.restart();
-                    self.state.control.last_commands.clear();
+                    self.state.control.history.forget_commands();
                 }
             }
             let end = self.scratch.end.replace(OwnEnd {

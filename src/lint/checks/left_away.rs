@@ -15,7 +15,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
     for axis in (0..left.len()).map(AxisIndex::new) {
         for kind in Kind::ALL {
             let end = left.state(axis, kind);
-            if end == linter.history.start_up(axis, kind) {
+            if end == linter.states.start_up(axis, kind) {
                 continue;
             }
             let did = linter.memory.axis(axis).kind(kind);
@@ -30,8 +30,8 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
             let mut possible = possible.filter(|it| (it.axis, it.kind) == (axis, kind));
             let possible = possible.next();
             // If ways differ, the command that leads away on some of them counts.
-            let command = command_to(ended, (axis, kind), &linter.history.start_up);
-            let is_on = linter.history.start_up(axis, kind) != State::Inactive;
+            let command = command_to(ended, (axis, kind), &linter.states.start_up);
+            let is_on = linter.states.start_up(axis, kind) != State::Inactive;
             let switched = did.switched[usize::from(!is_on)].as_ref();
             let away = command.as_ref().filter(|_| end == State::Unknown);
             let away = away.or(switched);
@@ -94,7 +94,7 @@ impl LeftAwayKind<'_> {
         let message = format!(
             "`{keyword}` of axis `{name}` is left {} after {ending}; the control starts with it {}",
             self.end.as_str(),
-            self.linter.history.start_up(self.axis, self.kind).as_str()
+            self.linter.states.start_up(self.axis, self.kind).as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
@@ -104,7 +104,7 @@ impl LeftAwayKind<'_> {
     /// Reports that a selection may also be left away, depending on a value that only the machine knows.
     fn may_be_left(&self, site: &BlockSite, ending: &str) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
-        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let start_up = self.linter.states.start_up(self.axis, self.kind);
         let away = match start_up {
             State::Inactive => State::Active,
             _ => State::Inactive,
@@ -165,7 +165,7 @@ impl LeftAwayKind<'_> {
 
     /// Returns the state away from the start-up state that some ways leave.
     fn state_away(&self) -> Option<(&PossibleStates, State)> {
-        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let start_up = self.linter.states.start_up(self.axis, self.kind);
         let possible = self.possible?;
         let mut states = possible.states.iter().map(|it| it.state);
         Some((possible, states.find(|state| *state != start_up)?))
@@ -179,7 +179,7 @@ impl LeftAwayKind<'_> {
 
     /// Returns the ways on which it is left away (R14.5).
     fn ways_away(&self, file: &str) -> Option<String> {
-        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let start_up = self.linter.states.start_up(self.axis, self.kind);
         let (possible, away) = self.state_away()?;
         let ways = possible.ways_to(away, file);
         ways.or_else(|| possible.unless(start_up, file))
@@ -187,7 +187,7 @@ impl LeftAwayKind<'_> {
 
     /// Returns the command that restores the state at the start of the control.
     fn way_home(&self) -> String {
-        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let start_up = self.linter.states.start_up(self.axis, self.kind);
         let way = match (self.end, start_up) {
             (State::Inactive, _) => "ON",
             (State::Unknown, start_up) if start_up != State::Inactive => "ON",
@@ -199,7 +199,7 @@ impl LeftAwayKind<'_> {
 
     /// Returns the ends at which the kind is, or may be, away from its start-up state.
     fn ends(&self) -> impl Iterator<Item = &ProgramEnd> {
-        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let start_up = self.linter.states.start_up(self.axis, self.kind);
         let ends = self.ended.ends.iter();
         ends.filter(move |end| end.compensation.state(self.axis, self.kind) != start_up)
     }

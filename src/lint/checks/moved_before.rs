@@ -3,9 +3,9 @@
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
 use crate::interpreter::{Certainty, Executed, MotionKind, MovedAxis, UntouchedOn};
-use crate::lint::history::Maker;
 use crate::lint::linter::Linter;
 use crate::lint::memory::{Held, Touch, is_of_a_kind};
+use crate::lint::session_states::Maker;
 use crate::syntax::code_of;
 use crate::text::lines_of;
 
@@ -103,7 +103,7 @@ fn said(
     ways: &str,
 ) -> Diagnostic {
     let name = linter.name(axis);
-    let who = match linter.history.maker(axis, Kind::Frict) {
+    let who = match linter.states.maker(axis, Kind::Frict) {
         Some(maker) => named(maker),
         None => "a program that is not known".to_owned(),
     };

@@ -57,14 +57,14 @@ struct Away {
 
 /// States left by the programs of a session, and the states at the start of the control.
 #[derive(Debug, Clone)]
-pub(crate) struct History {
+pub(crate) struct SessionStates {
     pub(super) start_up: Compensation,
     axes: Vec<[Away; Kind::ALL.len()]>,
     /// The kinds of each axis that nothing has switched since the start of the control.
     unswitched: Vec<KindSet>,
 }
 
-impl History {
+impl SessionStates {
     pub(crate) fn new(start_up: Compensation) -> Self {
         Self {
             axes: vec![Default::default(); start_up.len()],

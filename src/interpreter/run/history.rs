@@ -1,0 +1,424 @@
+//! History of the switching of each kind of compensation on each axis, which every reader asks: which state it has on
+//! which ways (R14.2), on which ways it is still as the program found it (R1.52), and which commands left it so (R1.50).
+//!
+//! ```text
+//! N10 $IF V.E.A == 1
+//! N20   X[COMP OFF FRICT]
+//! N30 $ENDIF
+//! N40 M30
+//! ```
+//!
+//! At N40, FRICT of X is off `if V.E.A == 1` and on otherwise, as found unless `V.E.A == 1`, and the command that
+//! switched it off last is that of N20. Where ways meet, only kinds whose histories differ are joined.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::way_set::WaySet;
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership, Selection};
+use crate::interpreter::values::rows;
+use crate::text::Place;
+
+/// Number of commands of one direction kept for a kind where ways meet; of more, the later lines are kept.
+const MAX_KEPT: usize = 16;
+
+/// A kind of an axis.
+type AxisKind = (AxisIndex, Kind);
+
+/// The ways on which a kind of an axis is selected, and those on which it is not.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Split {
+    pub(crate) on: WaySet,
+    pub(crate) off: WaySet,
+}
+
+impl Split {
+    /// Restricts both to some ways.
+    pub(crate) fn and(&self, ways: &WaySet) -> Self {
+        Self {
+            on: self.on.and(ways),
+            off: self.off.and(ways),
+        }
+    }
+
+    /// Renumbers the conditions of both.
+    pub(crate) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
+        Self {
+            on: self.on.renumbered(&number),
+            off: self.off.renumbered(&number),
+        }
+    }
+
+    /// Whether all conditions that it names are below a number.
+    pub(crate) fn fits(&self, conditions: usize) -> bool {
+        self.conditions().all(|it| (it as usize) < conditions)
+    }
+
+    /// The conditions that both name.
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
+        self.on.conditions().chain(self.off.conditions())
+    }
+
+    /// The only selection that is possible.
+    fn only(&self) -> Option<Membership> {
+        match (self.on.is_never(), self.off.is_never()) {
+            (false, true) => Some(Membership::In),
+            (true, false) => Some(Membership::Out),
+            _ => None,
+        }
+    }
+}
+
+/// A COMP command that was executed last on some way.
+#[derive(Debug, Clone, Eq, Serialize, Deserialize)]
+pub(crate) struct LastCommand {
+    /// The executed block.
+    pub(crate) seq: u64,
+    pub(crate) place: Place,
+}
+
+impl PartialEq for LastCommand {
+    /// A command that a loop repeats counts as equal.
+    fn eq(&self, other: &Self) -> bool {
+        self.place == other.place
+    }
+}
+
+/// The last commands of one direction, by file and line.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<LastCommand>", from = "Vec<LastCommand>")]
+struct LastCommands(BTreeMap<(Arc<str>, u32), LastCommand>);
+
+impl From<Vec<LastCommand>> for LastCommands {
+    fn from(commands: Vec<LastCommand>) -> Self {
+        let line = |it: &LastCommand| (Arc::clone(&it.place.file), it.place.first_line);
+        Self(commands.into_iter().map(|it| (line(&it), it)).collect())
+    }
+}
+
+impl From<LastCommands> for Vec<LastCommand> {
+    fn from(commands: LastCommands) -> Self {
+        commands.0.into_values().collect()
+    }
+}
+
+impl LastCommands {
+    fn join(&mut self, other: &Self) {
+        for (line, command) in &other.0 {
+            self.0
+                .entry(line.clone())
+                .or_insert_with(|| command.clone());
+        }
+        while self.0.len() > MAX_KEPT {
+            self.0.pop_first();
+        }
+    }
+}
+
+/// History of a kind of an axis in the running program.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+struct KindHistory {
+    /// The ways on which it is as the program found it; `None` for all that lead here.
+    found: Option<WaySet>,
+    /// The ways to each state where they differ; a kind that is unknown without them may be in any state on any way.
+    states: Option<Split>,
+    /// The commands that are the last ones on some way: those that switch it off, and those that switch it on.
+    commands: [LastCommands; 2],
+}
+
+impl KindHistory {
+    fn sets(&self) -> impl Iterator<Item = &WaySet> {
+        let states = self.states.iter().flat_map(|it| [&it.on, &it.off]);
+        states.chain(&self.found)
+    }
+
+    fn found_on(&self, reach: &WaySet) -> WaySet {
+        self.found
+            .as_ref()
+            .map_or_else(|| reach.clone(), |ways| ways.and(reach))
+    }
+
+    /// Joins everything but the states. `reach` has the ways to this history and to the other.
+    fn join(&mut self, other: &Self, reach: [&WaySet; 2]) {
+        if self.found != other.found {
+            let mut found = self.found_on(reach[0]);
+            found.or(&other.found_on(reach[1]));
+            self.found = Some(found);
+        }
+        for (mine, theirs) in self.commands.iter_mut().zip(&other.commands) {
+            mine.join(theirs);
+        }
+    }
+}
+
+/// The histories of all kinds of all axes. One without an entry is as the program found it on every way.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct History(#[serde(with = "rows")] BTreeMap<AxisKind, Arc<KindHistory>>);
+
+/// A state of the compensation and its history, with the ways on which the control has it.
+pub(crate) struct HistorySide<'a> {
+    pub(crate) compensation: &'a Compensation,
+    pub(crate) history: &'a History,
+    pub(crate) reach: &'a WaySet,
+}
+
+impl HistorySide<'_> {
+    /// The ways to each state of a kind; `None` where they are not known.
+    fn split(&self, (axis, kind): AxisKind) -> Option<Split> {
+        if self.compensation.unknown(axis).contains(kind) {
+            let split = self.history.states(axis, kind)?;
+            return Some(split.and(self.reach));
+        }
+        let (reach, never) = (self.reach.clone(), WaySet::never());
+        Some(if self.compensation.selected(axis).contains(kind) {
+            Split {
+                on: reach,
+                off: never,
+            }
+        } else {
+            Split {
+                on: never,
+                off: reach,
+            }
+        })
+    }
+
+    /// Whether a kind is unknown on both sides, with the same ways to its states.
+    fn is_open_alike(&self, (axis, kind): AxisKind, theirs: &Self) -> bool {
+        let is_unknown = |it: &Self| it.compensation.unknown(axis).contains(kind);
+        is_unknown(self)
+            && is_unknown(theirs)
+            && self.is_parameterised_alike((axis, kind), theirs)
+            && self.history.states(axis, kind) == theirs.history.states(axis, kind)
+    }
+
+    fn is_parameterised_alike(&self, (axis, kind): AxisKind, theirs: &Self) -> bool {
+        let both = [self, theirs].map(|it| it.compensation.is_parameterised(axis, kind));
+        both[0] == both[1]
+    }
+
+    /// The ways of both sides to each state of a kind; `None` where they are not known.
+    fn join_states(&self, key: AxisKind, theirs: &Self) -> Option<Split> {
+        let (mut split, other) = self.split(key).zip(theirs.split(key))?;
+        split.on.or(&other.on);
+        split.off.or(&other.off);
+        Some(split).filter(|_| self.is_parameterised_alike(key, theirs))
+    }
+}
+
+impl History {
+    /// The histories of kinds of which only the ways to their states are known.
+    pub(crate) fn of_states(states: impl IntoIterator<Item = (AxisKind, Split)>) -> Self {
+        let mut history = Self::default();
+        for ((axis, kind), split) in states {
+            history.open(axis, kind, split);
+        }
+        history
+    }
+
+    /// A program begins: it finds the states that the one before it left.
+    pub(crate) fn begin_program(&mut self) {
+        self.change_all(|kind| {
+            kind.found = None;
+            kind.commands = Default::default();
+        });
+    }
+
+    /// A command switches kinds of an axis: on this way it is the last one.
+    pub(crate) fn switch(&mut self, axis: AxisIndex, selection: Selection, command: LastCommand) {
+        let mut commands = [LastCommands::default(), LastCommands::default()];
+        let is_on = matches!(selection, Selection::On(_));
+        commands[usize::from(is_on)] = vec![command].into();
+        let switched = Arc::new(KindHistory {
+            found: Some(WaySet::never()),
+            states: None,
+            commands,
+        });
+        for kind in selection.kinds().iter() {
+            self.0.insert((axis, kind), Arc::clone(&switched));
+        }
+    }
+
+    /// Something other than a command sets kinds of an axis.
+    pub(crate) fn set(&mut self, axis: AxisIndex, kinds: KindSet) {
+        let set = Arc::new(KindHistory {
+            found: Some(WaySet::never()),
+            ..KindHistory::default()
+        });
+        for kind in kinds.iter() {
+            self.0.insert((axis, kind), Arc::clone(&set));
+        }
+    }
+
+    /// A restart of the control comes after the commands.
+    pub(crate) fn forget_commands(&mut self) {
+        self.change_all(|kind| kind.commands = Default::default());
+    }
+
+    /// The states of kinds of an axis are known, or may be any on any way.
+    pub(crate) fn close(&mut self, axis: AxisIndex, kinds: KindSet) {
+        for kind in kinds.iter() {
+            if self.states(axis, kind).is_some() {
+                self.change((axis, kind), |it| it.states = None);
+            }
+        }
+    }
+
+    /// The states of all kinds of all axes are known, or may be any on any way.
+    pub(crate) fn close_all(&mut self) {
+        self.change_all(|kind| kind.states = None);
+    }
+
+    /// A kind of an axis has either state, each on its ways.
+    pub(crate) fn open(&mut self, axis: AxisIndex, kind: Kind, split: Split) {
+        self.change((axis, kind), |it| it.states = Some(split));
+    }
+
+    /// Whether the state of some kind differs between ways.
+    #[inline]
+    pub(crate) fn is_open(&self) -> bool {
+        self.0.values().any(|kind| kind.states.is_some())
+    }
+
+    /// The ways to the states of a kind of an axis, where they differ.
+    pub(crate) fn states(&self, axis: AxisIndex, kind: Kind) -> Option<&Split> {
+        self.0.get(&(axis, kind))?.states.as_ref()
+    }
+
+    /// The kinds whose states differ between ways.
+    pub(crate) fn open_kinds(&self) -> impl Iterator<Item = (AxisKind, &Split)> {
+        let kinds = self.0.iter();
+        kinds.filter_map(|(key, kind)| Some((*key, kind.states.as_ref()?)))
+    }
+
+    /// Those of the ways to a block on which a kind is as the program found it.
+    pub(crate) fn found(&self, key: AxisKind, reach: &WaySet) -> WaySet {
+        let known = self.0.get(&key);
+        known.map_or_else(|| reach.clone(), |kind| kind.found_on(reach))
+    }
+
+    /// The ways on which a kind is as the program found it, as they are; `None` for all that lead to the block.
+    pub(crate) fn found_ways(&self, axis: AxisIndex, kind: Kind) -> Option<&WaySet> {
+        self.0.get(&(axis, kind))?.found.as_ref()
+    }
+
+    /// The command that was executed latest, of those that are the last ones on some way and switch a kind off, or on.
+    pub(crate) fn latest(
+        &self,
+        axis: AxisIndex,
+        kind: Kind,
+        selected: Membership,
+    ) -> Option<&LastCommand> {
+        let kind = self.0.get(&(axis, kind))?;
+        let commands = &kind.commands[usize::from(selected == Membership::In)];
+        commands.0.values().max_by_key(|it| it.seq)
+    }
+
+    /// The run continues on some ways only: whatever they all agree on is known.
+    pub(crate) fn narrow(&mut self, ways: &WaySet, compensation: &mut Compensation) {
+        let known: Vec<(AxisKind, Membership)> = self
+            .open_kinds()
+            .filter_map(|(key, split)| Some((key, split.and(ways).only()?)))
+            .collect();
+        for ((axis, kind), only) in known {
+            compensation.decide(axis, kind, only);
+            self.close(axis, KindSet::of(kind));
+        }
+    }
+
+    /// A condition is asked again.
+    pub(crate) fn havoc(&mut self, condition: u32) {
+        for kind in self.0.values_mut() {
+            if kind
+                .sets()
+                .any(|ways| ways.conditions().any(|it| it == condition))
+            {
+                let KindHistory { found, states, .. } = Arc::make_mut(kind);
+                let states = states.iter_mut().flat_map(|it| [&mut it.on, &mut it.off]);
+                states.chain(found).for_each(|ways| ways.havoc(condition));
+            }
+        }
+    }
+
+    /// Joins the states of two ways that meet: those to `compensation`, on the ways of `reach`, and theirs.
+    pub(crate) fn join(
+        &mut self,
+        compensation: &mut Compensation,
+        reach: &WaySet,
+        theirs: &HistorySide<'_>,
+    ) {
+        let axes = (0..compensation.len()).map(AxisIndex::new);
+        let differing = axes.flat_map(|axis| {
+            let kinds = compensation.differing(theirs.compensation, axis);
+            kinds
+                .iter()
+                .map(move |kind| (axis, kind))
+                .collect::<Vec<_>>()
+        });
+        let differing: BTreeSet<AxisKind> = differing.collect();
+        let mut keys = differing.clone();
+        if *self != *theirs.history {
+            keys.extend(self.0.keys().chain(theirs.history.0.keys()));
+        }
+        for key @ (axis, kind) in keys {
+            let mine = HistorySide {
+                compensation,
+                history: self,
+                reach,
+            };
+            let (known, other) = (self.0.get(&key), theirs.history.0.get(&key));
+            let is_alike = !differing.contains(&key) || mine.is_open_alike(key, theirs);
+            if is_alike && known == other {
+                continue;
+            }
+            let states = (!is_alike).then(|| mine.join_states(key, theirs));
+            let mut joined = known.map(|it| KindHistory::clone(it)).unwrap_or_default();
+            if known != other {
+                let other = other.map(|it| KindHistory::clone(it)).unwrap_or_default();
+                joined.join(&other, [reach, theirs.reach]);
+            }
+            if let Some(states) = states {
+                let only = states.as_ref().and_then(Split::only);
+                match only {
+                    Some(only) => compensation.decide(axis, kind, only),
+                    None => compensation.havoc(axis, KindSet::of(kind), &mut Vec::new()),
+                }
+                joined.states = states.filter(|_| only.is_none());
+            }
+            self.change(key, |it| *it = joined);
+        }
+    }
+
+    /// The ways of each kind that are compared where ways meet.
+    pub(crate) fn sets(&self) -> impl Iterator<Item = &WaySet> {
+        self.0.values().flat_map(|kind| kind.sets())
+    }
+
+    /// The conditions that ways name.
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
+        self.sets().flat_map(WaySet::conditions)
+    }
+
+    /// Whether all axes and conditions that it names are below a number of each.
+    pub(crate) fn fits(&self, axes: usize, conditions: usize) -> bool {
+        self.0.keys().all(|(axis, _)| axis.get() < axes)
+            && self.conditions().all(|it| (it as usize) < conditions)
+    }
+
+    fn change(&mut self, key: AxisKind, change: impl FnOnce(&mut KindHistory)) {
+        let mut kind = self.0.remove(&key).unwrap_or_default();
+        change(Arc::make_mut(&mut kind));
+        if *kind != KindHistory::default() {
+            self.0.insert(key, kind);
+        }
+    }
+
+    fn change_all(&mut self, change: impl Fn(&mut KindHistory)) {
+        self.0.retain(|_, kind| {
+            change(Arc::make_mut(kind));
+            **kind != KindHistory::default()
+        });
+    }
+}

@@ -80,10 +80,11 @@ impl Interpreter {
 
     /// Calls the next of several programs that one block calls.
     #[cold]
-    pub(crate) fn call_waiting(&mut self) {
+    pub(crate) fn call_waiting(&mut self) -> ControlFlow<EndedBy> {
         let frame = self.state.control.frames.running_mut();
-        if let Some(request) = frame.and_then(|frame| frame.waiting.pop()) {
-            self.push_call(request);
+        match frame.and_then(|frame| frame.waiting.pop()) {
+            Some(request) => self.call(request),
+            None => ControlFlow::Continue(()),
         }
     }
 
@@ -99,7 +100,7 @@ impl Interpreter {
         });
         if again.is_none() {
             self.note_return();
-            self.leave();
+            self.come_back_from_call();
         }
     }
 
@@ -131,7 +132,7 @@ impl Interpreter {
             .running()
             .is_some_and(|frame| frame.level > to.level)
         {
-            self.leave();
+            self.leave_for_elsewhere();
         }
         if let Some(frame) = self.state.control.frames.running_mut() {
             frame.waiting.clear();
@@ -182,7 +183,7 @@ impl Interpreter {
                     requests.reverse();
                     frame.waiting = requests;
                 }
-                self.push_call(first);
+                return self.call(first);
             }
             ControlStep::Return => match self.state.control.frames.running() {
                 Some(frame) if frame.level > 0 => self.end_of_pass(),

@@ -5,8 +5,9 @@ use std::ops::RangeInclusive;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::loop_heads::{Arrival, LoopHead, head_place};
+use crate::interpreter::run::loop_heads::{Arrival, LoopHead, head_place, place_at};
 use crate::interpreter::run::path::{Path, RunTrack};
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::cause::Unknown;
 
@@ -24,6 +25,16 @@ const MOST_JOINED_PASSES: u64 = 64;
 pub(super) enum Repeats {
     Known,
     Unknown,
+}
+
+/// The loop around another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Around {
+    Nothing,
+    /// It is executed pass by pass.
+    Known,
+    /// It is joined at its head.
+    Joined,
 }
 
 impl Interpreter {
@@ -84,14 +95,14 @@ impl Interpreter {
         let frames = &self.state.control.frames;
         let place = head_place(frames, target);
         let heads = &mut self.state.loop_heads;
-        if heads.get(&place).is_none() {
+        if !heads.has(&place) {
             let is_first = last.is_none();
             let head = LoopHead {
                 blocks: blocks.clone(),
                 state: last.unwrap_or_else(|| now.clone()),
             };
             heads.insert(place.clone(), head);
-            if !self.is_repeated_around(*blocks.start()) {
+            if self.around(*blocks.start()) == Around::Nothing {
                 let frames = &self.state.control.frames;
                 self.state.loop_heads.drop_without(frames, blocks);
             }
@@ -129,7 +140,7 @@ impl Interpreter {
             return false;
         };
         let blocks = head.blocks.clone();
-        if !self.is_repeated_around(*blocks.start()) {
+        if self.around(*blocks.start()) != Around::Joined {
             self.state.drop_heads(&blocks);
             return false;
         }
@@ -137,33 +148,43 @@ impl Interpreter {
         self.reach_head(block, (None, now), &blocks) == Arrival::Covered
     }
 
-    /// Whether the innermost loop around another one is joined at its head, or a jump leads back to before it.
-    fn is_repeated_around(&self, opener: EntryIndex) -> bool {
+    /// How the innermost loop around another one is repeated, in the running program or in those that call it.
+    fn around(&self, opener: EntryIndex) -> Around {
+        let State {
+            control,
+            track,
+            loop_heads,
+            ..
+        } = &self.state;
         let mut inner = Some(opener);
-        let frames = self.state.control.frames.iter().rev();
-        let depths = (1..=self.state.control.frames.depth()).rev();
-        for (frame, depth) in frames.zip(depths) {
+        for depth in (1..=control.frames.depth()).rev() {
+            let Some(frame) = control.frames.iter().nth(depth - 1) else {
+                continue;
+            };
             let block = inner.take().unwrap_or(frame.next.saturating_sub(1));
-            let track = &self.state.track;
-            let index = self.programs.index(frame.unit);
-            if let Some(around) = index.loop_around(block) {
-                return track.open_loops.contains(&(depth, frame.unit, around));
-            }
-            let mut repeated = track.loops.iter();
-            if repeated.any(|it| it.depth == depth && it.head < block && block <= it.from) {
-                return true;
-            }
+            let structured = self.programs.index(frame.unit).loop_around(block);
+            let mut repeated = track.loops.iter().rev();
+            let repeated = repeated
+                .find(|it| it.depth == depth && it.head < block && block <= it.from)
+                .filter(|it| structured.is_none_or(|opener| it.head > opener));
+            let is_joined = match (repeated, structured) {
+                (Some(known), _) => loop_heads.has(&place_at(&control.frames, depth, known.target)),
+                (None, Some(opener)) => track.open_loops.contains(&(depth, frame.unit, opener)),
+                (None, None) => continue,
+            };
+            return if is_joined {
+                Around::Joined
+            } else {
+                Around::Known
+            };
         }
-        false
+        Around::Nothing
     }
 
     /// Whether the loop whose passes begin with a block is joined there.
     pub(super) fn is_joined_at(&self, target: EntryIndex) -> bool {
         let heads = &self.state.loop_heads;
-        !heads.is_empty() && {
-            let place = head_place(&self.state.control.frames, target);
-            heads.get(&place).is_some()
-        }
+        !heads.is_empty() && heads.has(&head_place(&self.state.control.frames, target))
     }
 
     /// The state with which a pass begins.

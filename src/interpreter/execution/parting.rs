@@ -37,8 +37,11 @@ impl Interpreter {
             if let ControlStep::Jump(to) = goes_on {
                 self.state.control.set_next(to);
                 // A program that the block calls runs on each way.
-                if let Some(call @ ControlStep::Call(_)) = step {
-                    let _ = self.follow(call.clone());
+                if let Some(call @ ControlStep::Call(_)) = step
+                    && self.follow(call.clone()).is_break()
+                {
+                    self.scratch.covered = false;
+                    continue;
                 }
                 open.push(self.state.leave_path());
             }

@@ -29,7 +29,11 @@ impl Interpreter {
             };
             let (unit, section, next) = (frame.unit, frame.section, frame.next);
             if !frame.waiting.is_empty() {
-                self.call_waiting();
+                if let ControlFlow::Break(by) = self.call_waiting()
+                    && let Some(by) = self.end_path(by)
+                {
+                    return RunOutcome::Ended(by);
+                }
                 continue;
             }
             let is_past = next >= self.programs.section(ProgramId { unit, section }).end;

@@ -124,6 +124,7 @@ impl Interpreter {
         self.state.is_widened = false;
         self.state.waiting.clear();
         self.state.loop_heads.clear();
+        self.state.call_effects.clear();
         self.state.ended.clear();
         self.sides.clear();
         self.joined.clear();

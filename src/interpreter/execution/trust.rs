@@ -56,8 +56,8 @@ impl<'a> Trust<'a> {
         self.check_parked()?;
         self.check_path(&state.control, &state.track)?;
         let ended = state.ended.iter().map(|ended| &ended.path);
-        let heads = state.loop_heads.states();
-        for path in state.waiting.iter().chain(heads).chain(ended) {
+        let kept = state.loop_heads.states().chain(state.call_effects.states());
+        for path in state.waiting.iter().chain(kept).chain(ended) {
             self.check_path(&path.control, &path.track)?;
         }
         let begins = !self.programs.units().is_empty()

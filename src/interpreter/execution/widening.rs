@@ -58,6 +58,7 @@ impl Interpreter {
         }
         joined.track.loops.clear();
         self.state.loop_heads.clear();
+        self.state.call_effects.clear();
         joined.track.open_loops.clear();
         joined.track.marked = None;
         self.enter_path(joined);

@@ -18,7 +18,7 @@ use crate::text::{Place, SourceFile, Span, TextLines};
 pub(crate) type EntryIndex = u32;
 
 /// A program of the run: a section of one of its files, both by their positions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub(crate) struct ProgramId {
     pub(crate) unit: usize,
     pub(crate) section: usize,

@@ -51,7 +51,7 @@ impl FoundStates<'_> {
     /// Whether a kind of an axis may still be in the state that the program found.
     pub(crate) fn has(self, axis: AxisIndex, kind: Kind) -> bool {
         let ways = self.history.found_ways(axis, kind);
-        ways.is_none_or(|ways| !ways.is_never() && !ways.and(self.reach).is_never())
+        ways.is_none_or(|ways| !ways.is_apart_from(self.reach))
     }
 
     /// Whether it is on all ways, except where a value changes that the program set.

@@ -61,9 +61,9 @@ impl Split {
         self.on.conditions().chain(self.off.conditions())
     }
 
-    /// The only selection that is possible.
-    fn only(&self) -> Option<Membership> {
-        match (self.on.is_never(), self.off.is_never()) {
+    /// The only selection that is possible on some ways.
+    fn only_on(&self, ways: &WaySet) -> Option<Membership> {
+        match (self.on.is_apart_from(ways), self.off.is_apart_from(ways)) {
             (false, true) => Some(Membership::In),
             (true, false) => Some(Membership::Out),
             _ => None,
@@ -320,7 +320,7 @@ impl History {
     pub(crate) fn narrow(&mut self, ways: &WaySet, compensation: &mut Compensation) {
         let known: Vec<(AxisKind, Membership)> = self
             .open_kinds()
-            .filter_map(|(key, split)| Some((key, split.and(ways).only()?)))
+            .filter_map(|(key, split)| Some((key, split.only_on(ways)?)))
             .collect();
         for ((axis, kind), only) in known {
             compensation.decide(axis, kind, only);
@@ -380,7 +380,7 @@ impl History {
                 joined.join(&other, [reach, theirs.reach]);
             }
             if let Some(states) = states {
-                let only = states.as_ref().and_then(Split::only);
+                let only = states.as_ref().and_then(|it| it.only_on(&WaySet::always()));
                 match only {
                     Some(only) => compensation.decide(axis, kind, only),
                     None => compensation.havoc(axis, KindSet::of(kind), &mut Vec::new()),

@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::block_scratch::BlockScratch;
+use super::call_effects::CallEffects;
 use super::channel_axes::AxisNameMeaning;
 use super::control::ControlState;
 use super::journal::{Journal, RegionCall, Regions};
@@ -162,6 +163,7 @@ impl Interpreter {
             track: RunTrack::default(),
             waiting: WaitingPaths::default(),
             loop_heads: LoopHeads::default(),
+            call_effects: CallEffects::default(),
             ended: Vec::new(),
             conditions: Vec::new(),
             seq: 0,

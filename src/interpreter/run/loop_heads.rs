@@ -55,6 +55,10 @@ impl LoopHeads {
         self.0.values_mut().map(|head| &mut head.state)
     }
 
+    pub(crate) fn has(&self, place: &HeadPlace) -> bool {
+        self.0.contains_key(place)
+    }
+
     pub(crate) fn get(&self, place: &HeadPlace) -> Option<&LoopHead> {
         self.0.get(place)
     }
@@ -85,7 +89,13 @@ impl LoopHeads {
 
 /// The place of a block of the running program.
 pub(crate) fn head_place(calls: &CallStack, block: EntryIndex) -> HeadPlace {
-    let mut place: HeadPlace = calls.iter().map(|frame| (frame.unit, frame.next)).collect();
+    place_at(calls, calls.depth(), block)
+}
+
+/// The place of a block of the program at a depth of calls.
+pub(crate) fn place_at(calls: &CallStack, depth: usize, block: EntryIndex) -> HeadPlace {
+    let calls = calls.iter().take(depth);
+    let mut place: HeadPlace = calls.map(|frame| (frame.unit, frame.next)).collect();
     if let Some(last) = place.last_mut() {
         last.1 = block;
     }

@@ -312,7 +312,7 @@ impl Path {
     }
 
     /// The conditions that its ways name.
-    fn conditions(&self) -> BTreeSet<u32> {
+    pub(super) fn conditions(&self) -> BTreeSet<u32> {
         let named = self.control.history.conditions();
         named.chain(self.track.reach.conditions()).collect()
     }

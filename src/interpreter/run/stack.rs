@@ -195,6 +195,20 @@ impl CallStack {
         self.0.pop()
     }
 
+    /// The programs that called the running one.
+    pub(crate) fn without_running(&self) -> Self {
+        Self(self.0[..self.0.len().saturating_sub(1)].to_vec())
+    }
+
+    /// The running program, whoever called it.
+    pub(crate) fn running_alone(&self) -> Self {
+        let alone = |frame: &CallFrame| CallFrame {
+            called_from: None,
+            ..frame.clone()
+        };
+        Self(self.running().map(alone).into_iter().collect())
+    }
+
     /// All programs are left.
     pub(crate) fn clear(&mut self) {
         self.0.clear();

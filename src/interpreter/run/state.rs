@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use super::call_effects::CallEffects;
 use super::condition::Condition;
 use super::control::ControlState;
 use super::loop_heads::LoopHeads;
@@ -31,6 +32,8 @@ pub(crate) struct State {
     pub(crate) waiting: WaitingPaths,
     /// The loops that are joined at their heads.
     pub(crate) loop_heads: LoopHeads,
+    /// The effects of programs that were called on other ways.
+    pub(crate) call_effects: CallEffects,
     /// The ways that have ended.
     pub(crate) ended: Vec<EndedPath>,
     /// The conditions that ways name, by their numbers.
@@ -65,8 +68,9 @@ impl State {
     /// The states of the control on all ways.
     pub(crate) fn controls_mut(&mut self) -> impl Iterator<Item = &mut ControlState> {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
-        let heads = self.loop_heads.states_mut();
-        let others = self.waiting.iter_mut().chain(heads).chain(ended);
+        let kept = self.loop_heads.states_mut();
+        let kept = kept.chain(self.call_effects.states_mut());
+        let others = self.waiting.iter_mut().chain(kept).chain(ended);
         let others = others.map(|path| &mut path.control);
         std::iter::once(&mut self.control).chain(others)
     }

@@ -101,7 +101,7 @@ impl WaySet {
     }
 
     /// Whether each of the ways is one of others.
-    fn is_within(&self, others: &Self) -> bool {
+    pub(crate) fn is_within(&self, others: &Self) -> bool {
         let is_one = |way: &Way| {
             let mut others = others.0.iter();
             others.any(|other| relation(way, other) == Relation::Contained)

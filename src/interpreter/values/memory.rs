@@ -38,10 +38,26 @@ pub(crate) struct Memory {
     locals: Vec<VariableNames>,
     /// The code of each macro, or the cause why it is unknown.
     pub(super) macros: PersistentMap<String, Value>,
-    /// Rises with every change of the macros.
-    macro_version: u64,
+    macro_version: MacroVersion,
     /// The weight of macros.
     weight: Weight,
+}
+
+/// Rises with every change of the macros. It is no part of their state, which returns to what it was.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+struct MacroVersion(u64);
+
+impl MacroVersion {
+    fn rise(&mut self) {
+        self.0 = self.0.wrapping_add(1);
+    }
+}
+
+impl PartialEq for MacroVersion {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Memory {
@@ -358,7 +374,7 @@ impl Memory {
             && self.externals == other.externals
             && self.unknown_names == other.unknown_names
             && self.locals.len() == other.locals.len()
-            && self.macro_version == other.macro_version;
+            && self.has_macros_of(other);
         if !same {
             return None;
         }
@@ -429,7 +445,8 @@ impl Memory {
             self.havoc_macro(name, cause);
         }
         if !names.is_empty() {
-            self.macro_version = self.macro_version.max(*macro_version).wrapping_add(1);
+            self.macro_version.0 = self.macro_version.0.max(macro_version.0);
+            self.macro_version.rise();
         }
         differing + names.len()
     }
@@ -482,7 +499,7 @@ impl Memory {
     }
 
     pub(super) fn hold_macro(&mut self, name: &str, code: Value) {
-        self.macro_version = self.macro_version.wrapping_add(1);
+        self.macro_version.rise();
         self.weight.add(weight(name.len(), &code));
         if let Some(before) = self.macros.insert(name.to_owned(), code) {
             self.weight.take(weight(name.len(), &before));
@@ -515,7 +532,7 @@ impl Memory {
 
     /// `#INIT MACRO TAB`
     pub(crate) fn clear_macros(&mut self) {
-        self.macro_version = self.macro_version.wrapping_add(1);
+        self.macro_version.rise();
         let weights = self
             .macros
             .iter()
@@ -537,7 +554,7 @@ impl Memory {
 
     /// Rises with every change of the macros.
     pub(crate) fn macro_version(&self) -> u64 {
-        self.macro_version
+        self.macro_version.0
     }
 
     /// The `V.S.` variables, which outlive programs.

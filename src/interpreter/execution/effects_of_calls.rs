@@ -1,0 +1,158 @@
+//! Calls whose effects are known from other ways: they are not executed once more (R14.4).
+
+use std::ops::ControlFlow;
+
+use crate::interpreter::run::call_effects::{CallEffect, CalledAt, context};
+use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::loop_heads::Arrival;
+use crate::interpreter::run::path::{Path, RunTrack};
+use crate::interpreter::run::stack::CallStack;
+use crate::interpreter::run::step::{ControlStep, Request};
+use crate::interpreter::values::cause::Unknown;
+
+/// Share of the budget of ways that is used before calls are no longer followed one by one: a quarter.
+const SHARE: u64 = 4;
+
+impl Interpreter {
+    /// Calls a program. Its blocks are executed, unless they were in every state that this one can be; `Break` where
+    /// it is known never to come back.
+    pub(super) fn call(&mut self, request: Request) -> ControlFlow<EndedBy> {
+        let is_whole = request.passage.is_none();
+        self.push_call(request);
+        if is_whole && self.state.work.ways() > self.options.limits.ways / SHARE {
+            return self.call_on_ways();
+        }
+        ControlFlow::Continue(())
+    }
+
+    #[cold]
+    fn call_on_ways(&mut self) -> ControlFlow<EndedBy> {
+        let track = &self.state.track;
+        let Some(called) = self.called().filter(|_| {
+            !self.state.is_widened && track.searching.is_none() && !track.ways.has_targets()
+        }) else {
+            return ControlFlow::Continue(());
+        };
+        let way = self.entry_of_call();
+        let context = context(&self.state.control.frames, called.0);
+        let waiting = &self.state.waiting;
+        let Some(effect) = self.state.call_effects.get_mut(called) else {
+            let effect = CallEffect::of(way, context);
+            self.state.call_effects.insert(called, effect);
+            return ControlFlow::Continue(());
+        };
+        if waiting
+            .iter()
+            .any(|it| is_within(&it.control.frames, called, effect))
+        {
+            return ControlFlow::Continue(());
+        }
+        match effect.take_in(way, &Unknown::Ways) {
+            Arrival::Covered => {
+                let after = effect.after(&self.state.track.reach);
+                self.go_on_after_call(after)
+            }
+            Arrival::Grown => {
+                effect.context = context;
+                let entry = effect.entry().clone();
+                let callers = self.state.control.frames.without_running();
+                self.take_state(entry, callers);
+                ControlFlow::Continue(())
+            }
+        }
+    }
+
+    /// The effect of a call is known: the run continues after it.
+    fn go_on_after_call(&mut self, after: Option<Path>) -> ControlFlow<EndedBy> {
+        let Some(after) = after else {
+            return self.follow(ControlStep::Covered);
+        };
+        let callers = self.state.control.frames.without_running();
+        let depth = callers.depth();
+        self.state.track.reach.clone_from(&after.track.reach);
+        self.take_state(after, callers);
+        self.state.track.readings.clear();
+        self.state.track.change_level(depth);
+        ControlFlow::Continue(())
+    }
+
+    /// Continues in a state, whose programs are called by others.
+    fn take_state(&mut self, state: Path, mut callers: CallStack) {
+        let Path {
+            mut control, track, ..
+        } = state;
+        if let Some(running) = control.frames.pop() {
+            callers.push(running);
+        }
+        control.frames = callers;
+        if !control.memory.has_macros_of(&self.state.control.memory) {
+            self.regions.clear();
+        }
+        self.state.control = control;
+        self.state.track.asked = track.asked;
+        self.state.track.assumed = track.assumed;
+        self.state.track.failed = track.failed;
+        self.journal.begin_anew();
+        self.version += 1;
+    }
+
+    /// The running program, which was called.
+    fn called(&self) -> Option<CalledAt> {
+        let frames = &self.state.control.frames;
+        Some((frames.depth(), frames.program()?))
+    }
+
+    /// The state in which the running program is called.
+    fn entry_of_call(&self) -> Path {
+        let (control, track) = (&self.state.control, &self.state.track);
+        self.charge_copies(control, &track.reach);
+        let mut control = control.clone();
+        control.frames = control.frames.running_alone();
+        Path {
+            control,
+            track: RunTrack {
+                reach: track.reach.clone(),
+                asked: track.asked.clone(),
+                assumed: track.assumed.clone(),
+                failed: track.failed.clone(),
+                ..RunTrack::default()
+            },
+            parted: self.state.seq,
+        }
+    }
+
+    /// The running program comes back to the one that called it.
+    pub(super) fn come_back_from_call(&mut self) {
+        let called = self
+            .called()
+            .filter(|_| !self.state.call_effects.is_empty());
+        self.leave();
+        let Some(called) = called else {
+            return;
+        };
+        let mut way = self.entry_of_call();
+        way.control.frames.clear();
+        let context = context(&self.state.control.frames, called.0);
+        if let Some(effect) = self.state.call_effects.get_mut(called)
+            && effect.context == context
+        {
+            effect.come_back(way, &Unknown::Ways);
+        }
+    }
+
+    /// The running program is left for another place than the block after its call.
+    pub(super) fn leave_for_elsewhere(&mut self) {
+        if let Some(called) = self.called() {
+            self.state.call_effects.remove(called);
+        }
+        self.leave();
+    }
+}
+
+/// Whether a way is in the last executed call of a program.
+fn is_within(calls: &CallStack, (depth, program): CalledAt, effect: &CallEffect) -> bool {
+    let at_depth = calls.iter().nth(depth.saturating_sub(1));
+    at_depth.is_some_and(|frame| frame.program() == program)
+        && context(calls, depth) == effect.context
+}

@@ -85,9 +85,8 @@ impl FeedMoveCounter {
                         _ => travel_on_arc(executed, watched.axis),
                     };
                     let travel = travel.filter(|_| is_plain);
-                    let length = travel.map(|travel| (travel * 1e6).round() / 1e6);
-                    if length != Some(0.0) {
-                        counts.add(watched.state, length);
+                    if !travel.is_some_and(FeedMoves::is_standstill) {
+                        counts.add(watched.state, travel);
                     }
                 }
                 Some(_) => counts.unknown += 1,

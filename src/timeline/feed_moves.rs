@@ -44,6 +44,11 @@ impl FeedMoves {
         self.see(other.longest);
     }
 
+    /// Whether a length is none when rounded to a nanometre.
+    pub(crate) fn is_standstill(length: f64) -> bool {
+        length * 1e6 < 0.5
+    }
+
     /// Adds a move in a state without compensation.
     pub(crate) fn add(&mut self, state: State, length: Option<f64>) {
         match state {
@@ -56,6 +61,7 @@ impl FeedMoves {
 
     fn see(&mut self, length: Option<f64>) {
         let longer = length.filter(|length| self.longest.is_none_or(|longest| *length > longest));
+        let longer = longer.map(|length| (length * 1e6).round() / 1e6);
         self.longest = longer.or(self.longest);
     }
 }

@@ -310,28 +310,26 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// Returns the serialised form with the changes of some kinds. `states` are [`States`], or a writer's copy of those
-    /// of the last record.
-    pub fn with_states<S: Serialize>(&self, kinds: KindSet, states: S) -> impl Serialize {
+    /// Returns the serialised form with the changes and states of some kinds.
+    pub fn with_states(&self, kinds: KindSet) -> impl Serialize {
         #[derive(Serialize)]
-        struct Whole<'a, S> {
+        struct Whole<'a> {
             #[serde(flatten)]
             object: Object<'a>,
             #[serde(flatten)]
-            states: S,
+            states: Option<States<'a>>,
         }
         Whole {
             object: Object::of(self, kinds),
-            states,
+            states: self.state().map(|state| States::of(state, kinds)),
         }
     }
 }
 
 impl Serialize for Record<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let kinds = KindSet::of(Kind::Frict);
-        let states = self.state().map(|state| States::of(state, kinds));
-        self.with_states(kinds, states).serialize(serializer)
+        self.with_states(KindSet::of(Kind::Frict))
+            .serialize(serializer)
     }
 }
 

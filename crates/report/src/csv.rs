@@ -7,7 +7,7 @@ use frictcomp::comp::{AxisIndex, Change, Kind};
 use frictcomp::timeline::{End, Join, PositionFrame, Record, Row, Sink, StateView};
 
 use super::output::{Gathered, Output};
-use super::strings::integer;
+use super::strings::{KeptText, integer};
 use super::view::View;
 use super::visible::{any_byte, is_command, visible, visible_line};
 
@@ -31,8 +31,10 @@ pub struct Csv<W> {
     output: Output<W>,
     view: View,
     held: Held,
-    states: Vec<u8>,
-    version: Option<u64>,
+    /// The field `file`.
+    file: KeptText<String>,
+    /// The fields of the axes for a version of their states.
+    states: KeptText<u64>,
     changes: String,
     positions: Positions,
     /// The fields `file` and `line` of the last row, if it belongs to some ways only.
@@ -58,8 +60,8 @@ impl<W: Write> Csv<W> {
             output: Output::new(writer),
             view,
             held: Held::default(),
-            states: Vec::new(),
-            version: None,
+            file: KeptText::default(),
+            states: KeptText::default(),
             changes: String::new(),
             positions: Positions::Hidden,
             place: Vec::new(),
@@ -92,13 +94,13 @@ impl<W: Write> Csv<W> {
     fn block(&mut self, row: &Row<'_>) {
         self.release();
         self.held.wanted = self.view.shows(row);
-        self.keep_states(row.state);
         let out = &mut self.held.row;
         integer(out, row.program);
         out.push(b',');
         integer(out, row.seq);
         out.push(b',');
-        append_place(out, row.file, row.line);
+        out.extend_from_slice(self.file.of(row.file, |out| append_file(out, row.file)));
+        integer(out, row.line);
         out.push(b',');
         if let Some(number) = row.number {
             integer(out, number);
@@ -106,7 +108,10 @@ impl<W: Write> Csv<W> {
         out.push(b',');
         field(out, row.text);
         out.push(b',');
-        out.extend_from_slice(&self.states);
+        out.extend_from_slice(
+            self.states
+                .of(&row.state.version, |out| append_states(out, row.state)),
+        );
         if self.positions == Positions::Shown {
             append_positions(out, row);
         }
@@ -142,7 +147,6 @@ impl<W: Write> Csv<W> {
     /// only.
     fn joined(&mut self, program: u32, seq: u64, state: StateView<'_>) {
         self.release();
-        self.keep_states(state);
         self.held.wanted = true;
         let out = &mut self.held.row;
         integer(out, program);
@@ -152,7 +156,10 @@ impl<W: Write> Csv<W> {
         out.append(&mut self.place);
         // It has neither a number nor a text, nor positions, nor changes.
         out.extend_from_slice(b",,,");
-        out.extend_from_slice(&self.states);
+        out.extend_from_slice(
+            self.states
+                .of(&state.version, |out| append_states(out, state)),
+        );
         if self.positions == Positions::Shown {
             let columns = state.machine.axes.len() + 1;
             out.extend(std::iter::repeat_n(b',', columns));
@@ -172,20 +179,6 @@ impl<W: Write> Csv<W> {
             self.held.wanted = true;
         }
         self.release();
-    }
-
-    fn keep_states(&mut self, state: StateView<'_>) {
-        if self.version == Some(state.version) {
-            return;
-        }
-        self.version = Some(state.version);
-        self.states.clear();
-        for (index, _) in state.machine.axes.iter().enumerate() {
-            let axis = AxisIndex::new(index);
-            let word = state.state(axis, Kind::Frict).as_str();
-            self.states.extend_from_slice(word.as_bytes());
-            self.states.push(b',');
-        }
     }
 
     /// Writes the row that was held back.
@@ -236,10 +229,22 @@ impl<W: Write> Gathered for Csv<W> {
     }
 }
 
-fn append_place(out: &mut Vec<u8>, file: &str, line: u32) {
+fn append_file(out: &mut Vec<u8>, file: &str) {
     field(out, &visible_line(file));
     out.push(b',');
+}
+
+fn append_place(out: &mut Vec<u8>, file: &str, line: u32) {
+    append_file(out, file);
     integer(out, line);
+}
+
+fn append_states(out: &mut Vec<u8>, state: StateView<'_>) {
+    for (index, _) in state.machine.axes.iter().enumerate() {
+        let word = state.state(AxisIndex::new(index), Kind::Frict).as_str();
+        out.extend_from_slice(word.as_bytes());
+        out.push(b',');
+    }
 }
 
 fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
@@ -265,6 +270,9 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
 /// a spreadsheet would compute, once it has passed over what it takes for blanks, gets a `'` before it,
 /// which makes it a text there (R9.76, R9.94).
 pub(super) fn field(out: &mut Vec<u8>, text: &str) {
+    if text.is_empty() {
+        return;
+    }
     let is_special = |byte: u8| !(0x20..0x7f).contains(&byte) || matches!(byte, b',' | b'"');
     let computes = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if !computes && !any_byte(text.as_bytes(), is_special) {

@@ -1,11 +1,9 @@
 //! The records of chapter 9.2 as JSON objects, one after another in one buffer.
 
-use frictcomp::comp::KindSet;
-use frictcomp::timeline::{Record, StateView, States};
-use serde::{Deserialize, Serialize};
-use serde_json::value::RawValue;
+use frictcomp::timeline::{Record, Row, States};
+use serde::Serialize;
 
-use super::strings::append_json;
+use super::strings::{KeptText, append_json, append_json_text, integer};
 use super::view::View;
 
 /// Text before and after an object.
@@ -15,36 +13,14 @@ pub(super) struct RecordFrame {
     pub(super) after: &'static [u8],
 }
 
-/// The text of [`States`], which stays the same over most blocks.
-#[derive(Debug, Serialize, Deserialize)]
-struct KeptStates {
-    #[serde(skip)]
-    version: u64,
-    friction: Box<RawValue>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    compensation: Option<Box<RawValue>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    possible: Option<Box<RawValue>>,
-}
-
-impl KeptStates {
-    fn of(state: StateView<'_>, kinds: KindSet) -> Self {
-        let mut text = Vec::new();
-        append_json(&mut text, &States::of(state, kinds));
-        let kept = serde_json::from_slice(&text).expect("the keys are those of the states");
-        Self {
-            version: state.version,
-            ..kept
-        }
-    }
-}
-
-/// Appends records; keeps the text of the last states.
+/// Appends records; keeps the text of what stays the same over most blocks.
 #[derive(Debug)]
 pub(super) struct Encoder {
     view: View,
     frame: RecordFrame,
-    states: Option<KeptStates>,
+    file: KeptText<String>,
+    /// The states of a version.
+    states: KeptText<u64>,
 }
 
 impl Encoder {
@@ -52,22 +28,22 @@ impl Encoder {
         Self {
             view,
             frame,
-            states: None,
+            file: KeptText::default(),
+            states: KeptText::default(),
         }
     }
 
     /// Appends the objects of a record, each in its frame.
     pub(super) fn append(&mut self, out: &mut Vec<u8>, record: &Record<'_>) {
-        if let Record::Block(row) = record
-            && !self.view.shows(row)
-        {
-            return;
+        if let Record::Block(row) = record {
+            if !self.view.shows(row) {
+                return;
+            }
+            if is_plain(row) {
+                return self.plain_block(out, row);
+            }
         }
-        if let Some(state) = record.state() {
-            self.keep(state);
-        }
-        let states = record.state().and(self.states.as_ref());
-        let object = record.with_states(self.view.kinds, states);
+        let object = record.with_states(self.view.kinds);
         let ends = matches!(record, Record::End(_));
         if !ends {
             self.object(out, &object);
@@ -80,14 +56,37 @@ impl Encoder {
         }
     }
 
-    fn keep(&mut self, state: StateView<'_>) {
-        if self
-            .states
-            .as_ref()
-            .is_none_or(|kept| kept.version != state.version)
-        {
-            self.states = Some(KeptStates::of(state, self.view.kinds));
+    /// Appends a plain block from its pieces: the same bytes as those of its serialised form.
+    fn plain_block(&mut self, out: &mut Vec<u8>, row: &Row<'_>) {
+        out.extend_from_slice(self.frame.before);
+        out.extend_from_slice(br#"{"record":"block","program":"#);
+        integer(out, row.program);
+        out.extend_from_slice(br#","seq":"#);
+        integer(out, row.seq);
+        out.extend_from_slice(self.file.of(row.file, |out| {
+            out.extend_from_slice(br#","file":"#);
+            append_json_text(out, row.file);
+            out.extend_from_slice(br#","line":"#);
+        }));
+        integer(out, row.line);
+        out.extend_from_slice(br#","n":"#);
+        match row.number {
+            Some(number) => integer(out, number),
+            None => out.extend_from_slice(b"null"),
         }
+        if let Some(level) = row.level {
+            out.extend_from_slice(br#","level":"#);
+            integer(out, level);
+        }
+        out.extend_from_slice(br#","text":"#);
+        append_json_text(out, row.text);
+        out.extend_from_slice(self.states.of(&row.state.version, |out| {
+            out.extend_from_slice(br#","changes":[]"#);
+            let start = out.len();
+            append_json(out, &States::of(row.state, self.view.kinds));
+            out[start] = b',';
+        }));
+        out.extend_from_slice(self.frame.after);
     }
 
     fn object(&self, out: &mut Vec<u8>, object: &impl Serialize) {
@@ -95,4 +94,9 @@ impl Encoder {
         append_json(out, object);
         out.extend_from_slice(self.frame.after);
     }
+}
+
+/// Whether a block is executed on every way, changes nothing, and has no message.
+fn is_plain(row: &Row<'_>) -> bool {
+    row.branch.is_none() && row.changes.is_empty() && row.diagnostics.is_empty()
 }

@@ -1,6 +1,6 @@
 //! Values as JSON, numbers and counts.
 
-use std::borrow::Cow;
+use std::borrow::{Borrow, Cow};
 use std::fmt::Display;
 
 use frictcomp::text::shown_json;
@@ -22,6 +22,41 @@ pub(super) fn append_json(out: &mut Vec<u8>, value: &(impl Serialize + ?Sized)) 
             out.truncate(start);
             out.extend_from_slice(shown.as_bytes());
         }
+    }
+}
+
+/// Appends a text as [`append_json`] does. Most texts are visible ASCII with nothing to escape.
+pub(super) fn append_json_text(out: &mut Vec<u8>, text: &str) {
+    let is_special = |byte: u8| !(0x20..0x7f).contains(&byte) || matches!(byte, b'"' | b'\\');
+    if any_byte(text.as_bytes(), is_special) {
+        return append_json(out, text);
+    }
+    out.push(b'"');
+    out.extend_from_slice(text.as_bytes());
+    out.push(b'"');
+}
+
+/// A text that is made again only where it is about something else than the last one.
+#[derive(Debug, Default)]
+pub(super) struct KeptText<K> {
+    subject: Option<K>,
+    text: Vec<u8>,
+}
+
+impl<K> KeptText<K> {
+    /// Returns the text about a subject.
+    pub(super) fn of<Q>(&mut self, subject: &Q, make: impl FnOnce(&mut Vec<u8>)) -> &[u8]
+    where
+        K: Borrow<Q>,
+        Q: PartialEq + ToOwned<Owned = K> + ?Sized,
+    {
+        let kept = self.subject.as_ref();
+        if kept.is_none_or(|kept| kept.borrow() != subject) {
+            self.subject = Some(subject.to_owned());
+            self.text.clear();
+            make(&mut self.text);
+        }
+        &self.text
     }
 }
 
@@ -66,6 +101,9 @@ mod tests {
         fn a_string_reads_back(text in any::<String>()) {
             let mut out = Vec::new();
             append_json(&mut out, &text);
+            let mut again = Vec::new();
+            append_json_text(&mut again, &text);
+            prop_assert_eq!(&again, &out);
             let back: String = serde_json::from_slice(&out).expect("a JSON string");
             prop_assert_eq!(back, text);
         }

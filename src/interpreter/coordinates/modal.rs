@@ -581,6 +581,7 @@ impl Modal {
     }
 
     /// The position of an axis.
+    #[inline]
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         AxisPosition {
             value: self.positions[axis.get()],
@@ -589,7 +590,11 @@ impl Modal {
     }
 
     /// What separates positions from those of the machine.
+    #[inline]
     pub fn frame(&self) -> PositionFrame {
+        if self.transformed.is_empty() {
+            return PositionFrame::Machine;
+        }
         let names = self.transformed.iter();
         let frames = names.map(|name| frame_of(name));
         frames.max().unwrap_or(PositionFrame::Machine)

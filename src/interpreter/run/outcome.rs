@@ -1,7 +1,5 @@
 //! The actions of a block after its words.
 
-use std::collections::BTreeSet;
-
 use super::event::EndedBy;
 use super::step::ControlStep;
 use crate::interpreter::programs::wanted::WantedCall;
@@ -34,12 +32,8 @@ pub(crate) struct BlockOutcome {
     groups: u32,
     /// The letters of which it has a word and may have one, D at bit 0.
     letters: u32,
-    /// The numbers of its M functions.
-    #[allow(
-        clippy::box_collection,
-        reason = "few blocks have any; a set for each block costs 1 % of all instructions"
-    )]
-    functions: Option<Box<BTreeSet<i64>>>,
+    /// The numbers of its M functions, sorted.
+    functions: Vec<i64>,
     /// Meaning of the axis words: with G04, G92 … they are not coordinates.
     pub(crate) axis_words: AxisWords,
     /// F, which may be unknown.
@@ -83,7 +77,7 @@ impl BlockOutcome {
             b'N' if self.groups & 1 << BlockGroup::LookAhead.place() != 0 => false,
             b'N' if block.number.is_some() => true,
             b'F' => matches!(self.feed, Feed::Given(_)),
-            b'M' => number.is_some_and(|it| !self.functions.get_or_insert_default().insert(it)),
+            b'M' => number.is_some_and(|it| self.is_repeated_function(it)),
             b'D' | b'I' | b'J' | b'K' | b'N' | b'S' => {
                 let bit = 1 << (letter - b'D');
                 let is_repeated = self.letters & bit != 0;
@@ -92,6 +86,14 @@ impl BlockOutcome {
             }
             _ => false,
         }
+    }
+
+    fn is_repeated_function(&mut self, number: i64) -> bool {
+        let found = self.functions.binary_search(&number);
+        if let Err(place) = found {
+            self.functions.insert(place, number);
+        }
+        found.is_ok()
     }
 
     /// Whether the block itself leads only to the next one.

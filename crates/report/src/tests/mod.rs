@@ -4,13 +4,15 @@ mod player;
 
 use std::io::{self, Write};
 
-use player::{OFF, Player, about, machine, play};
+use player::{OFF, ON, Player, about, machine, play};
+use proptest::prelude::*;
 
 use super::*;
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::Code;
 use frictcomp::machine::Machine;
-use frictcomp::timeline::Sink;
+use frictcomp::text::shown_json;
+use frictcomp::timeline::{Record, Sink};
 
 /// Everything that a format writes.
 fn written<'a, R: Report + 'a>(
@@ -71,6 +73,38 @@ fn the_example_as_json_lines() {
     {"record":"end","program":1,"seq":5,"by":"M30","friction":{"X":"inactive","Y":"inactive","Z":"unconfigured"}}
     {"record":"summary","programs":1,"blocks":5,"errors":0,"warnings":2,"opaque":{"#HSC":3},"friction":{"X":"inactive","Y":"inactive","Z":"unconfigured"}}
     "##);
+}
+
+proptest! {
+    #[test]
+    fn lines_are_records_in_their_serialised_form(
+        blocks in prop::collection::vec(
+            (1..200_u32, "(N[0-9]{1,6} )?([ -~]{0,40}|\\PC{0,9}|.{0,9})", 0..5),
+            1..12,
+        ),
+    ) {
+        let machine = machine(&[]);
+        let (mut bytes, mut expected) = (Vec::new(), String::new());
+        written(&mut bytes, |bytes| Ndjson::new(bytes, View::default()), |report| {
+            let mut both = |record: &Record<'_>| {
+                let line = serde_json::to_string(record).unwrap();
+                expected.extend([&*shown_json(&line), "\n"]);
+                report.record(record)
+            };
+            let mut player = Player::new(&machine, &mut both);
+            player.begin();
+            for (line, text, command) in &blocks {
+                let command = match command {
+                    0 => Some(("X", ON)),
+                    1 => Some(("X", OFF)),
+                    _ => None,
+                };
+                let _ = player.text(*line, text, command, &[]);
+            }
+            player.end(&[]);
+        });
+        prop_assert_eq!(String::from_utf8(bytes).unwrap(), expected);
+    }
 }
 
 #[test]

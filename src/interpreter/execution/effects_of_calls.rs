@@ -131,6 +131,10 @@ impl Interpreter {
         let Some(called) = called else {
             return;
         };
+        if self.state.track.ways.has_targets() {
+            // Where it may have gone instead is no part of its effect.
+            return self.state.call_effects.remove(called);
+        }
         let mut way = self.entry_of_call();
         way.control.frames.clear();
         let context = context(&self.state.control.frames, called.0);

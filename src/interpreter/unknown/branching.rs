@@ -133,7 +133,6 @@ impl Interpreter {
             && (2..=MAX_ANSWERS).contains(&answers)
             && self.state.waiting.len() + answers <= MAX_OPEN
             && self.state.conditions.len() + 1 < MAX_CONDITIONS
-            && self.state.control.cycles.is_empty()
             && !self.programs.index(program.unit).entries.is_empty()
             && !self.is_exhausted()
     }
@@ -215,8 +214,7 @@ impl Interpreter {
             && self.options.motions != Motions::Taken
             && self.sides.is_empty()
             && (2..=MAX_ANSWERS).contains(&goals.len())
-            && self.state.conditions.len() + 1 < MAX_CONDITIONS
-            && self.state.control.cycles.is_empty();
+            && self.state.conditions.len() + 1 < MAX_CONDITIONS;
         if !can {
             return false;
         }

@@ -136,7 +136,7 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
-const FOLDERS: [(&str, &str, &[&str]); 24] = [
+const FOLDERS: [(&str, &str, &[&str]); 25] = [
     (
         "interpreter",
         "blocks",
@@ -147,26 +147,32 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
             "run",
             "unknown",
             "values",
+            "ways",
         ],
     ),
     (
         "interpreter",
         "effects",
-        &["coordinates", "programs", "run", "values"],
+        &["coordinates", "programs", "run", "values", "ways"],
     ),
     (
         "interpreter",
         "execution",
-        &["programs", "run", "unknown", "values"],
+        &["programs", "run", "unknown", "values", "ways"],
     ),
     ("interpreter", "programs", &["values"]),
-    ("interpreter", "run", &["coordinates", "programs", "values"]),
+    (
+        "interpreter",
+        "run",
+        &["coordinates", "programs", "values", "ways"],
+    ),
     (
         "interpreter",
         "unknown",
-        &["coordinates", "programs", "run", "values"],
+        &["coordinates", "programs", "run", "values", "ways"],
     ),
-    ("interpreter", "values", &["run"]),
+    ("interpreter", "values", &["ways"]),
+    ("interpreter", "ways", &["values"]),
     ("syntax", "", &["ast", "lower"]),
     ("syntax", "lower", &["ast"]),
     ("circle", "fitted", &["recorded", "tune"]),

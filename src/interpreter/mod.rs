@@ -17,6 +17,7 @@ mod programs;
 mod run;
 mod unknown;
 mod values;
+mod ways;
 
 pub use coordinates::arc::{ArcShape, SAME_PLACE};
 pub use coordinates::axis_words::AxisWord;
@@ -32,22 +33,22 @@ pub use coordinates::pace::ProgrammedFeed;
 pub use execution::snapshot::{ResumeError, Snapshot};
 pub use programs::call_sites::{CallSite, call_sites, holds_program_end};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
-pub use run::carried_ways::CarriedWays;
 pub use run::event::{
     Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
 };
-pub(crate) use run::found_states::{FoundOn, UntouchedOn};
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
-pub use run::possible_state::{PossibleState, PossibleStates};
 pub use run::search::{NoSearchedBlock, SearchedBlock};
-pub use run::way_condition::{BlockCondition, WayChange, WayCondition};
-pub(crate) use run::way_condition::{limit_to, ways_in_words};
 pub use values::carried::{ArrayShape, Carried};
 pub use values::cause::{ChangedVariable, MissingProgram, Unknown, UnknownText};
 pub use values::found::FoundVariables;
 pub(crate) use values::found::VariableUse;
 pub use values::value::Value;
+pub use ways::carried::CarriedWays;
+pub(crate) use ways::found_states::{FoundOn, UntouchedOn};
+pub use ways::possible_state::{PossibleState, PossibleStates};
+pub use ways::words::{BlockCondition, WayChange, WayCondition};
+pub(crate) use ways::words::{limit_to, ways_in_words};
 
 pub use crate::language::{Certainty, Group, MotionKind, Simplification, Simplifications};

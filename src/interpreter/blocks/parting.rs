@@ -7,7 +7,6 @@ use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::unit::Parsed;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
-use crate::interpreter::run::condition::{ConditionKind, MAX_ANSWERS};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -24,6 +23,7 @@ use crate::interpreter::values::plain::{
 };
 use crate::interpreter::values::value::{Value, same_case};
 use crate::interpreter::values::work_budget::ITEM;
+use crate::interpreter::ways::question::{ConditionKind, MAX_ANSWERS};
 use crate::readings::Question as Open;
 use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
 use crate::syntax::{Fault, VariableFamily};

@@ -7,13 +7,13 @@
 use std::sync::Arc;
 
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::condition::KeptAnswer;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::state::State;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::{HeldValues, SetAt};
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::ways::question::KeptAnswer;
 use crate::syntax::ast::Operand;
 use crate::syntax::{Fault, VariableName};
 

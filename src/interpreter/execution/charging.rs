@@ -2,7 +2,7 @@
 
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::ways::set::WaySet;
 
 /// Units of a block on one of several ways, with the row that shows it.
 const BLOCK: u64 = 3000;

@@ -1,9 +1,9 @@
 //! The state handed from one program to the next (R2.34, R9.32).
 
 use crate::comp::AxisIndex;
-use crate::interpreter::run::carried_ways::CarriedWays;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::carried::Carried;
+use crate::interpreter::ways::carried::CarriedWays;
 
 impl Interpreter {
     /// Returns the state that the next program finds.

@@ -6,10 +6,10 @@ use crate::interpreter::run::block_scratch::OwnEnd;
 use crate::interpreter::run::event::{EndedBy, ProgramEnd, StoppedState};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{EndedPath, Last, Passed};
-use crate::interpreter::run::possible_state::shown;
 use crate::interpreter::run::state::State;
-use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::ways::possible_state::shown;
+use crate::interpreter::ways::set::WaySet;
 
 impl Interpreter {
     /// Ends a way. Returns the end of the run if no other way continues.

@@ -11,18 +11,18 @@ use super::endless::watches;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::run::block_scratch::BlockScratch;
-use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Path;
-use crate::interpreter::run::possible_state::{change_since, ways_of};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::waiting_paths::FirstWaiting;
-use crate::interpreter::run::way_condition::limit_to;
-use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
+use crate::interpreter::ways::possible_state::{change_since, ways_of};
+use crate::interpreter::ways::question::{Condition, ConditionKind};
+use crate::interpreter::ways::set::WaySet;
+use crate::interpreter::ways::words::limit_to;
 use crate::language::Group;
 
 impl Interpreter {

@@ -5,7 +5,6 @@ use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
-use crate::interpreter::run::history::History;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Loop, RunTrack};
 use crate::interpreter::run::search::BeforeSearch;
@@ -13,6 +12,7 @@ use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::run::ways::Ways;
+use crate::interpreter::ways::history::History;
 use crate::machine::Machine;
 use crate::text::Place;
 

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use super::loop_heads::{Arrival, HeadPlace};
 use super::path::Path;
 use super::stack::CallStack;
-use super::way_set::WaySet;
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::rows;
+use crate::interpreter::ways::set::WaySet;
 
 /// A program, with the depth of calls at which it runs.
 pub(crate) type CalledAt = (usize, ProgramId);

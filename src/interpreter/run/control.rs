@@ -9,9 +9,7 @@ use super::coupling::Couplings;
 use super::cycles::ModalCycles;
 use super::description::Description;
 use super::event::EndedBy;
-use super::history::{History, HistorySide};
 use super::stack::CallStack;
-use super::way_set::WaySet;
 use super::ways::join_names;
 use crate::comp::Compensation;
 use crate::interpreter::coordinates::modal::Modal;
@@ -19,6 +17,8 @@ use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::ways::history::{History, HistorySide};
+use crate::interpreter::ways::set::WaySet;
 use crate::language::{Holds, Simplification};
 
 /// The state of the control. A copy is cheap: it shares the parts that do not change.

@@ -6,11 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::found_states::FoundStates;
-use super::history::History;
-use super::possible_state::PossibleStates;
 use super::stopping::FailedAt;
-use super::way_condition::WayCondition;
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
@@ -18,6 +14,10 @@ use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::motion::{Motion, Travel};
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::ways::found_states::FoundStates;
+use crate::interpreter::ways::history::History;
+use crate::interpreter::ways::possible_state::PossibleStates;
+use crate::interpreter::ways::words::WayCondition;
 use crate::language::{Certainty, Group, MotionKind};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};

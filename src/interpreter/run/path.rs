@@ -6,14 +6,12 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::clash::RememberedConditions;
 use super::control::ControlState;
 use super::event::EndedBy;
 use super::loop_heads::Arrival;
 use super::search::BeforeSearch;
 use super::stack::{CallFrame, CallStack, Seeking};
 use super::stopping::FailedAt;
-use super::way_set::WaySet;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
@@ -24,6 +22,8 @@ use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::plain::ConditionMeaning;
 use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::ways::clash::RememberedConditions;
+use crate::interpreter::ways::set::WaySet;
 use crate::syntax::ast::Owner;
 use crate::syntax::{VariableFamily, VariableName};
 use crate::text::{Place, Span};

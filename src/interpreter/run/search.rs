@@ -6,8 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::block_context::BlockContext;
-use super::history::History;
 use crate::comp::Compensation;
+use crate::interpreter::ways::history::History;
 use crate::syntax::ast::Operand;
 
 /// The block of the main program at which a block search ends (R2.96).

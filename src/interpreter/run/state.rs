@@ -6,16 +6,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::call_effects::CallEffects;
-use super::condition::Condition;
 use super::control::ControlState;
 use super::loop_heads::LoopHeads;
 use super::path::{EndedPath, Last, Path, RunTrack};
 use super::step::ControlStep;
 use super::undecided::MentionedUnknowns;
 use super::waiting_paths::WaitingPaths;
-use super::way_set::WaySet;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
+use crate::interpreter::ways::question::Condition;
+use crate::interpreter::ways::set::WaySet;
 use crate::readings::QuestionSet;
 
 /// Number of different words of a program that are reported once.

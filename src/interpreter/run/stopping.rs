@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::block_context::BlockContext;
 use super::event::EndedBy;
-use super::way_condition::seen_from;
 use crate::diagnostic::{Code, Collected, Diagnostic, Severity};
+use crate::interpreter::ways::words::seen_from;
 use crate::machine::HarmlessWords;
 use crate::syntax::Fault;
 use crate::text::Place;

@@ -6,20 +6,20 @@ use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::clash::{ImpliedValues, RememberedCondition, is_compared};
-use crate::interpreter::run::condition::{Condition, ConditionKind, KeptAnswer, MAX_ANSWERS};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{AskedCondition, BranchSide};
-use crate::interpreter::run::possible_state::ways_of;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::state::State;
-use crate::interpreter::run::way_condition::WayCondition;
-use crate::interpreter::run::way_set::{WayAnswer, WaySet};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{Asking, ConditionMeaning, Writer};
 use crate::interpreter::values::value::Value;
+use crate::interpreter::ways::clash::{ImpliedValues, RememberedCondition, is_compared};
+use crate::interpreter::ways::possible_state::ways_of;
+use crate::interpreter::ways::question::{Condition, ConditionKind, KeptAnswer, MAX_ANSWERS};
+use crate::interpreter::ways::set::{WayAnswer, WaySet};
+use crate::interpreter::ways::words::WayCondition;
 use crate::text::Span;
 
 /// Most ways that are open at a time; beyond them a condition is treated by R2.51.

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use super::branching::{MAX_CONDITIONS, answers};
 use crate::comp::{AxisIndex, Kind};
 use crate::interpreter::run::block_scratch::LeftOpen;
-use crate::interpreter::run::condition::{Condition, ConditionKind};
-use crate::interpreter::run::history::Split;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
-use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
+use crate::interpreter::ways::history::Split;
+use crate::interpreter::ways::question::{Condition, ConditionKind};
+use crate::interpreter::ways::set::WaySet;
 
 impl Interpreter {
     /// Each configured kind of each axis is selected after the call, or is not.

@@ -6,13 +6,13 @@ use super::branching::{MAX_CONDITIONS, answers};
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::condition::{Condition, ConditionKind};
-use crate::interpreter::run::history::HistorySide;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::search::BeforeSearch;
-use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::ways::history::HistorySide;
+use crate::interpreter::ways::question::{Condition, ConditionKind};
+use crate::interpreter::ways::set::WaySet;
 use crate::readings::{Alternative, Question};
 use crate::text::Span;
 

@@ -6,15 +6,15 @@ use super::branching::{MAX_CONDITIONS, answers};
 use crate::comp::{AxisIndex, Kind};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
-use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::path::{EndedPath, Passed};
 use crate::interpreter::run::stopping::{FailedAt, stops};
-use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::Ways;
 use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::ways::question::{Condition, ConditionKind};
+use crate::interpreter::ways::set::WaySet;
 use crate::readings::Question;
 use crate::text::Span;
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cause::Unknown;
 use super::value::Value;
-use crate::interpreter::run::carried_ways::CarriedWays;
+use crate::interpreter::ways::carried::CarriedWays;
 
 /// A declared array without its elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -6,13 +6,13 @@ use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
 use super::clash::clash;
-use super::condition::{Condition, ConditionKind, KeptAnswer};
 use super::history::{History, Split};
-use super::way_condition::{
+use super::question::{Condition, ConditionKind, KeptAnswer};
+use super::set::{Way, WayAnswer, WaySet};
+use super::words::{
     BlockCondition, MAX_NAMED, WayChange, WayCondition, after_if, all_need_change, needs_change,
     unless,
 };
-use super::way_set::{Way, WayAnswer, WaySet};
 use crate::comp::{AxisIndex, Compensation, Kind, Membership, State};
 
 /// The states of a kind on an axis that is unknown, each with the ways that lead to it.

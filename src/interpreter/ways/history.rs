@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::way_set::WaySet;
+use super::set::WaySet;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership, Selection};
 use crate::interpreter::values::rows;
 use crate::text::Place;

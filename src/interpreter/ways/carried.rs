@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::Condition;
 use super::history::{History, Split};
+use super::question::Condition;
 use crate::comp::{Compensation, Kind};
 use crate::machine::Machine;
 

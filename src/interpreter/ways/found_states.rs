@@ -1,10 +1,10 @@
 //! Questions about the ways on which a program has not yet switched the state that it found (R1.52, R14.5).
 
-use super::condition::Condition;
 use super::history::History;
 use super::possible_state::ways_of;
-use super::way_condition::{WayCondition, if_ways};
-use super::way_set::WaySet;
+use super::question::Condition;
+use super::set::WaySet;
+use super::words::{WayCondition, if_ways};
 use crate::comp::{AxisIndex, Kind};
 
 /// The ways to a block on which the state is the one that the program found.

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::{Clash, Condition, ConditionKind, MAX_ANSWERS};
-use super::way_set::{Way, WayAnswer};
+use super::question::{Clash, Condition, ConditionKind, MAX_ANSWERS};
+use super::set::{Way, WayAnswer};
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{Asking, ConditionMeaning, ConditionSubject, Writer};
 use crate::interpreter::values::value::Value;

@@ -66,9 +66,9 @@ G90 X5
 P9=1/0
 N50 M30
 ";
-/// Jumps that depend on values that only the machine knows.
-const WAYS: &str = "X[COMP OFF FRICT]\nL CYCLE [NAME=c.cyc @P1=1 @P2=1 MODAL_BLOCK]\n$IF V.E.A $GOTO N90\n\
-                $IF V.E.B\nM30\n$ENDIF\n$FOR P1=1,99,1\nV.S.N[P1]=P1\n$ENDFOR\nX1\nN90: M30\n";
+/// Jumps that depend on values that only the machine knows, in a program that has called itself.
+const WAYS: &str = "%L S\nP9=P9+1\n$IF P9<2\nLL S\n$ENDIF\nX[COMP OFF FRICT]\n$IF V.E.A $GOTO N90\n$IF V.E.B\nM30\n\
+                $ENDIF\n$FOR P1=1,99,1\nV.S.N[P1]=P1\n$ENDFOR\nX1\nN90: M17\n%MAIN\nP9=0\nLL S\nM30\n";
 /// Both sides of skip levels, conditions, cases and a loop, on the way to a searched block.
 const SIDES: &str = "/1 X[COMP OFF FRICT]\n$IF V.E.A==1\nY[COMP ON FRICT]\n$ENDIF\n$SWITCH V.E.B\n$CASE 1\n\
                  Y[COMP OFF FRICT]\n$CASE 2\nX[COMP ON FRICT]\n$DEFAULT\nB[COMP ON FRICT]\n$ENDSWITCH\n$WHILE V.E.C\nX[COMP ON FRICT]\n\
@@ -292,7 +292,7 @@ fn stopped_on_sides() -> Snapshot {
         let track = &state["track"];
         track["searching"].is_object()
             && track["readings"][0].is_object()
-            && track["loops"][0]["covered"].is_object()
+            && state["loop_heads"][0][1]["state"].is_object()
             && state["waiting"][0].is_object()
             && state["conditions"][3].is_object()
     };
@@ -361,11 +361,8 @@ fn sides_of_conditions_that_are_not_there_are_refused() {
         ("/track/readings/0/answers", answers),
         ("/track/readings/0/condition", json!(90)),
         ("/track/reach", reached.clone()),
-        ("/track/loops/0/covered/track/reach", reached.clone()),
-        (
-            "/track/loops/0/covered/control/compensation/axes",
-            json!([]),
-        ),
+        ("/loop_heads/0/1/state/track/reach", reached.clone()),
+        ("/loop_heads/0/1/state/control/compensation/axes", json!([])),
         ("/track/searching/compensation/axes", json!([])),
         ("/waiting/0/track/reach", reached),
     ] {

@@ -184,22 +184,36 @@ enum Relation {
     Neither,
 }
 
+/// The relations of a way to others, a bit for each of them.
+#[derive(Debug, Clone, Copy, Default)]
+struct Pairs {
+    /// The conditions that it names, a bit each; conditions may share one.
+    named: u64,
+    /// Those that contain it.
+    contained: u64,
+    /// Those that it can be widened by.
+    adjacent: u64,
+}
+
+/// Most ways that are compared at a time.
+const MAX_COMPARED: usize = u64::BITS as usize;
+
 /// Ways of which none contains another one or can be widened by it. Each pair is compared once for each change.
 #[derive(Default)]
 struct Reduction {
     ways: Vec<Way>,
-    /// A bit for each condition that a way names; conditions may share one.
-    named: Vec<u64>,
-    /// The relations of each way to all.
-    relations: Vec<Vec<Relation>>,
+    pairs: Vec<Pairs>,
 }
 
 impl Reduction {
     /// Ways that are a whole set.
     fn of_reduced(ways: Vec<Way>) -> Self {
+        let pairs = ways.iter().map(|way| Pairs {
+            named: names(way),
+            ..Pairs::default()
+        });
         Self {
-            named: ways.iter().map(names).collect(),
-            relations: vec![vec![Relation::Neither; ways.len()]; ways.len()],
+            pairs: pairs.collect(),
             ways,
         }
     }
@@ -207,17 +221,19 @@ impl Reduction {
     /// Takes further ways; while there are too many, conditions are left out.
     fn add(&mut self, further: impl Iterator<Item = Way>) {
         for mut way in further {
+            if self.ways.len() == MAX_COMPARED {
+                self.simplify();
+            }
             let beyond = way.len().saturating_sub(MAX_CONDITIONS);
             way.drain(..beyond);
-            self.named.push(0);
             self.ways.push(way);
-            for row in &mut self.relations {
-                row.push(Relation::Neither);
-            }
-            self.relations
-                .push(vec![Relation::Neither; self.ways.len()]);
+            self.pairs.push(Pairs::default());
             self.compare(self.ways.len() - 1);
         }
+        self.simplify();
+    }
+
+    fn simplify(&mut self) {
         self.reduce();
         while self.ways.len() > MAX_WAYS {
             let Some(condition) = most_named(&self.ways) else {
@@ -235,14 +251,15 @@ impl Reduction {
     /// of it.
     fn reduce(&mut self) {
         loop {
-            if let Some((inner, _)) = self.first(Relation::Contained) {
+            if let Some(inner) = self.pairs.iter().position(|it| it.contained != 0) {
                 self.ways.remove(inner);
-                self.named.remove(inner);
-                self.relations.remove(inner);
-                for row in &mut self.relations {
-                    row.remove(inner);
+                self.pairs.remove(inner);
+                for pairs in &mut self.pairs {
+                    pairs.contained = without(pairs.contained, inner);
+                    pairs.adjacent = without(pairs.adjacent, inner);
                 }
-            } else if let Some((inner, outer)) = self.first(Relation::Adjacent) {
+            } else if let Some(inner) = self.pairs.iter().position(|it| it.adjacent != 0) {
+                let outer = self.pairs[inner].adjacent.trailing_zeros() as usize;
                 let Some((place, sides)) = adjacent(&self.ways[inner], &self.ways[outer]) else {
                     return;
                 };
@@ -260,25 +277,30 @@ impl Reduction {
 
     /// Compares a way that is new or has changed with all others.
     fn compare(&mut self, changed: usize) {
-        self.named[changed] = names(&self.ways[changed]);
+        self.pairs[changed].named = names(&self.ways[changed]);
         for other in (0..self.ways.len()).filter(|other| *other != changed) {
             for (inner, outer) in [(changed, other), (other, changed)] {
-                let may = self.named[outer] & !self.named[inner] == 0;
-                self.relations[inner][outer] = if may {
-                    relation(&self.ways[inner], &self.ways[outer])
-                } else {
-                    Relation::Neither
-                };
+                let (named, bit) = (self.pairs[outer].named, 1 << outer);
+                let pairs = &mut self.pairs[inner];
+                pairs.contained &= !bit;
+                pairs.adjacent &= !bit;
+                if named & !pairs.named != 0 {
+                    continue;
+                }
+                match relation(&self.ways[inner], &self.ways[outer]) {
+                    Relation::Contained => pairs.contained |= bit,
+                    Relation::Adjacent => pairs.adjacent |= bit,
+                    Relation::Neither => {}
+                }
             }
         }
     }
+}
 
-    fn first(&self, wanted: Relation) -> Option<(usize, usize)> {
-        self.relations.iter().enumerate().find_map(|(inner, row)| {
-            let outer = row.iter().position(|it| *it == wanted)?;
-            Some((inner, outer))
-        })
-    }
+/// Bits without the one at a place: those above it take its place.
+fn without(bits: u64, place: usize) -> u64 {
+    let below = (1 << place) - 1;
+    (bits & below) | (bits >> 1 & !below)
 }
 
 /// The condition that most ways name.

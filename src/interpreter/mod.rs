@@ -32,11 +32,13 @@ pub use coordinates::pace::ProgrammedFeed;
 pub use execution::snapshot::{ResumeError, Snapshot};
 pub use programs::call_sites::{CallSite, call_sites, holds_program_end};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
+pub(crate) use run::block_site::BlockSite;
 pub use run::carried_ways::CarriedWays;
 pub use run::event::{
     Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
 };
-pub(crate) use run::found_states::{FoundOn, UntouchedOn};
+pub(crate) use run::found_states::{FoundOn, FoundStates, UntouchedOn};
+pub(crate) use run::history::{KindEffect, Split};
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
@@ -44,6 +46,7 @@ pub use run::possible_state::{PossibleState, PossibleStates};
 pub use run::search::{NoSearchedBlock, SearchedBlock};
 pub use run::way_condition::{BlockCondition, WayChange, WayCondition};
 pub(crate) use run::way_condition::{limit_to, ways_in_words};
+pub(crate) use run::way_set::WayAnswer;
 pub use values::carried::{ArrayShape, Carried};
 pub use values::cause::{ChangedVariable, MissingProgram, Unknown, UnknownText};
 pub use values::found::FoundVariables;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::found_states::FoundStates;
-use super::history::History;
+use super::history::{History, RepeatedSwitch};
 use super::possible_state::PossibleStates;
 use super::stopping::FailedAt;
 use super::way_condition::WayCondition;
@@ -51,6 +51,8 @@ pub struct Outcome {
     pub result: Result<AxisIndex, CompensationError>,
     /// Number of the block's changes that it made.
     pub changes: usize,
+    /// The kinds that it switches as they were switched before.
+    pub(crate) repeated: RepeatedSwitch,
 }
 
 /// Finding of a run that may interest a user.
@@ -277,7 +279,7 @@ pub struct Ended<'a> {
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
     /// What switched each kind, on each way that ends.
-    pub(crate) history: &'a History,
+    pub(crate) found: FoundStates<'a>,
     /// The state at the errors on all ways, where the run went on after them.
     pub(crate) stopped: Option<&'a StoppedState>,
     /// The error at which the control stops on all ways, where the run went on after it.

@@ -2,6 +2,7 @@
 
 pub(super) mod block_context;
 pub(super) mod block_scratch;
+pub(super) mod block_site;
 pub(super) mod carried_ways;
 pub(super) mod channel_axes;
 pub(super) mod clash;

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
 use super::control::ControlState;
+use super::found_states::FoundStates;
 use super::path::{EndedPath, Last, Path, RunTrack};
 use super::step::ControlStep;
 use super::undecided::MentionedUnknowns;
@@ -65,6 +66,15 @@ impl State {
         let others = self.waiting.iter_mut().chain(ended);
         let others = others.map(|path| &mut path.control);
         std::iter::once(&mut self.control).chain(others)
+    }
+
+    /// The states that the program found, where it is now.
+    pub(crate) fn found_states(&self) -> FoundStates<'_> {
+        FoundStates {
+            history: &self.control.history,
+            reach: &self.track.reach,
+            conditions: &self.conditions,
+        }
     }
 
     /// The run goes on only on some of the ways that lead here.

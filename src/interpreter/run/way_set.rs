@@ -99,6 +99,20 @@ impl WaySet {
         both
     }
 
+    /// The ways on which a condition has an answer, without naming it.
+    pub(crate) fn given(&self, answer: WayAnswer) -> Self {
+        if let [way] = self.0.as_slice()
+            && let [only] = way.as_slice()
+            && only.condition == answer.condition
+        {
+            let holds = only.sides & answer.sides != 0;
+            return if holds { Self::always() } else { Self::never() };
+        }
+        let mut given = self.and(&Self::of(answer));
+        given.havoc(answer.condition);
+        given
+    }
+
     /// Renumbers the conditions, in the same order.
     pub(crate) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
         let answer = |answer: &WayAnswer| WayAnswer {

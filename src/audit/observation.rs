@@ -299,6 +299,7 @@ impl Observation {
         let states = (executed.compensation, executed.found);
         let (selected, split) = self.selected(scope, at, states);
         let own = split.map(|split| self.possible_of(states, (axis, kind), &split));
+        self.is_of_sides &= selected != Selected::Unknown || own.is_some();
         let possible = match self.side {
             Some(_) => own.as_ref(),
             None => executed.possible_of(axis, kind),

@@ -1,5 +1,6 @@
 //! History of the switching of each kind of compensation on each axis, which every reader asks: which state it has on
-//! which ways (R14.2), on which ways it is still as the program found it (R1.52), and which commands left it so (R1.50).
+//! which ways (R14.2), on which ways it is still as the program found it (R1.52), and which blocks left it so or may have
+//! switched it since (R1.50).
 //!
 //! ```text
 //! N10 $IF V.E.A == 1

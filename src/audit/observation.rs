@@ -83,7 +83,7 @@ impl FoundSide {
 pub(super) struct Observation {
     /// The observed side of a run that finds states open.
     side: Option<FoundSide>,
-    /// Whether nothing but the subjects themselves may differ between the sides of a run that finds states open.
+    /// Whether the sides of a run that finds states open show what runs from their states would.
     pub(super) is_of_sides: bool,
     pub(super) observed: Vec<Observed>,
     /// The reason for its end; `None` if the end was not observed.
@@ -250,8 +250,7 @@ impl Observation {
         }
     }
 
-    /// The selection of a subject on the observed side, and the ways to each on that side where they differ and others
-    /// than the subject itself do, too.
+    /// Returns the selection of a subject on the observed side, with the ways to each state where they still differ.
     fn selected(
         &self,
         scope: &Scope,

@@ -7,10 +7,11 @@ use super::effect::{FirstMotion, Site, WhyUnknown};
 use super::motions::{SelectionAtMotions, Stood};
 use super::scope::{AuditedKind, Scope, Selected};
 use super::within::Within;
-use crate::comp::{AxisIndex, Compensation, KindSet, Membership};
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{
-    Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome, PossibleStates, VariableUse,
+    Certainty, Ended, EndedBy, Event, Executed, FoundStates, KindEffect, MovedAxis, Outcome,
+    PossibleStates, Split, VariableUse, WayAnswer,
 };
 use crate::readings::QuestionSet;
 use crate::text::Place;
@@ -36,7 +37,7 @@ pub(super) struct Moved {
 /// Effect of a run on one subject.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observed {
-    /// The origin of its last change or repeated setting.
+    /// The origin of its state at the end; before it, the last doubt about it.
     pub(super) last: Option<SelectionOrigin>,
     /// Whether a command of the program named it.
     pub(super) commanded: bool,
@@ -50,9 +51,40 @@ pub(super) struct Observed {
     selected: Option<Selected>,
 }
 
+/// A side of a run that finds states open: the subjects are found in their start-up states, or away from them.
+#[derive(Debug, Clone)]
+pub(super) struct FoundSide {
+    is_away: bool,
+    /// The answer on this side to the condition of each subject; `None` for one that is not found open.
+    answers: Vec<Option<WayAnswer>>,
+}
+
+impl FoundSide {
+    /// Creates a side. `conditions` are those of the subjects whose first answers are that they are found selected.
+    pub(super) fn new(scope: &Scope, is_away: bool, conditions: &[Option<u32>]) -> Self {
+        let subjects = scope.subjects().iter().zip(conditions);
+        let answers = subjects.map(|(subject, condition)| {
+            let is_off = scope.selected_at_start(*subject, is_away) == Selected::Off;
+            condition.map(|condition| WayAnswer {
+                condition,
+                sides: 1 << u8::from(is_off),
+                of: 2,
+            })
+        });
+        Self {
+            is_away,
+            answers: answers.collect(),
+        }
+    }
+}
+
 /// Effects of one run of a program.
 #[derive(Debug, Clone)]
 pub(super) struct Observation {
+    /// The observed side of a run that finds states open.
+    side: Option<FoundSide>,
+    /// Whether the sides of a run that finds states open show what runs from their states would.
+    pub(super) is_of_sides: bool,
     pub(super) observed: Vec<Observed>,
     /// The reason for its end; `None` if the end was not observed.
     pub(super) by: Option<EndedBy>,
@@ -92,6 +124,8 @@ impl Observation {
     pub(super) fn new(scope: &Scope) -> Self {
         let count = scope.subjects().len();
         Self {
+            side: None,
+            is_of_sides: true,
             observed: vec![Observed::default(); count],
             by: None,
             end: None,
@@ -112,6 +146,12 @@ impl Observation {
         }
     }
 
+    /// Observes a side of a run that finds states open.
+    pub(super) fn of_side(mut self, side: FoundSide) -> Self {
+        self.side = Some(side);
+        self
+    }
+
     /// Also observes a file that the program calls.
     pub(super) fn within(mut self, called: Option<&Arc<str>>) -> Self {
         self.within = called.map(Within::called).unwrap_or_default();
@@ -130,7 +170,7 @@ impl Observation {
     /// Takes an event of the run.
     pub(super) fn event(&mut self, scope: &Scope, event: &Event<'_>) {
         match event {
-            Event::Started { compensation, .. } => self.stand(scope, compensation),
+            Event::Started { compensation, .. } => self.start(scope, compensation),
             Event::Executed(executed) => self.executed(scope, executed),
             Event::Joined(_) => {}
             Event::Ended(ended) => {
@@ -165,7 +205,7 @@ impl Observation {
             self.moved(scope, executed, &motion);
         }
         if !quiet {
-            self.stand(scope, executed.compensation);
+            self.stand(scope, executed);
         }
     }
 
@@ -185,6 +225,7 @@ impl Observation {
     fn ask(&mut self, scope: &Scope, executed: &Executed<'_>, asked: AuditedKind) {
         for at in scope.of_axis(asked.axis) {
             if scope.subjects()[at] == asked && executed.found.has(asked.axis, asked.kind) {
+                self.is_of_sides = false;
                 self.asked.entry(at).or_insert_with(|| Site {
                     file: Arc::clone(executed.file),
                     line: executed.line,
@@ -193,10 +234,76 @@ impl Observation {
         }
     }
 
-    fn stand(&mut self, scope: &Scope, compensation: &Compensation) {
+    fn start(&mut self, scope: &Scope, compensation: &Compensation) {
         for (observed, subject) in self.observed.iter_mut().zip(scope.subjects()) {
-            observed.selected = Some(Selected::of(compensation, *subject));
+            observed.selected = Some(match &self.side {
+                Some(side) => scope.selected_at_start(*subject, side.is_away),
+                None => Selected::of(compensation, *subject),
+            });
         }
+    }
+
+    fn stand(&mut self, scope: &Scope, executed: &Executed<'_>) {
+        for at in 0..self.observed.len() {
+            let (selected, _) = self.selected(scope, at, (executed.compensation, executed.found));
+            self.observed[at].selected = Some(selected);
+        }
+    }
+
+    /// Returns the selection of a subject on the observed side, with the ways to each state where they still differ.
+    fn selected(
+        &self,
+        scope: &Scope,
+        at: usize,
+        (compensation, found): (&Compensation, FoundStates<'_>),
+    ) -> (Selected, Option<Split>) {
+        let subject @ AuditedKind { axis, kind } = scope.subjects()[at];
+        let selected = Selected::of(compensation, subject);
+        let Some(side) = &self.side else {
+            return (selected, None);
+        };
+        let split = found.history.states(axis, kind);
+        match (side.answers[at], split) {
+            (None, _) if !compensation.is_configured(axis, kind) => {
+                (scope.selected_at_start(subject, side.is_away), None)
+            }
+            _ if selected != Selected::Unknown => (selected, None),
+            (Some(answer), Some(split)) => {
+                let split = split.given(answer);
+                match split.only() {
+                    Some(Membership::In) => (Selected::On, None),
+                    Some(Membership::Out) => (Selected::Off, None),
+                    None => (Selected::Unknown, Some(split)),
+                }
+            }
+            _ => (Selected::Unknown, None),
+        }
+    }
+
+    /// The possible states of a kind on the observed side. The sides cannot be told apart where sets were widened.
+    fn possible_of(
+        &mut self,
+        (compensation, found): (&Compensation, FoundStates<'_>),
+        kind: (AxisIndex, Kind),
+        split: &Split,
+    ) -> PossibleStates {
+        let possible = found.states_of((compensation, kind), split);
+        self.is_of_sides &= !possible.is_widened();
+        possible
+    }
+
+    /// The selection of a subject with its possible states, on the observed side.
+    fn stood(&mut self, scope: &Scope, at: usize, executed: &Executed<'_>) -> Stood {
+        let AuditedKind { axis, kind } = scope.subjects()[at];
+        let states = (executed.compensation, executed.found);
+        let (selected, split) = self.selected(scope, at, states);
+        let own = split.map(|split| self.possible_of(states, (axis, kind), &split));
+        self.is_of_sides &= selected != Selected::Unknown || own.is_some();
+        let possible = match self.side {
+            Some(_) => own.as_ref(),
+            None => executed.possible_of(axis, kind),
+        };
+        Stood::new(selected, possible)
     }
 
     #[inline(never)]
@@ -222,6 +329,7 @@ impl Observation {
         };
         for said in executed.diagnostics {
             if matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908) {
+                self.is_of_sides &= said.code != Code::Fc908;
                 self.doubt = Some(reason(said, Some(site.clone())));
             }
             if said.code == Code::Fc318 {
@@ -238,10 +346,6 @@ impl Observation {
     fn command(&mut self, scope: &Scope, executed: &Executed<'_>, outcome: &Outcome) {
         let name = &outcome.command.axis;
         let kinds = outcome.command.selection.kinds();
-        let site = Site {
-            file: Arc::clone(executed.file),
-            line: executed.line,
-        };
         if let Some(at) = scope.undescribed(name) {
             if kinds.contains(scope.subjects()[at].kind) {
                 let observed = &mut self.observed[at];
@@ -249,7 +353,10 @@ impl Observation {
                 observed.last = Some(SelectionOrigin::Doubt(WhyUnknown {
                     code: Some(Code::Fc408),
                     message: format!("nothing describes axis `{name}`"),
-                    site: Some(site),
+                    site: Some(Site {
+                        file: Arc::clone(executed.file),
+                        line: executed.line,
+                    }),
                 }));
             }
             return;
@@ -259,9 +366,7 @@ impl Observation {
         };
         for at in scope.of_axis(axis) {
             if kinds.contains(scope.subjects()[at].kind) {
-                let observed = &mut self.observed[at];
-                observed.commanded = true;
-                observed.last = Some(SelectionOrigin::Command(site.clone()));
+                self.observed[at].commanded = true;
             }
         }
     }
@@ -278,7 +383,9 @@ impl Observation {
             return;
         }
         for at in scope.of_axis(axis) {
-            if lost.contains(scope.subjects()[at].kind) {
+            let kind = scope.subjects()[at].kind;
+            if lost.contains(kind) {
+                self.is_of_sides &= executed.found.history.states(axis, kind).is_some();
                 let reason = self.doubt.clone().unwrap_or_else(|| WhyUnknown {
                     code: None,
                     message: "what this block does is not known offline".to_owned(),
@@ -297,7 +404,8 @@ impl Observation {
         let is_certain = motion.certainty == Certainty::Certain;
         for at in scope.of_axis(motion.axis) {
             let subject = scope.subjects()[at];
-            let selected = Selected::of(executed.compensation, subject);
+            let stood = self.stood(scope, at, executed);
+            let selected = stood.selected;
             let is_at_start_up = (selected == Selected::On) == scope.is_on_at_start_up(subject)
                 && selected != Selected::Unknown;
             let observed = &mut self.observed[at];
@@ -305,8 +413,7 @@ impl Observation {
                 // The motion may come before whatever the block may switch.
                 observed.motions.note(Stood::new(before, None));
             }
-            let possible = executed.possible_of(subject.axis, subject.kind);
-            observed.motions.note(Stood::new(selected, possible));
+            observed.motions.note(stood);
             let (axis, kind) = (subject.axis, subject.kind);
             let is_known = !executed.found.has(axis, kind)
                 || observed.inherited.as_ref().is_some_and(|known| {
@@ -338,18 +445,23 @@ impl Observation {
         self.end = ended.at.filter(of_main).map(|place| place.first_line);
         let ends = ended.ends.iter().map(|end| &end.place).filter(of_main);
         self.ends = ends.map(|place| place.first_line).collect();
-        let of_subject = |subject: &AuditedKind| Selected::of(ended.compensation, *subject);
-        self.left = scope.subjects().iter().map(of_subject).collect();
+        let states = (ended.compensation, ended.found);
+        for (at, &AuditedKind { axis, kind }) in scope.subjects().iter().enumerate() {
+            let (selected, split) = self.selected(scope, at, states);
+            self.left[at] = selected;
+            self.possible[at] = if self.side.is_some() {
+                split.map(|split| self.possible_of(states, (axis, kind), &split))
+            } else {
+                let mut possible = ended.possible.iter();
+                possible
+                    .find(|it| (it.axis, it.kind) == (axis, kind))
+                    .cloned()
+            };
+            self.is_of_sides &= selected != Selected::Unknown || self.possible[at].is_some();
+        }
         for (at, observed) in self.observed.iter().enumerate() {
             if observed.commanded && !scope.is_described(at) {
                 self.left[at] = Selected::Unknown;
-            }
-        }
-        for states in ended.possible {
-            for at in scope.of_axis(states.axis) {
-                if scope.subjects()[at].kind == states.kind {
-                    self.possible[at] = Some(states.clone());
-                }
             }
         }
         let has_failed = matches!(ended.by, EndedBy::Error | EndedBy::Budget);
@@ -365,40 +477,37 @@ impl Observation {
                 })
             });
         }
-        self.commands_at(scope, ended);
-        let ends = self.left.iter().zip(&self.possible);
-        for (observed, (left, possible)) in self.observed.iter_mut().zip(ends) {
-            let is_doubt = matches!(observed.last, Some(SelectionOrigin::Doubt(_)));
-            if *left == Selected::Unknown && possible.is_none() && !is_doubt {
-                observed.last = self.doubt.clone().map(SelectionOrigin::Doubt);
-            }
-        }
+        self.take_origins(scope, ended);
     }
 }
 
 impl Observation {
-    /// Records the commands that made the states at the end: of several ways, the one that leads away.
-    fn commands_at(&mut self, scope: &Scope, ended: &Ended<'_>) {
+    /// Records the origins of the states at the end: of several ways, the command that leads away.
+    fn take_origins(&mut self, scope: &Scope, ended: &Ended<'_>) {
         let subjects = scope.subjects().iter().enumerate();
         for (at, &AuditedKind { axis, kind }) in subjects {
-            let selected = match self.left[at] {
-                Selected::On => Membership::In,
-                Selected::Off => Membership::Out,
-                Selected::Unknown if self.possible[at].is_some() => {
-                    if scope.is_on_at_start_up(AuditedKind { axis, kind }) {
-                        Membership::Out
-                    } else {
-                        Membership::In
-                    }
+            let is_on = match self.left[at] {
+                Selected::Unknown if self.possible[at].is_none() => {
+                    let observed = &mut self.observed[at];
+                    let doubt = || self.doubt.clone().map(SelectionOrigin::Doubt);
+                    observed.last = observed.last.take().or_else(doubt);
+                    continue;
                 }
-                Selected::Unknown => continue,
+                Selected::Unknown => !scope.is_on_at_start_up(AuditedKind { axis, kind }),
+                selected => selected == Selected::On,
             };
-            if let Some(command) = ended.history.latest(axis, kind, selected) {
-                self.observed[at].last = Some(SelectionOrigin::Command(Site {
+            let effect = if is_on {
+                KindEffect::On
+            } else {
+                KindEffect::Off
+            };
+            let command = ended.found.history.latest(axis, kind, effect);
+            self.observed[at].last = command.map(|command| {
+                SelectionOrigin::Command(Site {
                     file: Arc::clone(&command.place.file),
                     line: command.place.first_line,
-                }));
-            }
+                })
+            });
         }
     }
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::cure::Cure;
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
-use super::observation::Observation;
+use super::observation::{FoundSide, Observation};
 use super::runs::{ProgramRuns, RunStart};
 use super::scope::{AuditedKind, Scope};
 use crate::comp::{Compensation, Kind, KindSet, State};
@@ -207,8 +207,8 @@ impl Auditor {
         interpreter
     }
 
-    /// Runs a program twice, with every axis in its start-up state and with every axis away from it. `run` runs it on
-    /// an interpreter: the host knows where its text comes from and where called programs are.
+    /// Runs a program with every axis found in its start-up state or away from it, once where that is enough (R10.1).
+    /// `run` runs it on an interpreter: the host knows where its text comes from and where called programs are.
     ///
     /// # Errors
     /// Those of `run`.
@@ -239,6 +239,51 @@ impl Auditor {
         called: Option<&Arc<str>>,
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<ProgramRuns, E> {
+        if let Some([start_up, away]) = self.observe_sides(called, run)? {
+            return Ok(ProgramRuns {
+                start_up,
+                away,
+                between: BTreeMap::new(),
+            });
+        }
+        self.observe_each(called, run)
+    }
+
+    /// Runs a program once with the states that it finds open. Returns what it does from the start-up states and from
+    /// those away from them; `None` where it depends on them.
+    fn observe_sides<E>(
+        &self,
+        called: Option<&Arc<str>>,
+        run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
+    ) -> Result<Option<[Observation; 2]>, E> {
+        let mut axes = self.machine.axes.iter();
+        if axes.any(|axis| !axis.monitored().is_empty()) {
+            return Ok(None);
+        }
+        let mut interpreter = self.interpreter(self.scope.start_up().clone());
+        let configured = self.scope.start_up();
+        let subjects = self.scope.subjects().iter();
+        let conditions: Vec<Option<u32>> = subjects
+            .map(|&AuditedKind { axis, kind }| {
+                let is_open = configured.is_configured(axis, kind);
+                is_open.then(|| interpreter.find_open(axis, kind))?
+            })
+            .collect();
+        let side = |is_away| {
+            let side = FoundSide::new(&self.scope, is_away, &conditions);
+            Observation::new(&self.scope).within(called).of_side(side)
+        };
+        let mut sides = [false, true].map(side);
+        self.watch(&mut interpreter, &mut sides, run)?;
+        Ok(sides.iter().all(|it| it.is_of_sides).then_some(sides))
+    }
+
+    /// Runs a program from each start on which what it does may depend.
+    fn observe_each<E>(
+        &self,
+        called: Option<&Arc<str>>,
+        run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
+    ) -> Result<ProgramRuns, E> {
         let mut runs = ProgramRuns {
             start_up: self.observe_from((&RunStart::new(false), called), run)?,
             away: self.observe_from((&RunStart::new(true), called), run)?,
@@ -263,15 +308,32 @@ impl Auditor {
     ) -> Result<Observation, E> {
         let from = self.scope.found(|at| start.is_away(at));
         let mut interpreter = self.interpreter(from);
+        let mut observation = [Observation::new(&self.scope).within(called)];
+        self.watch(&mut interpreter, &mut observation, run)?;
+        let [observation] = observation;
+        Ok(observation)
+    }
+
+    /// Runs a program on an interpreter.
+    fn watch<E>(
+        &self,
+        interpreter: &mut Interpreter,
+        observations: &mut [Observation],
+        run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
+    ) -> Result<(), E> {
         interpreter.find(&self.found);
-        let mut observation = Observation::new(&self.scope).within(called);
-        run(&mut interpreter, &mut |event: Event<'_>| {
-            observation.event(&self.scope, &event);
+        run(interpreter, &mut |event: Event<'_>| {
+            for observation in &mut *observations {
+                observation.event(&self.scope, &event);
+            }
             ControlFlow::Continue(())
         })?;
-        observation.rests_on = interpreter.rests_on();
-        observation.use_ends(interpreter.take_use());
-        Ok(observation)
+        let used = interpreter.take_use();
+        for observation in observations {
+            observation.rests_on = interpreter.rests_on();
+            observation.use_ends(used.clone());
+        }
+        Ok(())
     }
 
     /// Returns the effect that the runs show, subject by subject.
@@ -312,5 +374,72 @@ impl Auditor {
             }
         });
         audits.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use frictcomp_testing::generator::{Choices, NcProgram, Profile, Style};
+
+    use super::*;
+    use crate::interpreter::NoFiles;
+    use crate::text::SourceFile;
+
+    const MACHINE: &str = "[machine.programs]\nM06 = \"m6.nc\"\n\
+        [[axis]]\nname = \"X\"\nenable = true\n\
+        [[axis]]\nname = \"Y\"\nenable = true\n\
+        [[axis]]\nname = \"Z\"\nfrict_comp = true\n\
+        [[axis]]\nname = \"C\"\ntype = \"R\"\nenable = true\n\
+        [[axis]]\nname = \"W\"\nfrict_comp = false\n";
+
+    #[test]
+    fn one_run_with_open_states_shows_what_the_run_from_each_start_does() {
+        // R10.1, R10.10
+        let machine = Machine::from_toml(MACHINE).expect("a machine");
+        let auditor = Auditor::new(machine, Options::default(), &[], KindSet::of(Kind::Frict));
+        let profiles = [
+            Profile::ASKED_ONCE,
+            Profile::ASKED_AGAIN,
+            Profile::SHARED,
+            Profile::EXECUTED,
+            Profile::ARCHIVED,
+        ];
+        let mut decided = 0;
+        for seed in 1..=1000 {
+            let profile = &profiles[usize::try_from(seed).expect("small") % profiles.len()];
+            let mut program = NcProgram::choose(profile, &mut Choices::of_seed(seed));
+            let text = program.write(Style::default());
+            let mut run = |interpreter: &mut Interpreter, listen: &mut dyn Observer| {
+                let source = SourceFile::new("a.nc", text.as_str());
+                let _ = interpreter.program(source, &mut NoFiles, listen);
+                Ok::<(), Infallible>(())
+            };
+            let Ok(sides) = auditor.observe_sides(None, &mut run);
+            let Ok(each) = auditor.observe_each(None, &mut run);
+            let Some([start_up, away]) = sides else {
+                continue;
+            };
+            decided += 1;
+            let one = ProgramRuns {
+                start_up,
+                away,
+                between: BTreeMap::new(),
+            };
+            let what = format!("seed {seed}:\n{text}");
+            assert!(each.between.is_empty(), "{what}");
+            for (mine, theirs) in [(&one.start_up, &each.start_up), (&one.away, &each.away)] {
+                assert_eq!(mine.ends, theirs.ends, "{what}");
+                assert_eq!(mine.stopped, theirs.stopped, "{what}");
+                for (mine, theirs) in mine.observed.iter().zip(&theirs.observed) {
+                    assert_eq!(mine.motions, theirs.motions, "{what}");
+                }
+            }
+            assert_eq!(auditor.axes(&one), auditor.axes(&each), "{what}");
+            assert_eq!(one.called(), each.called(), "{what}");
+            assert_eq!(one.rests_on(), each.rests_on(), "{what}");
+        }
+        assert!(decided > 800, "only {decided} programs");
     }
 }

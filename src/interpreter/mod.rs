@@ -45,9 +45,12 @@ pub use values::cause::{ChangedVariable, MissingProgram, Unknown, UnknownText};
 pub use values::found::FoundVariables;
 pub(crate) use values::found::VariableUse;
 pub use values::value::Value;
+pub(crate) use ways::block_site::BlockSite;
 pub use ways::carried::CarriedWays;
-pub(crate) use ways::found_states::{FoundOn, UntouchedOn};
+pub(crate) use ways::found_states::{FoundOn, FoundStates, UntouchedOn};
+pub(crate) use ways::history::{KindEffect, Split};
 pub use ways::possible_state::{PossibleState, PossibleStates};
+pub(crate) use ways::set::WayAnswer;
 pub use ways::words::{BlockCondition, WayChange, WayCondition};
 pub(crate) use ways::words::{limit_to, ways_in_words};
 

@@ -10,7 +10,7 @@ mod undescribed;
 use super::linter::{LeftAway, Linter, Taken};
 use super::memory;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::{Ended, EndedBy, Executed};
+use crate::interpreter::{Ended, EndedBy, Executed, FoundStates};
 use crate::readings::Question;
 use crate::text::Span;
 
@@ -32,9 +32,6 @@ impl Linter<'_> {
         }
         if !executed.outcomes.is_empty() {
             self.commands(executed, said);
-        }
-        if !(executed.changes.is_empty() && executed.doubted.is_empty()) {
-            self.memory.forgotten(executed);
         }
         if !(executed.outcomes.is_empty() && self.jumps.is_empty()) {
             self.jump(executed, said);
@@ -65,7 +62,7 @@ impl Linter<'_> {
                 executed,
             };
             said.extend(ON_COMMAND.iter().find_map(|lint| lint(self, &taken)));
-            self.memory.command(axis, outcome, executed);
+            self.memory.command(axis, outcome);
         }
         said.extend(shared_block::lint(executed));
     }
@@ -75,8 +72,7 @@ impl Linter<'_> {
     /// which keeps the state unless another reading is selected (R1.28). Where the run went on after errors, the state
     /// at them is judged, too.
     pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
-        self.states
-            .program_ended(&self.program, &self.memory, ended);
+        self.states.program_ended(&self.program, ended);
         let is_kept = !self.machine.readings.takes_second(Question::Reset);
         // The blocks that a block search passes are not judged.
         let is_missed = ended
@@ -95,7 +91,10 @@ impl Linter<'_> {
                 ends: &stopped.ends,
                 compensation: &stopped.compensation,
                 possible: &stopped.possible,
-                history: &stopped.history,
+                found: FoundStates {
+                    history: &stopped.history,
+                    ..ended.found
+                },
                 ..*ended
             };
             let mut found = left_away::lint(self, &at_errors);

@@ -2,88 +2,17 @@
 
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, Membership, Selection, State};
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{
-    Certainty, Ended, Executed, FoundOn, MotionKind, MovedAxis, Outcome, WayCondition,
+    BlockSite, Certainty, Ended, Executed, FoundOn, KindEffect, MotionKind, MovedAxis, Outcome,
+    WayCondition,
 };
 use crate::text::{Place, Span};
-
-/// A block that a lint may have to name later.
-#[derive(Debug, Clone)]
-pub(super) struct BlockSite {
-    /// The executed block.
-    pub(super) seq: u64,
-    /// The relevant words.
-    pub(super) place: Place,
-    /// The ways on which it was executed; empty if on all of them.
-    ways: Vec<Vec<WayCondition>>,
-}
-
-impl BlockSite {
-    pub(super) fn new(executed: &Executed<'_>, span: Span) -> Self {
-        Self {
-            seq: executed.seq,
-            place: place(executed, span),
-            ways: executed.branch.unwrap_or_default().to_vec(),
-        }
-    }
-
-    /// Creates the site of a command of which only the place matters.
-    pub(super) fn at(seq: u64, place: Place) -> Self {
-        Self {
-            seq,
-            place,
-            ways: Vec::new(),
-        }
-    }
-
-    /// Whether it was executed on every way that leads to a block (R14.5).
-    pub(super) fn leads_to(&self, executed: &Executed<'_>) -> bool {
-        let passes = |way: &Vec<WayCondition>| {
-            let mut mine = self.ways.iter();
-            mine.any(|mine| mine.iter().all(|condition| way.contains(condition)))
-        };
-        let ways = executed.branch.unwrap_or_default();
-        self.ways.is_empty() || (!ways.is_empty() && ways.iter().all(passes))
-    }
-
-    /// Returns the block as named by a message in a file: `line 4`, or `sub.nc:4`.
-    pub(super) fn seen_from(&self, file: &str) -> String {
-        let (place, line) = (&self.place, self.place.start().line);
-        if *place.file == *file {
-            format!("line {line}")
-        } else {
-            format!("{}:{line}", place.file)
-        }
-    }
-}
 
 /// Returns the place of words of an executed block.
 pub(super) fn place(executed: &Executed<'_>, span: Span) -> Place {
     Place::in_block(executed.file, executed.text, executed.line, span)
-}
-
-/// Effect of a block on a kind.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum KindEffect {
-    /// A command switched it on.
-    On,
-    /// A command switched it off.
-    Off,
-    /// A region that may or may not be executed could have switched it (R2.51).
-    Unknown,
-    /// A call of an unknown program could have switched everything (R2.52).
-    Lost,
-}
-
-impl From<Selection> for KindEffect {
-    fn from(selection: Selection) -> Self {
-        match selection {
-            Selection::On(_) => Self::On,
-            Selection::Off(_) | Selection::OffAll => Self::Off,
-        }
-    }
 }
 
 /// A motion in the state that the program found.
@@ -101,15 +30,11 @@ pub(super) struct MovedBefore {
 pub(super) struct KindMemory {
     /// Whether a command of the program was about it.
     pub(super) is_commanded: bool,
-    /// The last effect; all kinds of a command share one site.
-    pub(super) last: Option<(KindEffect, Arc<BlockSite>)>,
     /// The first block that certainly moved the axis, other than by homing, while the kind was, or may have been, as
     /// the program found it.
     pub(super) moved_before: Option<MovedBefore>,
     /// Whether the control refused to move the axis while the kind was as the program found it (R1.36).
     pub(super) refused: bool,
-    /// The last command that switched it off, and the last that switched it on.
-    pub(super) switched: [Option<Arc<BlockSite>>; 2],
 }
 
 impl KindMemory {
@@ -146,7 +71,10 @@ impl Touch {
         let whole = Span::new(0, executed.text.len());
         let has_words = motion.span.end > motion.span.start;
         Self {
-            site: BlockSite::new(executed, if has_words { motion.span } else { whole }),
+            site: BlockSite {
+                seq: executed.seq,
+                place: place(executed, if has_words { motion.span } else { whole }),
+            },
             kind: motion.kind,
             certainty: motion.certainty,
         }
@@ -227,27 +155,15 @@ impl AxisMemory {
     pub(super) fn kind(&self, kind: Kind) -> &KindMemory {
         &self.kinds[kind as usize]
     }
-
-    fn note(&mut self, kinds: KindSet, effect: KindEffect, site: &Arc<BlockSite>) {
-        for kind in kinds.iter() {
-            let memory = &mut self.kinds[kind as usize];
-            match effect {
-                KindEffect::Off => memory.switched[0] = Some(Arc::clone(site)),
-                KindEffect::On => memory.switched[1] = Some(Arc::clone(site)),
-                KindEffect::Unknown | KindEffect::Lost => {}
-            }
-            memory.last = Some((effect, Arc::clone(site)));
-        }
-    }
 }
 
 /// Returns the latest command among those that are last on some way and lead to the state at the end, or away from the
 /// start-up state if ways differ (R14.5).
-pub(super) fn command_to(
-    ended: &Ended<'_>,
+pub(super) fn command_to<'a>(
+    ended: &Ended<'a>,
     (axis, kind): (AxisIndex, Kind),
     start_up: &Compensation,
-) -> Option<Arc<BlockSite>> {
+) -> Option<&'a BlockSite> {
     let is_off = match ended.compensation.state(axis, kind) {
         State::Unknown => {
             let mut possible = ended.possible.iter();
@@ -256,13 +172,12 @@ pub(super) fn command_to(
         }
         state => state == State::Inactive,
     };
-    let selected = if is_off {
-        Membership::Out
+    let effect = if is_off {
+        KindEffect::Off
     } else {
-        Membership::In
+        KindEffect::On
     };
-    let latest = ended.history.latest(axis, kind, selected)?;
-    Some(Arc::new(BlockSite::at(latest.seq, latest.place.clone())))
+    ended.found.history.latest(axis, kind, effect)
 }
 
 /// Whether a motion counts for the second run (R1.53, R10.7).
@@ -299,40 +214,11 @@ impl ProgramEffects {
     }
 
     /// Records a command that the control accepted.
-    pub(super) fn command(&mut self, axis: AxisIndex, outcome: &Outcome, executed: &Executed<'_>) {
-        let site = Arc::new(BlockSite::new(executed, outcome.command.span));
-        let selection = outcome.command.selection;
+    pub(super) fn command(&mut self, axis: AxisIndex, outcome: &Outcome) {
         let memory = &mut self.axes[axis.get()];
         memory.commanded = true;
-        for kind in selection.kinds().iter() {
+        for kind in outcome.command.selection.kinds().iter() {
             memory.kinds[kind as usize].is_commanded = true;
-        }
-        memory.note(selection.kinds(), selection.into(), &site);
-    }
-
-    /// Returns the block that made the state of a kind at the end: the latest of the commands that are last on some way
-    /// and lead to that state, or away from the start-up state if ways differ.
-    pub(super) fn made(
-        &self,
-        ended: &Ended<'_>,
-        (axis, kind): (AxisIndex, Kind),
-        start_up: &Compensation,
-    ) -> Option<Arc<BlockSite>> {
-        let last = self.axis(axis).kind(kind).last.as_ref();
-        let command = command_to(ended, (axis, kind), start_up);
-        command.or_else(|| last.map(|(_, site)| Arc::clone(site)))
-    }
-
-    /// Records states made unknown not by a command, but by something else in this block.
-    pub(super) fn forgotten(&mut self, executed: &Executed<'_>) {
-        let site = Arc::new(BlockSite::new(executed, Span::new(0, executed.text.len())));
-        let lost = |change: &&Change| change.to == State::Unknown;
-        for change in executed.changes.iter().filter(lost) {
-            let kinds = KindSet::from_iter([change.kind]);
-            self.axes[change.axis.get()].note(kinds, KindEffect::Lost, &site);
-        }
-        for &(axis, kinds) in executed.doubted {
-            self.axes[axis.get()].note(kinds, KindEffect::Unknown, &site);
         }
     }
 

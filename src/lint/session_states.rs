@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::memory::{BlockSite, ProgramEffects};
+use super::memory::command_to;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
-use crate::interpreter::Ended;
+use crate::interpreter::{BlockSite, Ended};
 
 /// The most characters of a block's text that are kept.
 const MAX_TEXT: usize = 400;
@@ -107,19 +107,23 @@ impl SessionStates {
     }
 
     /// Records the effects of an ended program on the states that it leaves.
-    pub(super) fn program_ended(&mut self, program: &str, did: &ProgramEffects, ended: &Ended<'_>) {
+    pub(super) fn program_ended(&mut self, program: &str, ended: &Ended<'_>) {
         let left = ended.compensation;
         for (position, kinds) in self.axes.iter_mut().enumerate() {
             let axis = AxisIndex::new(position);
             for (kind, away) in Kind::ALL.into_iter().zip(kinds) {
-                if did.axis(axis).kind(kind).last.is_some() {
+                let last = ended.found.history.last(axis, kind);
+                if last.is_some() {
                     self.unswitched[position].remove(kind);
                 }
                 if left.state(axis, kind) == self.start_up.state(axis, kind) {
                     *away = Away::default();
-                } else if let Some(site) = did.made(ended, (axis, kind), &self.start_up) {
+                    continue;
+                }
+                let command = command_to(ended, (axis, kind), &self.start_up);
+                if let Some(site) = command.or(last.map(|(_, site)| site)) {
                     *away = Away {
-                        maker: Some(Maker::new(program, &site)),
+                        maker: Some(Maker::new(program, site)),
                         notice: LeftAwayNotice::No,
                     };
                 }

@@ -134,7 +134,7 @@ impl ArchiveAuditor {
         ControlFlow::Continue(())
     }
 
-    /// Runs every program twice, and those again that depend on what others leave in variables (R2.34). Returns the
+    /// Runs every program, and those again that depend on what others leave in variables (R2.34). Returns the
     /// archive of each machine, and what cannot be read.
     pub fn audit(&self) -> (Vec<Archive>, Vec<HostError>) {
         let auditors = self.auditors();

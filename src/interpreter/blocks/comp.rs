@@ -10,6 +10,7 @@ use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::ways::history::RepeatedSwitch;
 use crate::language::{ChainStep, HashCommand};
 use crate::machine::{Axis, AxisSet, Origin, Parameterisation};
 use crate::readings::Question;
@@ -32,11 +33,10 @@ impl Interpreter {
             }
             let selection = self.not_yet_switched(command.selection, axis);
             let control = &mut self.state.control;
+            let changes = &mut self.scratch.changes;
+            control.compensation.switch(axis, selection, changes)?;
             control.history.close(axis, selection.kinds());
-            control
-                .compensation
-                .switch(axis, selection, &mut self.scratch.changes)
-                .map(|()| axis)
+            Ok(axis)
         });
         match &result {
             Ok(axis) => {
@@ -55,6 +55,7 @@ impl Interpreter {
             command: command.clone(),
             result,
             changes: self.scratch.changes.len() - before,
+            repeated: RepeatedSwitch::default(),
         });
     }
 

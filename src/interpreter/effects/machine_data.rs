@@ -57,8 +57,9 @@ impl Interpreter {
         let now = &self.state.control.compensation;
         let is_lost = |axis: AxisIndex, kind: &Kind| {
             let (now, start) = (now.state(axis, *kind), start.state(axis, *kind));
+            let is_open = self.state.control.history.states(axis, *kind).is_some();
             written(arguments, text) == WriteTarget::Friction
-                || (now != start && now != State::Unknown)
+                || (now != start && (now != State::Unknown || is_open))
         };
         let lost = axes.into_iter().map(|axis| {
             let kinds = Kind::ALL.into_iter().filter(|kind| is_lost(axis, kind));

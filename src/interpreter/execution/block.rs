@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::comp::KindSet;
+use crate::comp::{KindSet, State as CompState};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::block_context::BlockContext;
@@ -11,13 +11,12 @@ use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::run::path::Last;
-use crate::interpreter::run::path::RunTrack;
+use crate::interpreter::run::path::{Last, RunTrack};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, NextBlock, Request};
 use crate::interpreter::run::stopping::{ended_by, stops};
-use crate::interpreter::ways::found_states::FoundStates;
-use crate::interpreter::ways::history::LastCommand;
+use crate::interpreter::ways::block_site::BlockSite;
+use crate::interpreter::ways::history::KindEffect;
 use crate::interpreter::ways::words::limit_to;
 use crate::language::AxisWords;
 use crate::syntax::Fault;
@@ -166,6 +165,7 @@ impl Interpreter {
             step => step,
         };
         self.limit_messages(first);
+        self.note_doubts(at);
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
             file: at.file,
@@ -196,11 +196,7 @@ impl Interpreter {
             passed: self.is_searching(),
             compensation: &self.state.control.compensation,
             possible: &self.shown.possible,
-            found: FoundStates {
-                history: &self.state.control.history,
-                reach: &self.state.track.reach,
-                conditions: &self.state.conditions,
-            },
+            found: self.state.found_states(),
             failed: self.state.track.failed.as_deref(),
             branch: self.shown.branch.as_deref(),
             modal: &self.state.control.modal,
@@ -226,7 +222,7 @@ impl Interpreter {
         let scratch = &self.scratch;
         if !scratch.changes.is_empty() || scratch.new_axes || scratch.left_open.is_some() {
             self.version += 1;
-            self.replace_possible();
+            self.close_changed();
         }
         self.state.remember_last(at);
         self.scratch.gather_asked();
@@ -342,15 +338,17 @@ impl Interpreter {
         limit: Option<u32>,
     ) {
         self.items(at, outcome, limit);
-        for outcome in &self.scratch.outcomes {
-            if let Ok(axis) = outcome.result {
-                let last = LastCommand {
-                    seq: self.state.seq,
-                    place: at.place(outcome.command.span),
-                };
-                let history = &mut self.state.control.history;
-                history.switch(axis, outcome.command.selection, last);
-            }
+        for outcome in &mut self.scratch.outcomes {
+            let Ok(axis) = outcome.result else {
+                continue;
+            };
+            let (command, history) = (&outcome.command, &mut self.state.control.history);
+            outcome.repeated = history.repeated(axis, command.selection, &self.state.track.reach);
+            let site = BlockSite {
+                seq: self.state.seq,
+                place: at.place(command.span),
+            };
+            history.switch(axis, command.selection, site);
         }
         if let Some(cause) = self.scratch.unknown_call.take() {
             self.havoc_all(&cause);
@@ -358,13 +356,35 @@ impl Interpreter {
     }
 
     /// Drops the sets of states that a change by the block has decided.
-    fn replace_possible(&mut self) {
+    fn close_changed(&mut self) {
         let history = &mut self.state.control.history;
         for change in &self.scratch.changes {
             history.close(change.axis, KindSet::of(change.kind));
         }
         if let Some(left) = self.scratch.left_open.take() {
             self.leave_open(&left);
+        }
+    }
+
+    /// Records what the block, or what it calls, may have switched without a command.
+    #[inline]
+    fn note_doubts(&mut self, at: &BlockContext<'_>) {
+        if self.scratch.changes.is_empty() && self.scratch.doubted.is_empty() {
+            return;
+        }
+        let history = &mut self.state.control.history;
+        let seq = self.state.seq;
+        let site = || BlockSite {
+            seq,
+            place: at.place(Span::new(0, at.text.len())),
+        };
+        let lost = self.scratch.changes.iter();
+        for change in lost.filter(|change| change.to == CompState::Unknown) {
+            let kinds = KindSet::of(change.kind);
+            history.doubt((change.axis, kinds), KindEffect::Lost, site());
+        }
+        for doubted in &self.scratch.doubted {
+            history.doubt(*doubted, KindEffect::Doubted, site());
         }
     }
 }

@@ -120,7 +120,7 @@ impl Interpreter {
             endless: std::mem::take(&mut self.scratch.endless),
             at: at.as_ref().map(|end| &end.place),
             ends: &ends,
-            history: &self.state.control.history,
+            found: self.state.found_states(),
             stopped: ended.stopped.as_ref(),
             failed: self.state.track.failed.as_deref(),
             changes: &changes,

@@ -253,6 +253,7 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
         ConditionKind::Branch
         | ConditionKind::Case
         | ConditionKind::Loop
+        | ConditionKind::Found(..)
         | ConditionKind::Search => {
             format!(
                 "this condition depends on {}",

@@ -179,7 +179,10 @@ impl<'a> Trust<'a> {
 
     fn check_ways(&self, ways: &Ways) -> Validity {
         let axes = self.machine.axes.len();
-        holds(ways.fit(axes), "a way of other axes")?;
+        holds(
+            ways.fit(axes, self.state.conditions.len()),
+            "a way of other axes",
+        )?;
         let tails = ways.tails().all(|(place, _)| self.has(place));
         holds(tails, "a way through a program that is not there")?;
         let cycles = ways.cycles().all(|cycles| self.has_cycles(cycles));

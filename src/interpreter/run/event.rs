@@ -15,7 +15,7 @@ use crate::interpreter::coordinates::motion::{Motion, Travel};
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::ways::found_states::FoundStates;
-use crate::interpreter::ways::history::History;
+use crate::interpreter::ways::history::{History, RepeatedSwitch};
 use crate::interpreter::ways::possible_state::PossibleStates;
 use crate::interpreter::ways::words::WayCondition;
 use crate::language::{Certainty, Group, MotionKind};
@@ -51,6 +51,8 @@ pub struct Outcome {
     pub result: Result<AxisIndex, CompensationError>,
     /// Number of the block's changes that it made.
     pub changes: usize,
+    /// The kinds that it switches as they were switched before.
+    pub(crate) repeated: RepeatedSwitch,
 }
 
 /// Finding of a run that may interest a user.
@@ -277,7 +279,7 @@ pub struct Ended<'a> {
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
     /// What switched each kind, on each way that ends.
-    pub(crate) history: &'a History,
+    pub(crate) found: FoundStates<'a>,
     /// The state at the errors on all ways, where the run went on after them.
     pub(crate) stopped: Option<&'a StoppedState>,
     /// The error at which the control stops on all ways, where the run went on after it.

@@ -14,6 +14,7 @@ use super::undecided::MentionedUnknowns;
 use super::waiting_paths::WaitingPaths;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
+use crate::interpreter::ways::found_states::FoundStates;
 use crate::interpreter::ways::question::Condition;
 use crate::interpreter::ways::set::WaySet;
 use crate::readings::QuestionSet;
@@ -73,6 +74,15 @@ impl State {
         let others = self.waiting.iter_mut().chain(kept).chain(ended);
         let others = others.map(|path| &mut path.control);
         std::iter::once(&mut self.control).chain(others)
+    }
+
+    /// The states that the program found, where it is now.
+    pub(crate) fn found_states(&self) -> FoundStates<'_> {
+        FoundStates {
+            history: &self.control.history,
+            reach: &self.track.reach,
+            conditions: &self.conditions,
+        }
     }
 
     /// The run goes on only on some of the ways that lead here.

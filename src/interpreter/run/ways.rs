@@ -19,6 +19,7 @@ use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::ways::history::History;
 use crate::text::Span;
 
 /// The target of a way that returns to the caller.
@@ -87,6 +88,8 @@ pub(crate) struct OpenPath {
 pub(crate) struct PathState {
     /// Selected and unknown kinds, by axis.
     pub(crate) kinds: Vec<AxisKinds>,
+    /// The blocks that switched them.
+    pub(crate) history: History,
     pub(crate) modal: Modal,
     pub(crate) cycles: ModalCycles,
     /// The couplings, by the number of their changes.
@@ -287,12 +290,13 @@ impl Ways {
         self.open.iter().chain(self.end.as_deref())
     }
 
-    /// Whether the state kept for each way describes a number of axes.
-    pub(crate) fn fit(&self, axes: usize) -> bool {
-        let states = self.all().map(|way| &way.state);
-        states
-            .into_iter()
-            .all(|state| state.kinds.len() == axes && state.modal.fits(axes))
+    /// Whether the state kept for each way describes a number of axes, and names conditions below a number.
+    pub(crate) fn fit(&self, axes: usize, conditions: usize) -> bool {
+        self.all().map(|way| &way.state).all(|state| {
+            state.kinds.len() == axes
+                && state.history.fits(axes, conditions)
+                && state.modal.fits(axes)
+        })
     }
 
     /// The sections that ways execute, each from a block on.
@@ -331,6 +335,7 @@ impl OpenPath {
         for (mine, theirs) in self.state.kinds.iter_mut().zip(&other.state.kinds) {
             mine.unknown = mine.differing(*theirs);
         }
+        self.state.history.join_sites(&other.state.history);
         self.state.modal.join(&other.state.modal);
         self.state.cycles.join(&other.state.cycles);
         join_names(&mut self.state.named, &other.state.named, &other.cause);

@@ -227,6 +227,7 @@ impl Interpreter {
             let differing = known.differing(*kinds);
             self.havoc(axis, differing.without(known.unknown));
         }
+        self.state.control.history.join_sites(&state.history);
         self.state.control.modal.join(&state.modal);
         if state.macros != self.state.control.memory.macro_version() {
             self.havoc_macros(&cause);
@@ -305,6 +306,7 @@ impl State {
             cause,
             state: PathState {
                 kinds: self.control.all_kinds(),
+                history: self.control.history.clone(),
                 modal: self.control.modal.clone(),
                 cycles: self.control.cycles.clone(),
                 couplings: self.control.couplings.version(),

@@ -38,7 +38,7 @@ impl Interpreter {
                 NextStart::Reset => self.reset_after_stop(),
                 NextStart::Restart => {
                     self.restart();
-                    self.state.control.history.forget_commands();
+                    self.state.control.history.forget_sites();
                 }
             }
             let end = self.scratch.end.replace(OwnEnd {

@@ -1,11 +1,11 @@
 //! Questions about the ways on which a program has not yet switched the state that it found (R1.52, R14.5).
 
-use super::history::History;
-use super::possible_state::ways_of;
+use super::history::{AxisKind, History, Split};
+use super::possible_state::{PossibleStates, states_of, ways_of};
 use super::question::Condition;
 use super::set::WaySet;
 use super::words::{WayCondition, if_ways};
-use crate::comp::{AxisIndex, Kind};
+use crate::comp::{AxisIndex, Compensation, Kind};
 
 /// The ways to a block on which the state is the one that the program found.
 #[derive(Debug, Clone)]
@@ -48,6 +48,15 @@ pub(crate) struct FoundStates<'a> {
 }
 
 impl FoundStates<'_> {
+    /// The possible states of a kind, with some of the ways to each.
+    pub(crate) fn states_of(
+        self,
+        kind: (&Compensation, AxisKind),
+        split: &Split,
+    ) -> PossibleStates {
+        states_of(kind, split, (self.reach, self.conditions))
+    }
+
     /// Whether a kind of an axis may still be in the state that the program found.
     pub(crate) fn has(self, axis: AxisIndex, kind: Kind) -> bool {
         let ways = self.history.found_ways(axis, kind);

@@ -1,5 +1,6 @@
 //! History of the switching of each kind of compensation on each axis, which every reader asks: which state it has on
-//! which ways (R14.2), on which ways it is still as the program found it (R1.52), and which commands left it so (R1.50).
+//! which ways (R14.2), on which ways it is still as the program found it (R1.52), and which blocks left it so or may have
+//! switched it since (R1.50).
 //!
 //! ```text
 //! N10 $IF V.E.A == 1
@@ -16,16 +17,16 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::set::WaySet;
+use super::block_site::BlockSite;
+use super::set::{WayAnswer, WaySet};
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership, Selection};
 use crate::interpreter::values::rows;
-use crate::text::Place;
 
-/// Number of commands of one direction kept for a kind where ways meet; of more, the later lines are kept.
+/// Number of blocks of one effect kept for a kind where ways meet; of more, the later lines are kept.
 const MAX_KEPT: usize = 16;
 
 /// A kind of an axis.
-type AxisKind = (AxisIndex, Kind);
+pub(crate) type AxisKind = (AxisIndex, Kind);
 
 /// The ways on which a kind of an axis is selected, and those on which it is not.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,6 +41,14 @@ impl Split {
         Self {
             on: self.on.and(ways),
             off: self.off.and(ways),
+        }
+    }
+
+    /// Restricts both to the ways on which a condition has an answer, without naming it.
+    pub(crate) fn given(&self, answer: WayAnswer) -> Self {
+        Self {
+            on: self.on.given(answer),
+            off: self.off.given(answer),
         }
     }
 
@@ -69,51 +78,83 @@ impl Split {
             _ => None,
         }
     }
-}
 
-/// A COMP command that was executed last on some way.
-#[derive(Debug, Clone, Eq, Serialize, Deserialize)]
-pub(crate) struct LastCommand {
-    /// The executed block.
-    pub(crate) seq: u64,
-    pub(crate) place: Place,
-}
-
-impl PartialEq for LastCommand {
-    /// A command that a loop repeats counts as equal.
-    fn eq(&self, other: &Self) -> bool {
-        self.place == other.place
+    /// The only selection that is possible.
+    pub(crate) fn only(&self) -> Option<Membership> {
+        match (self.on.is_never(), self.off.is_never()) {
+            (false, true) => Some(Membership::In),
+            (true, false) => Some(Membership::Out),
+            _ => None,
+        }
     }
 }
 
-/// The last commands of one direction, by file and line.
+/// Effect of a block on a kind; of the effects of one block, the later one counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum KindEffect {
+    /// A command switches it off.
+    Off,
+    /// A command switches it on.
+    On,
+    /// Something that is not known may switch anything (R2.52).
+    Lost,
+    /// A part of the program that may or may not be executed, or a change of the machine data, may switch it (R2.51,
+    /// R2.92).
+    Doubted,
+}
+
+impl KindEffect {
+    const ALL: [Self; 4] = [Self::Off, Self::On, Self::Lost, Self::Doubted];
+}
+
+impl From<Selection> for KindEffect {
+    fn from(selection: Selection) -> Self {
+        match selection {
+            Selection::On(_) => Self::On,
+            Selection::Off(_) | Selection::OffAll => Self::Off,
+        }
+    }
+}
+
+/// Kinds that one earlier command each switched as a command does, on every way that leads to it, without anything in
+/// between that may have switched them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct RepeatedSwitch {
+    pub(crate) kinds: KindSet,
+    /// The latest of those commands.
+    pub(crate) site: Option<BlockSite>,
+}
+
+/// The blocks of one effect, by file and line.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<LastCommand>", from = "Vec<LastCommand>")]
-struct LastCommands(BTreeMap<(Arc<str>, u32), LastCommand>);
+#[serde(into = "Vec<BlockSite>", from = "Vec<BlockSite>")]
+struct BlockSites(BTreeMap<(Arc<str>, u32), BlockSite>);
 
-impl From<Vec<LastCommand>> for LastCommands {
-    fn from(commands: Vec<LastCommand>) -> Self {
-        let line = |it: &LastCommand| (Arc::clone(&it.place.file), it.place.first_line);
-        Self(commands.into_iter().map(|it| (line(&it), it)).collect())
+impl From<Vec<BlockSite>> for BlockSites {
+    fn from(sites: Vec<BlockSite>) -> Self {
+        let line = |it: &BlockSite| (Arc::clone(&it.place.file), it.place.first_line);
+        Self(sites.into_iter().map(|it| (line(&it), it)).collect())
     }
 }
 
-impl From<LastCommands> for Vec<LastCommand> {
-    fn from(commands: LastCommands) -> Self {
-        commands.0.into_values().collect()
+impl From<BlockSites> for Vec<BlockSite> {
+    fn from(sites: BlockSites) -> Self {
+        sites.0.into_values().collect()
     }
 }
 
-impl LastCommands {
+impl BlockSites {
     fn join(&mut self, other: &Self) {
-        for (line, command) in &other.0 {
-            self.0
-                .entry(line.clone())
-                .or_insert_with(|| command.clone());
+        for (line, site) in &other.0 {
+            self.0.entry(line.clone()).or_insert_with(|| site.clone());
         }
         while self.0.len() > MAX_KEPT {
             self.0.pop_first();
         }
+    }
+
+    fn latest(&self) -> Option<&BlockSite> {
+        self.0.values().max_by_key(|site| site.seq)
     }
 }
 
@@ -124,8 +165,8 @@ struct KindHistory {
     found: Option<WaySet>,
     /// The ways to each state where they differ; a kind that is unknown without them may be in any state on any way.
     states: Option<Split>,
-    /// The commands that are the last ones on some way: those that switch it off, and those that switch it on.
-    commands: [LastCommands; 2],
+    /// The blocks of each effect: the commands that are the last ones on some way, and what may have switched it since.
+    sites: [BlockSites; KindEffect::ALL.len()],
 }
 
 impl KindHistory {
@@ -140,6 +181,13 @@ impl KindHistory {
             .map_or_else(|| reach.clone(), |ways| ways.and(reach))
     }
 
+    /// The block with an effect, where nothing else has any on the ways of `reach`.
+    fn only(&self, effect: KindEffect, reach: &WaySet) -> Option<&BlockSite> {
+        let blocks: usize = self.sites.iter().map(|sites| sites.0.len()).sum();
+        let site = self.sites[effect as usize].latest();
+        site.filter(|_| blocks == 1 && self.found_on(reach).is_never())
+    }
+
     /// Joins everything but the states. `reach` has the ways to this history and to the other.
     fn join(&mut self, other: &Self, reach: [&WaySet; 2]) {
         if self.found != other.found {
@@ -147,7 +195,11 @@ impl KindHistory {
             found.or(&other.found_on(reach[1]));
             self.found = Some(found);
         }
-        for (mine, theirs) in self.commands.iter_mut().zip(&other.commands) {
+        self.join_sites(other);
+    }
+
+    fn join_sites(&mut self, other: &Self) {
+        for (mine, theirs) in self.sites.iter_mut().zip(&other.sites) {
             mine.join(theirs);
         }
     }
@@ -222,22 +274,33 @@ impl History {
     pub(crate) fn begin_program(&mut self) {
         self.change_all(|kind| {
             kind.found = None;
-            kind.commands = Default::default();
+            kind.sites = Default::default();
         });
     }
 
     /// A command switches kinds of an axis: on this way it is the last one.
-    pub(crate) fn switch(&mut self, axis: AxisIndex, selection: Selection, command: LastCommand) {
-        let mut commands = [LastCommands::default(), LastCommands::default()];
-        let is_on = matches!(selection, Selection::On(_));
-        commands[usize::from(is_on)] = vec![command].into();
-        let switched = Arc::new(KindHistory {
+    pub(crate) fn switch(&mut self, axis: AxisIndex, selection: Selection, site: BlockSite) {
+        let mut switched = KindHistory {
             found: Some(WaySet::never()),
-            states: None,
-            commands,
-        });
+            ..KindHistory::default()
+        };
+        switched.sites[KindEffect::from(selection) as usize] = vec![site].into();
+        let switched = Arc::new(switched);
         for kind in selection.kinds().iter() {
             self.0.insert((axis, kind), Arc::clone(&switched));
+        }
+    }
+
+    /// A block may have switched kinds of an axis.
+    pub(crate) fn doubt(
+        &mut self,
+        (axis, kinds): (AxisIndex, KindSet),
+        effect: KindEffect,
+        site: BlockSite,
+    ) {
+        let site = BlockSites::from(vec![site]);
+        for kind in kinds.iter() {
+            self.change((axis, kind), |it| it.sites[effect as usize].join(&site));
         }
     }
 
@@ -252,9 +315,9 @@ impl History {
         }
     }
 
-    /// A restart of the control comes after the commands.
-    pub(crate) fn forget_commands(&mut self) {
-        self.change_all(|kind| kind.commands = Default::default());
+    /// A restart of the control comes after all blocks.
+    pub(crate) fn forget_sites(&mut self) {
+        self.change_all(|kind| kind.sites = Default::default());
     }
 
     /// The states of kinds of an axis are known, or may be any on any way.
@@ -304,16 +367,43 @@ impl History {
         self.0.get(&(axis, kind))?.found.as_ref()
     }
 
-    /// The command that was executed latest, of those that are the last ones on some way and switch a kind off, or on.
+    /// The latest of the blocks with an effect on a kind of an axis.
     pub(crate) fn latest(
         &self,
         axis: AxisIndex,
         kind: Kind,
-        selected: Membership,
-    ) -> Option<&LastCommand> {
-        let kind = self.0.get(&(axis, kind))?;
-        let commands = &kind.commands[usize::from(selected == Membership::In)];
-        commands.0.values().max_by_key(|it| it.seq)
+        effect: KindEffect,
+    ) -> Option<&BlockSite> {
+        self.0.get(&(axis, kind))?.sites[effect as usize].latest()
+    }
+
+    /// The latest of all blocks with an effect on a kind of an axis.
+    pub(crate) fn last(&self, axis: AxisIndex, kind: Kind) -> Option<(KindEffect, &BlockSite)> {
+        let effects = KindEffect::ALL.into_iter();
+        let sites = effects.filter_map(|it| Some((it, self.latest(axis, kind, it)?)));
+        sites.max_by_key(|(_, site)| site.seq)
+    }
+
+    /// The kinds of an axis that a command switches as an earlier one did on all ways of `reach`.
+    pub(crate) fn repeated(
+        &self,
+        axis: AxisIndex,
+        selection: Selection,
+        reach: &WaySet,
+    ) -> RepeatedSwitch {
+        let effect = KindEffect::from(selection);
+        let mut repeated = RepeatedSwitch::default();
+        for kind in selection.kinds().iter() {
+            let known = self.0.get(&(axis, kind));
+            let Some(site) = known.and_then(|known| known.only(effect, reach)) else {
+                continue;
+            };
+            repeated.kinds.insert(kind);
+            if repeated.site.as_ref().is_none_or(|it| it.seq < site.seq) {
+                repeated.site = Some(site.clone());
+            }
+        }
+        repeated
     }
 
     /// The run continues on some ways only: whatever they all agree on is known.
@@ -388,6 +478,15 @@ impl History {
                 joined.states = states.filter(|_| only.is_none());
             }
             self.change(key, |it| *it = joined);
+        }
+    }
+
+    /// Joins the blocks of a way of which nothing else is known any more.
+    pub(crate) fn join_sites(&mut self, other: &Self) {
+        if self != other {
+            for (key, theirs) in &other.0 {
+                self.change(*key, |mine| mine.join_sites(theirs));
+            }
         }
     }
 

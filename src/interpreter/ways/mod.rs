@@ -37,6 +37,7 @@
 //! This room has the sets, questions and words. What a way consists of is in `run`, with the ways that wait, the heads
 //! of loops and the effects of calls; where ways part, meet and end is in `execution`.
 
+pub(super) mod block_site;
 pub(super) mod carried;
 pub(super) mod clash;
 pub(super) mod found_states;

@@ -6,7 +6,7 @@ use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
 use super::clash::clash;
-use super::history::{History, Split};
+use super::history::{AxisKind, History, Split};
 use super::question::{Condition, ConditionKind, KeptAnswer};
 use super::set::{Way, WayAnswer, WaySet};
 use super::words::{
@@ -74,7 +74,7 @@ impl PossibleStates {
             Some(words) => format!("{} {words}", state.state),
             None => format!("else {}", state.state),
         });
-        if self.states.iter().any(PossibleState::is_always) {
+        if self.is_widened() {
             let states: Vec<&str> = self.states.iter().map(|it| it.state.as_str()).collect();
             return format!("{}, on more ways than can be named", states.join(" or "));
         }
@@ -151,6 +151,11 @@ impl PossibleStates {
         copy
     }
 
+    /// Whether there are more ways than can be named.
+    pub(crate) fn is_widened(&self) -> bool {
+        self.states.iter().any(PossibleState::is_always)
+    }
+
     /// Whether one condition decides.
     fn rests_on_one_condition(&self) -> bool {
         let mut named = self.states.iter().flat_map(|state| &state.ways);
@@ -193,40 +198,48 @@ pub(crate) fn shown(
     let splits = history
         .open_kinds()
         .filter(|((axis, kind), _)| compensation.state(*axis, *kind) == State::Unknown);
-    let rows = splits.map(|((axis, kind), split)| {
-        let state = |membership| {
-            let mut decided = compensation.clone();
-            decided.decide(axis, kind, membership);
-            decided.state(axis, kind)
-        };
-        let Split { on, off } = split;
-        // Sets that were widened until they overlap do not tell which state a way leaves.
-        let overlap = !on.and(off).and(reach).is_never();
-        let [on, off] = [on, off].map(|ways| {
-            if overlap {
-                WaySet::always()
-            } else {
-                ways.within(reach).beyond(reach)
-            }
-        });
-        // A state that is possible only if a value changes is marked as such, one that needs none is the other.
-        let size = |ways: &WaySet| {
-            let named = ways_of(ways, conditions);
-            match named.as_slice() {
-                [] => usize::MAX,
-                named if all_need_change(named) => 0,
-                _ => ways.conditions().count(),
-            }
-        };
-        let (if_off, if_on) = (state(Membership::Out), state(Membership::In));
-        let states = if size(&off) <= size(&on) {
-            vec![named(if_off, &off, conditions), otherwise(if_on)]
-        } else {
-            vec![named(if_on, &on, conditions), otherwise(if_off)]
-        };
-        PossibleStates { axis, kind, states }
-    });
+    let rows =
+        splits.map(|(key, split)| states_of((compensation, key), split, (reach, conditions)));
     rows.collect()
+}
+
+/// Returns the possible states of a kind of an axis on the ways of `reach`.
+pub(crate) fn states_of(
+    (compensation, (axis, kind)): (&Compensation, AxisKind),
+    split: &Split,
+    (reach, conditions): (&WaySet, &[Condition]),
+) -> PossibleStates {
+    let state = |membership| {
+        let mut decided = compensation.clone();
+        decided.decide(axis, kind, membership);
+        decided.state(axis, kind)
+    };
+    let Split { on, off } = split;
+    // Sets that were widened until they overlap do not tell which state a way leaves.
+    let overlap = !on.and(off).and(reach).is_never();
+    let [on, off] = [on, off].map(|ways| {
+        if overlap {
+            WaySet::always()
+        } else {
+            ways.within(reach).beyond(reach)
+        }
+    });
+    // A state that is possible only if a value changes is marked as such, one that needs none is the other.
+    let size = |ways: &WaySet| {
+        let named = ways_of(ways, conditions);
+        match named.as_slice() {
+            [] => usize::MAX,
+            named if all_need_change(named) => 0,
+            _ => ways.conditions().count(),
+        }
+    };
+    let (if_off, if_on) = (state(Membership::Out), state(Membership::In));
+    let states = if size(&off) <= size(&on) {
+        vec![named(if_off, &off, conditions), otherwise(if_on)]
+    } else {
+        vec![named(if_on, &on, conditions), otherwise(if_off)]
+    };
+    PossibleStates { axis, kind, states }
 }
 
 fn otherwise(state: State) -> PossibleState {
@@ -347,6 +360,11 @@ fn condition_of(
                 on: answer.sides == 1,
             }
         }
+        ConditionKind::Found(compensation, selected) => WayCondition::Found {
+            axis: condition.texts.concat(),
+            compensation,
+            state: if is_else { State::Inactive } else { selected },
+        },
         ConditionKind::Search => WayCondition::Search {
             file,
             line,

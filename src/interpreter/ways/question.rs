@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::comp::Kind;
+use crate::comp::{Kind, State};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::SetAt;
 use crate::syntax::VariableName;
@@ -31,6 +31,8 @@ pub(crate) enum ConditionKind {
     /// Whether a program that only the machine has leaves a kind selected on an axis; the texts are the
     /// names of the program and of the axis.
     Call(Kind),
+    /// Whether the program finds a kind selected on an axis, with its state then; the text is the name of the axis.
+    Found(Kind, State),
     /// Whether a block search executes the commands that it passes.
     Search,
     /// Whether `#ERROR` without a remedy class ends the program (R2.100).

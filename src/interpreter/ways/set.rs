@@ -100,6 +100,20 @@ impl WaySet {
         Self(both.ways)
     }
 
+    /// The ways on which a condition has an answer, without naming it.
+    pub(crate) fn given(&self, answer: WayAnswer) -> Self {
+        if let [way] = self.0.as_slice()
+            && let [only] = way.as_slice()
+            && only.condition == answer.condition
+        {
+            let holds = only.sides & answer.sides != 0;
+            return if holds { Self::always() } else { Self::never() };
+        }
+        let mut given = self.and(&Self::of(answer));
+        given.havoc(answer.condition);
+        given
+    }
+
     /// Whether each of the ways is one of others.
     pub(crate) fn is_within(&self, others: &Self) -> bool {
         let is_one = |way: &Way| {

@@ -3,9 +3,11 @@
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
-use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to};
+use crate::interpreter::{
+    BlockSite, Ended, EndedBy, KindEffect, PossibleStates, ProgramEnd, limit_to,
+};
 use crate::lint::linter::{EndNote, LeftAway, Linter};
-use crate::lint::memory::{BlockSite, KindEffect, MovedBefore, command_to};
+use crate::lint::memory::{MovedBefore, command_to};
 use crate::syntax::is_lone_end;
 use crate::text::{Place, Span};
 
@@ -21,28 +23,30 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
             let did = linter.memory.axis(axis).kind(kind);
             let is_told = |effect: KindEffect| match effect {
                 KindEffect::On | KindEffect::Off => end != State::Unknown,
-                KindEffect::Unknown => end == State::Unknown,
+                KindEffect::Doubted => end == State::Unknown,
                 // FC902 already reported this for every axis.
                 KindEffect::Lost => false,
             };
-            let last = did.last.as_ref().filter(|(effect, _)| is_told(*effect));
+            let latest = ended.found.history.last(axis, kind);
+            let last = latest.filter(|(effect, _)| is_told(*effect));
             let possible = ended.possible.iter();
             let mut possible = possible.filter(|it| (it.axis, it.kind) == (axis, kind));
             let possible = possible.next();
             // If ways differ, the command that leads away on some of them counts.
             let command = command_to(ended, (axis, kind), &linter.states.start_up);
-            let is_on = linter.states.start_up(axis, kind) != State::Inactive;
-            let switched = did.switched[usize::from(!is_on)].as_ref();
-            let away = command.as_ref().filter(|_| end == State::Unknown);
-            let away = away.or(switched);
+            let leading = match linter.states.start_up(axis, kind) {
+                State::Inactive => KindEffect::On,
+                _ => KindEffect::Off,
+            };
+            let away = ended.found.history.latest(axis, kind, leading);
             // It was brought back, but the program may end before that.
-            let is_lost = matches!(did.last, Some((KindEffect::Lost, _)));
+            let is_lost = matches!(latest, Some((KindEffect::Lost, _)));
             let passed = away.filter(|_| end == State::Unknown && !is_lost);
             let passed = passed.filter(|_| has_other_ends(ended));
             // FC902 already reported what only a call decides.
             let parted = possible.filter(|it| !(is_lost && it.rests_on_calls()));
             let parted = parted.and(away);
-            let known = command.as_ref().filter(|_| end != State::Unknown);
+            let known = command.filter(|_| end != State::Unknown);
             let site = passed.or(parted).or(known);
             if let Some(site) = site.or(last.map(|(_, site)| site)) {
                 let subject = LeftAwayKind {

@@ -1,22 +1,20 @@
 //! FC402: a command that repeats an earlier one of the program, or switches off a kind that is not
 //! configured (R1.51, R18.3).
 
-use std::sync::Arc;
-
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lint::linter::{Linter, Taken};
-use crate::lint::memory::{BlockSite, KindEffect, place};
+use crate::lint::memory::place;
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
     let command = &taken.outcome.command;
-    let effect = KindEffect::from(command.selection);
     let kinds = command.selection.kinds();
     let place = place(taken.executed, command.span);
     let (what, name) = (what(command.selection), &command.axis);
     let say = |message| Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone());
-    let useless = |kind| effect == KindEffect::Off && is_unconfigured(linter, taken, kind);
+    let is_off = !matches!(command.selection, Selection::On(_));
+    let useless = |kind| is_off && is_unconfigured(linter, taken, kind);
     let of_axis = &linter.machine.axis(taken.axis).frict_comp_origin;
     // The program counts on an axis that is not compensated (R18.3).
     let is_mistaken = kinds.contains(Kind::Frict) && useless(Kind::Frict);
@@ -46,28 +44,19 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
         // and this one did not.
         return None;
     }
-    let mut repeated: Option<&Arc<BlockSite>> = None;
-    for kind in kinds.iter() {
-        match &memory.kind(kind).last {
-            Some((earlier, site)) if *earlier == effect && site.leads_to(taken.executed) => {
-                if repeated.is_none_or(|other| other.seq < site.seq) {
-                    repeated = Some(site);
-                }
-            }
-            _ if useless(kind) => {}
-            _ => return None,
-        }
+    let repeated = &taken.outcome.repeated;
+    if !kinds.without(repeated.kinds).iter().all(useless) {
+        return None;
     }
-    let state = if effect == KindEffect::On {
-        "on"
-    } else {
-        "off"
-    };
+    let state = if is_off { "off" } else { "on" };
     let said = say(format!(
         "this command repeats an earlier one: {what} of axis `{name}` is already {state}"
     ));
     // In a loop, the command repeats itself.
-    let other = repeated.filter(|site| site.place != said.place);
+    let other = repeated
+        .site
+        .as_ref()
+        .filter(|site| site.place != said.place);
     Some(match other {
         Some(site) => said.with_label(site.place.clone(), "the earlier one"),
         None => said,

@@ -101,9 +101,8 @@ fn words_in_a_row(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize
             value: Some(Operand::Number(value)),
             span: span(at, end),
         });
-        let is_near = end == next || end + 1 == next && bytes.get(end) == Some(&b' ');
-        match bytes.get(next) {
-            Some(&found) if is_near && is_address(found) => (at, letter) = (next, found),
+        match bytes.get(end..=next) {
+            Some(&([found] | [b' ', found])) if is_address(found) => (at, letter) = (next, found),
             _ => return Some(end),
         }
     }

@@ -166,7 +166,6 @@ impl<R: Read> LineReader<R> {
 
     /// Decodes the next whole lines into `text`. `false` when there are none.
     fn refill(&mut self) -> bool {
-        self.text.clear();
         self.next = 0;
         let has_line = self.decode_lines();
         self.ends = match memchr::memchr(b'\r', self.text.as_bytes()) {
@@ -184,6 +183,7 @@ impl<R: Read> LineReader<R> {
                 return true;
             }
             if self.at_end {
+                self.text.clear();
                 return false;
             }
             if self.unread.len() == self.buffer.len() {
@@ -208,12 +208,32 @@ impl<R: Read> LineReader<R> {
         memchr::memrchr2(b'\n', b'\r', bytes).map_or(0, |at| at + 1)
     }
 
-    /// Appends the next unread bytes to `text`.
+    /// Decodes the next unread bytes into `text`.
     fn decode(&mut self, length: usize) {
+        if self.unread.start == 0 && length > self.buffer.len() / 2 && !self.legacy {
+            return self.exchange(length);
+        }
         let end = self.unread.start + length;
         let bytes = &self.buffer[self.unread.start..end];
         self.unread.start = end;
+        self.text.clear();
         decode_lines(bytes, &mut self.legacy, &mut self.text);
+    }
+
+    /// Makes the first bytes of the buffer the text, and the memory of the text the buffer, so that only the bytes
+    /// after them are copied.
+    fn exchange(&mut self, length: usize) {
+        let mut buffer = std::mem::take(&mut self.text).into_bytes();
+        buffer.resize(self.buffer.len(), 0);
+        let rest = &self.buffer[length..self.unread.end];
+        buffer[..rest.len()].copy_from_slice(rest);
+        self.unread = 0..rest.len();
+        let mut bytes = std::mem::replace(&mut self.buffer, buffer);
+        bytes.truncate(length);
+        match String::from_utf8(bytes) {
+            Ok(text) => self.text = text,
+            Err(error) => decode_lines(error.as_bytes(), &mut self.legacy, &mut self.text),
+        }
     }
 
     /// Skips the rest of a line and its end.
@@ -457,6 +477,12 @@ mod tests {
         let streamed = lines(&mut LineReader::new(&bytes[..]));
         assert_eq!(lines(&mut TextLines::new(&whole)), streamed);
         assert_eq!(streamed[1].0, "\u{feff}N2 (\u{dc})");
+
+        let parts: [&[u8]; 2] = [b"N1 (\xc3\x9c)\n", b"N2 (\xdc)\r\nN3 (\xc3\x9c)\nN4\n"];
+        let bytes = parts.map(|part| part.repeat(40_000)).concat();
+        let whole = crate::decode::decode(bytes.clone());
+        let streamed = lines(&mut LineReader::new(&bytes[..]));
+        assert_eq!(lines(&mut TextLines::new(&whole)), streamed);
     }
 
     #[test]

@@ -595,6 +595,11 @@ impl Modal {
         if self.transformed.is_empty() {
             return PositionFrame::Machine;
         }
+        self.transformed_frame()
+    }
+
+    #[inline(never)]
+    fn transformed_frame(&self) -> PositionFrame {
         let names = self.transformed.iter();
         let frames = names.map(|name| frame_of(name));
         frames.max().unwrap_or(PositionFrame::Machine)

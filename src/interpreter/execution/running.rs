@@ -20,40 +20,11 @@ impl Interpreter {
     ) -> RunOutcome {
         loop {
             self.choose_way(finder, observer);
-            let Some(frame) = self.state.control.frames.running() else {
-                let ending = self.state.control.ending.take();
-                match self.end_path(ending.unwrap_or(EndedBy::EndOfFile)) {
-                    Some(by) => return RunOutcome::Ended(by),
-                    None => continue,
-                }
+            let (unit, next) = match self.due_block(finder) {
+                ControlFlow::Continue(Some(due)) => due,
+                ControlFlow::Continue(None) => continue,
+                ControlFlow::Break(by) => return RunOutcome::Ended(by),
             };
-            let (unit, section, next) = (frame.unit, frame.section, frame.next);
-            if !frame.waiting.is_empty() {
-                if let ControlFlow::Break(by) = self.call_waiting()
-                    && let Some(by) = self.end_path(by)
-                {
-                    return RunOutcome::Ended(by);
-                }
-                continue;
-            }
-            let is_past = next >= self.programs.section(ProgramId { unit, section }).end;
-            if is_past || frame.passage.is_some_and(|passage| next > passage.last) {
-                if frame.level == 0 {
-                    self.meet_at_end(finder);
-                    match self.end_path(EndedBy::EndOfFile) {
-                        Some(by) => return RunOutcome::Ended(by),
-                        None => continue,
-                    }
-                }
-                self.end_of_pass();
-                continue;
-            }
-            if !self.state.loop_heads.is_empty() && self.enters_covered(next) {
-                match self.follow_to_end(ControlStep::Covered, finder) {
-                    Some(by) => return RunOutcome::Ended(by),
-                    None => continue,
-                }
-            }
             let is_repeated = self.programs.was_read(unit, next);
             let parsed = self.programs.parsed(unit, next);
             if let Some(frame) = self.state.control.frames.running_mut() {
@@ -122,6 +93,51 @@ impl Interpreter {
             if let Some(by) = self.follow_to_end(step, finder) {
                 return RunOutcome::Ended(by);
             }
+        }
+    }
+
+    /// The next block of the running program. `None` where the run first goes on elsewhere, `Break` where the last way
+    /// ends.
+    #[inline]
+    fn due_block(
+        &mut self,
+        finder: &mut dyn Finder,
+    ) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
+        let Some(frame) = self.state.control.frames.running() else {
+            let ending = self.state.control.ending.take();
+            return self.go_on_elsewhere(ending.unwrap_or(EndedBy::EndOfFile));
+        };
+        let (unit, section, next) = (frame.unit, frame.section, frame.next);
+        if !frame.waiting.is_empty() {
+            return match self.call_waiting() {
+                ControlFlow::Continue(()) => ControlFlow::Continue(None),
+                ControlFlow::Break(by) => self.go_on_elsewhere(by),
+            };
+        }
+        let is_past = next >= self.programs.section(ProgramId { unit, section }).end;
+        if is_past || frame.passage.is_some_and(|passage| next > passage.last) {
+            if frame.level == 0 {
+                self.meet_at_end(finder);
+                return self.go_on_elsewhere(EndedBy::EndOfFile);
+            }
+            self.end_of_pass();
+            return ControlFlow::Continue(None);
+        }
+        if !self.state.loop_heads.is_empty() && self.enters_covered(next) {
+            self.scratch.covered = true;
+            return self.go_on_elsewhere(EndedBy::EndOfFile);
+        }
+        ControlFlow::Continue(Some((unit, next)))
+    }
+
+    /// Ends the way. Another one goes on if there is one.
+    fn go_on_elsewhere(
+        &mut self,
+        by: EndedBy,
+    ) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
+        match self.end_path(by) {
+            Some(by) => ControlFlow::Break(by),
+            None => ControlFlow::Continue(None),
         }
     }
 

@@ -200,7 +200,7 @@ enum Relation {
 
 /// The relations of a way to others, a bit for each of them.
 #[derive(Debug, Clone, Copy, Default)]
-struct Pairs {
+struct WayRelations {
     /// The conditions that it names, a bit each; conditions may share one.
     named: u64,
     /// Those that contain it.
@@ -216,15 +216,15 @@ const MAX_COMPARED: usize = u64::BITS as usize;
 #[derive(Default)]
 struct Reduction {
     ways: Vec<Way>,
-    pairs: Vec<Pairs>,
+    pairs: Vec<WayRelations>,
 }
 
 impl Reduction {
     /// Ways that are a whole set.
     fn of_reduced(ways: Vec<Way>) -> Self {
-        let pairs = ways.iter().map(|way| Pairs {
+        let pairs = ways.iter().map(|way| WayRelations {
             named: names(way),
-            ..Pairs::default()
+            ..WayRelations::default()
         });
         Self {
             pairs: pairs.collect(),
@@ -241,7 +241,7 @@ impl Reduction {
             let beyond = way.len().saturating_sub(MAX_CONDITIONS);
             way.drain(..beyond);
             self.ways.push(way);
-            self.pairs.push(Pairs::default());
+            self.pairs.push(WayRelations::default());
             self.compare(self.ways.len() - 1);
         }
         self.simplify();

@@ -306,6 +306,17 @@ fn no_state_is_missing_that_a_run_with_values_finds() {
     compare_all(Sort::Any).is_no_less("asked again");
 }
 
+/// Runs a program on a machine.
+fn ran(machine: Machine, text: &str) -> Interpreter {
+    let compensation = machine.compensation();
+    let mut run = Interpreter::new(machine, compensation, Options::default());
+    let source = SourceFile::new("a.nc", text);
+    run.program(source, &mut NoFiles, &mut |_: Event<'_>| {
+        ControlFlow::Continue(())
+    });
+    run
+}
+
 /// Returns the number of executed blocks of a program, and the number of rows that name a branch.
 fn rows(text: &str, options: Options) -> (u64, usize) {
     let machine = Machine::enabled(AXES);
@@ -377,13 +388,7 @@ fn calls_on_both_sides_of_conditions_cost_their_sum() {
             );
         }
         text.push_str("%MAIN\nLL S0\nM30");
-        let machine = Machine::enabled(AXES);
-        let compensation = machine.compensation();
-        let mut run = Interpreter::new(machine, compensation, Options::default());
-        let source = SourceFile::new("a.nc", text);
-        run.program(source, &mut NoFiles, &mut |_: Event<'_>| {
-            ControlFlow::Continue(())
-        });
+        let run = ran(Machine::enabled(AXES), &text);
         assert!(
             run.blocks() < most,
             "{} blocks for {depth} levels",
@@ -408,12 +413,7 @@ fn a_stable_variable_has_one_answer() {
     ] {
         let mut machine = Machine::enabled(AXES);
         machine.stable = stable;
-        let compensation = machine.compensation();
-        let mut run = Interpreter::new(machine, compensation, Options::default());
-        let source = SourceFile::new("a.nc", text);
-        run.program(source, &mut NoFiles, &mut |_: Event<'_>| {
-            ControlFlow::Continue(())
-        });
+        let run = ran(machine, text);
         assert_eq!(
             run.compensation().state(AxisIndex::new(0), Kind::Frict),
             known
@@ -432,15 +432,9 @@ fn no_way_is_chosen_where_motion_is_computed() {
 #[test]
 fn the_states_that_are_possible_name_their_ways() {
     // R14.2
-    let machine = Machine::enabled(AXES);
-    let compensation = machine.compensation();
-    let mut run = Interpreter::new(machine, compensation, Options::default());
     let text = "$IF V.E.MATERIAL == 2\nX[COMP OFF FRICT]\n$ENDIF\n/Y[COMP OFF FRICT]\n\
                 $SWITCH V.E.PART\n$CASE 1\n$CASE 2\nZ[COMP OFF FRICT]\n$ENDSWITCH\nM30";
-    let source = SourceFile::new("a.nc", text);
-    run.program(source, &mut NoFiles, &mut |_: Event<'_>| {
-        ControlFlow::Continue(())
-    });
+    let run = ran(Machine::enabled(AXES), text);
     let said: Vec<String> = run
         .possible()
         .iter()

@@ -44,7 +44,7 @@ impl FeedMoves {
         self.see(other.longest);
     }
 
-    /// Whether a length is none when rounded to a nanometre.
+    /// Whether a length is zero once it is rounded to a nanometre.
     pub(crate) fn is_standstill(length: f64) -> bool {
         length * 1e6 < 0.5
     }

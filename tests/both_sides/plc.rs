@@ -2,18 +2,15 @@
 //! which states are left, and which of them only if a variable changes where the PLC does not act by design.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Kind, State};
-use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options};
 use frictcomp::machine::Machine;
-use frictcomp::text::SourceFile;
 
 use frictcomp_testing::generator::{
     Choices, Condition, Form, NcProgram, Operand, Profile, Statement, Style, Variable,
 };
 
-use crate::{AXES, count};
+use crate::{AXES, count, ran};
 
 /// What the walker knows of a variable.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -141,13 +138,7 @@ fn walk(statements: &[Statement], walks: BTreeSet<Walk>) -> BTreeSet<Walk> {
 
 /// The states of each axis at the end that a run says are possible, and whether each needs a change.
 fn possible(text: &str) -> Vec<BTreeMap<&'static str, bool>> {
-    let machine = Machine::enabled(AXES);
-    let compensation = machine.compensation();
-    let mut run = Interpreter::new(machine, compensation, Options::default());
-    let source = SourceFile::new("a.nc", text);
-    run.program(source, &mut NoFiles, &mut |_: Event<'_>| {
-        ControlFlow::Continue(())
-    });
+    let run = ran(Machine::enabled(AXES), text);
     let of = |axis: usize| {
         let axis = AxisIndex::new(axis);
         let state = run.compensation().state(axis, Kind::Frict);

@@ -101,6 +101,10 @@ impl Interpreter {
         if again.is_none() {
             self.note_return();
             self.come_back_from_call();
+        } else {
+            // Its loops begin anew.
+            let depth = self.state.control.frames.depth();
+            self.state.track.loops.retain(|known| known.depth < depth);
         }
     }
 

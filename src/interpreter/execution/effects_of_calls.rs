@@ -6,7 +6,7 @@ use crate::interpreter::run::call_effects::{CallEffect, CalledAt, context};
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::loop_heads::Arrival;
-use crate::interpreter::run::path::{Path, RunTrack};
+use crate::interpreter::run::path::Path;
 use crate::interpreter::run::stack::CallStack;
 use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::values::cause::Unknown;
@@ -105,21 +105,10 @@ impl Interpreter {
 
     /// The state in which the running program is called.
     fn entry_of_call(&self) -> Path {
-        let (control, track) = (&self.state.control, &self.state.track);
-        self.charge_copies(control, &track.reach);
-        let mut control = control.clone();
-        control.frames = control.frames.running_alone();
-        Path {
-            control,
-            track: RunTrack {
-                reach: track.reach.clone(),
-                asked: track.asked.clone(),
-                assumed: track.assumed.clone(),
-                failed: track.failed.clone(),
-                ..RunTrack::default()
-            },
-            parted: self.state.seq,
-        }
+        self.charge_copies(&self.state.control, &self.state.track.reach);
+        let mut entry = self.state.arriving();
+        entry.control.frames = entry.control.frames.running_alone();
+        entry
     }
 
     /// The running program comes back to the one that called it.

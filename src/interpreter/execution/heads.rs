@@ -6,7 +6,7 @@ use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::loop_heads::{Arrival, LoopHead, head_place, place_at};
-use crate::interpreter::run::path::{Path, RunTrack};
+use crate::interpreter::run::path::Path;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::cause::Unknown;
@@ -192,18 +192,7 @@ impl Interpreter {
         if let Some(frame) = self.state.control.frames.running_mut() {
             frame.next = target;
         }
-        let (control, track) = (&self.state.control, &self.state.track);
-        self.charge_copies(control, &track.reach);
-        Path {
-            control: control.clone(),
-            track: RunTrack {
-                reach: track.reach.clone(),
-                asked: track.asked.clone(),
-                assumed: track.assumed.clone(),
-                failed: track.failed.clone(),
-                ..RunTrack::default()
-            },
-            parted: self.state.seq,
-        }
+        self.charge_copies(&self.state.control, &self.state.track.reach);
+        self.state.arriving()
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::loop_heads::{Arrival, HeadPlace};
 use super::path::Path;
-use super::stack::CallStack;
+use super::stack::{CallFrame, CallStack};
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::rows;
@@ -156,5 +156,5 @@ impl CallEffects {
 /// The blocks to which the calls of a call stack down to a depth return.
 pub(crate) fn context(calls: &CallStack, depth: usize) -> HeadPlace {
     let callers = calls.iter().take(depth.saturating_sub(1));
-    callers.map(|frame| (frame.unit, frame.next)).collect()
+    callers.map(CallFrame::place).collect()
 }

@@ -6,13 +6,17 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use super::path::Path;
-use super::stack::CallStack;
+use super::stack::{CallFrame, CallStack};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::rows;
 
-/// A block in its context: the blocks to which the calls return, each with its file, then the block itself.
-pub(crate) type HeadPlace = Vec<(usize, EntryIndex)>;
+/// A block in its context: the blocks to which the calls return, then the block itself.
+pub(crate) type HeadPlace = Vec<PlaceInCall>;
+
+/// A block of a program that runs: its file, the block, the passes of the executed part that are left, and the calls
+/// that come before the block.
+pub(crate) type PlaceInCall = (usize, EntryIndex, u64, usize);
 
 /// The state in which a loop begins its passes: the join of all of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -94,12 +98,19 @@ pub(crate) fn head_place(calls: &CallStack, block: EntryIndex) -> HeadPlace {
 
 /// The place of a block of the program at a depth of calls.
 pub(crate) fn place_at(calls: &CallStack, depth: usize, block: EntryIndex) -> HeadPlace {
-    let calls = calls.iter().take(depth);
-    let mut place: HeadPlace = calls.map(|frame| (frame.unit, frame.next)).collect();
+    let mut place: HeadPlace = calls.iter().take(depth).map(CallFrame::place).collect();
     if let Some(last) = place.last_mut() {
         last.1 = block;
     }
     place
+}
+
+impl CallFrame {
+    /// The next block, which calls return to.
+    pub(crate) fn place(&self) -> PlaceInCall {
+        let left = self.passage.map_or(0, |passage| passage.left);
+        (self.unit, self.next, left, self.waiting.len())
+    }
 }
 
 /// The places of blocks of the running program, and of those that they call: a call returns to the block after it.

@@ -11,6 +11,7 @@ use super::event::EndedBy;
 use super::loop_heads::Arrival;
 use super::search::BeforeSearch;
 use super::stack::{CallFrame, CallStack, Seeking};
+use super::state::State;
 use super::stopping::FailedAt;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
@@ -362,6 +363,24 @@ impl Path {
         }
         *self = both;
         Arrival::Grown
+    }
+}
+
+impl State {
+    /// The part of the way that later ways to the same block are compared with.
+    pub(crate) fn arriving(&self) -> Path {
+        let track = &self.track;
+        Path {
+            control: self.control.clone(),
+            track: RunTrack {
+                reach: track.reach.clone(),
+                asked: track.asked.clone(),
+                assumed: track.assumed.clone(),
+                failed: track.failed.clone(),
+                ..RunTrack::default()
+            },
+            parted: self.seq,
+        }
     }
 }
 

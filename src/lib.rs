@@ -107,6 +107,7 @@ pub use diagnostic::{Code, Diagnostic, Severity};
 pub use facade::{check, run};
 pub use machine::Machine;
 pub use session::Session;
+pub use language::{Refusal, RefusalCheck};
 pub use syntax::{NoSkipLevels, SkipLevels, parse_comp};
 pub use text::SourceFile;
 pub use timeline::{Record, Row};

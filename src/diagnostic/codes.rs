@@ -49,9 +49,27 @@ macro_rules! codes {
 
 codes! {
     PErr20008 "P-ERR-20008" Error "first feed move without a feed";
+    PErr20131 "P-ERR-20131" Error "G80 without a program";
+    PErr20160 "P-ERR-20160" Error "M function above 1000";
+    PErr20375 "P-ERR-20375" Warning "`$IF` without `$ENDIF`";
+    PErr20839 "P-ERR-20839" Error "jump target that is not permitted";
+    PErr20847 "P-ERR-20847" Error "value outside the type of its variable";
+    PErr20909 "P-ERR-20909" Error "variable declared twice";
+    PErr20966 "P-ERR-20966" Error "dimension below 1";
+    PErr21216 "P-ERR-21216" Error "array without an index";
     PErr21301 "P-ERR-21301" Error "invalid first keyword in an axis bracket";
+    PErr21274 "P-ERR-21274" Error "no saved axes";
+    PErr21275 "P-ERR-21275" Error "no saved couplings";
+    PErr21381 "P-ERR-21381" Error "cycle call while a modal cycle is active";
     PErr21403 "P-ERR-21403" Error "COMP on an axis in an active coupling";
+    PErr21413 "P-ERR-21413" Error "`#MACHINE DATA` waits without `SYN`";
+    PErr21480 "P-ERR-21480" Error "jump within a loop";
+    PErr21500 "P-ERR-21500" Error "local subprogram ends in an open `$IF`";
+    PErr21501 "P-ERR-21501" Error "main program ends in an open `$IF`";
+    PErr21502 "P-ERR-21502" Error "global subprogram ends in an open `$IF`";
     PErr21947 "P-ERR-21947" Error "unknown axis";
+    PErr22132 "P-ERR-22132" Error "execution that cannot be simulated";
+    PErr51081 "P-ERR-51081" Error "flushing in an optional section";
     PErr70310 "P-ERR-70310" Error "leadscrew error compensation is not selected";
     PErr70313 "P-ERR-70313" Error "temperature compensation is not selected";
     PErr70316 "P-ERR-70316" Error "cross compensation is not selected";
@@ -100,6 +118,7 @@ codes! {
     Fc209 "FC209" Error "jump label missing or given twice";
     Fc210 "FC210" Warning "text not known to frictcomp";
     Fc211 "FC211" Warning "axis word without a value";
+    Fc212 "FC212" Info "number that looks like an exponent";
     Fc301 "FC301" Warning "opposite COMP commands in one block";
     Fc302 "FC302" Error "COMP on a spindle";
     Fc303 "FC303" Warning "selected without an accepted value list";
@@ -122,6 +141,7 @@ codes! {
     Fc325 "FC325" Warning "no program for a word that calls one";
     Fc326 "FC326" Warning "program of another control";
     Fc327 "FC327" Warning "feed move without a feed";
+    Fc328 "FC328" Warning "block that the control may refuse";
     Fc401 "FC401" Warning "state not restored before program end";
     Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Warning "depends on the program before";
@@ -203,6 +223,7 @@ impl Code {
                 | Self::Fc104
                 | Self::Fc210
                 | Self::Fc211
+                | Self::Fc212
                 | Self::Fc323
                 | Self::Fc324
                 | Self::Fc325

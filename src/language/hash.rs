@@ -47,6 +47,8 @@ pub(crate) struct HashCommand {
     pub(crate) path: PathFlow,
     /// Open question on which its effect rests.
     pub(crate) basis: Option<Question>,
+    /// Where it flushes the channel and the control refuses it (R2.111).
+    pub(crate) flushes: Flushes,
     /// Name in the state and in messages, where that is another command's.
     known_as: Option<&'static str>,
 }
@@ -117,6 +119,12 @@ pub(crate) enum HashAction {
     ReleaseCoupling,
     /// All coupling groups are released (PM/207133579).
     ReleaseCouplings,
+    /// The control may skip the blocks up to its end while it moves backward or simulates.
+    SkipBackward,
+    /// Axes and couplings are saved or restored (PM/207535499).
+    SaveConfig(ConfigAction),
+    /// A file is renamed, deleted, written or looked for (PM/207511947).
+    ChangeFile(FileAction),
     /// Axes come to the channel or leave it (PM/206977419 and its neighbours).
     ExchangeAxes(Exchange),
     /// Coordinates are rotated in the plane (PM/207442315).
@@ -142,10 +150,26 @@ pub(crate) enum Exchange {
     Release,
     /// The named axes come; all others go.
     Define,
-    /// The axes are again those of an earlier moment.
-    Restore,
     /// Axes come or go in a way that no public page describes.
     Undescribed,
+}
+
+/// What a command does to the saved configurations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum ConfigAction {
+    Save,
+    Load,
+    Clear,
+}
+
+/// What a command does to a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum FileAction {
+    Rename,
+    Delete,
+    /// A message is written to it.
+    Message,
+    LookFor,
 }
 
 /// Form in which the definition of a coupling group names axes.
@@ -218,6 +242,18 @@ pub(crate) enum Plc {
     ActsAfterAcknowledgement,
 }
 
+/// State in which the control refuses a command because it flushes the channel (R2.111; PM/524821515, 264720011).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Flushes {
+    Never,
+    /// Under cutter radius compensation.
+    Radius,
+    /// Under a spline.
+    Spline,
+    /// Under either.
+    Both,
+}
+
 /// Effect of a `#` command on a motion in progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum PathFlow {
@@ -244,6 +280,7 @@ impl HashCommand {
             plc: Plc::Absent,
             path: PathFlow::MayRest,
             basis: None,
+            flushes: Flushes::Never,
             known_as: None,
         }
     }
@@ -261,6 +298,7 @@ impl HashCommand {
         plc(plc: Plc) = plc;
         path(path: PathFlow) = path;
         basis(question: Question) = Some(question);
+        flushes(under: Flushes) = under;
         known_as(name: &'static str) = Some(name);
     }
 }
@@ -289,13 +327,14 @@ static COMMANDS: &[HashCommand] = {
     use HashAction::{
         Comment, Declare, DefineCoupling, Delete, Describe, Dwell, EnableCoupling, EndComment,
         EndDeclarations, EndDescription, EndModalCycles, EndRealTimeLoop, ExchangeAxes,
-        ForgetMacros, Initialise, NamePrograms, Override, RealTimeLoop, ReleaseCoupling,
-        ReleaseCouplings, ReportError, RetainCycleChanges, Rotate, Round, SelectSlope,
-        SelectSpindle, Wait, WriteMachineData,
+        ChangeFile, ForgetMacros, Initialise, NamePrograms, Override, RealTimeLoop, ReleaseCoupling,
+        ReleaseCouplings, ReportError, RetainCycleChanges, Rotate, Round, SaveConfig, SelectSlope,
+        SelectSpindle, SkipBackward, Wait, WriteMachineData,
     };
     use HashArguments::{Declarations, Expressions, Lines, RemedyClass};
     use MotionKind::{Coupled, Frame, Independent};
     use Moves::{Channel, Follower, Main, NamedOrAll};
+    use Flushes::{Both, Radius, Spline};
     use PathFlow::GoesOn;
     use Question::{AxisExchange, MachineData};
     use Simplification::{
@@ -312,15 +351,15 @@ static COMMANDS: &[HashCommand] = {
         "#AKIMA TRANS" (APPENDIX);
         "#ANG" ("PM/206123787") touches(Plane) unmodelled("`#ANG` computes a coordinate from an angle");
         "#ASPLINE" (EDITOR);
-        "#AX DEF" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange);
+        "#AX DEF" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange) flushes(Radius);
         "#AX LINK" (APPENDIX) action(DefineCoupling(MembersBy::Name));
         "#AX LINK NBR" (APPENDIX) action(DefineCoupling(MembersBy::Number));
         "#AX LINK OFF" (APPENDIX) action(ReleaseCoupling);
         "#AX LINK OFF ALL" (APPENDIX) action(ReleaseCouplings);
         "#AX LINK ON" (APPENDIX) action(EnableCoupling);
         "#AX LOCK" (APPENDIX);
-        "#AX RELEASE" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange);
-        "#AX REQUEST" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange);
+        "#AX RELEASE" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange) flushes(Radius);
+        "#AX REQUEST" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange) flushes(Radius);
         "#AX UNLOCK" (APPENDIX);
         "#BACKWARD STORAGE CLEAR" (APPENDIX);
         "#BCS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible);
@@ -331,13 +370,13 @@ static COMMANDS: &[HashCommand] = {
         "#CALL AX" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange);
         "#CAX" (APPENDIX);
         "#CAXTRACK" (APPENDIX) motion(Coupled, Follower, Possible);
-        "#CHANNEL INIT" (APPENDIX);
+        "#CHANNEL INIT" (APPENDIX) flushes(Both);
         "#CHANNEL INTERFACE" (APPENDIX);
         "#CHANNEL SET" (APPENDIX);
         "#CHF" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
         "#CHR" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
         "#CLAMP" (EDITOR);
-        "#CLEAR CONFIG" (EDITOR);
+        "#CLEAR CONFIG" ("PM/207551115") action(SaveConfig(ConfigAction::Clear));
         "#COMMAND WAIT" (EDITOR);
         "#COMMAND WR" (EDITOR);
         "#COMMENT" ("PM/205979659") path(GoesOn);
@@ -350,7 +389,7 @@ static COMMANDS: &[HashCommand] = {
         "#CONTROL AREA BEGIN" ("tccncprogramming/15557317259") action(Describe) until("#CONTROL AREA END");
         "#CONTROL AREA END" ("tccncprogramming/15557317259") action(EndDescription);
         "#CORNER PARAM" (EDITOR);
-        "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible);
+        "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Both);
         "#CYL" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
         "#DB INFO" (EDITOR);
         "#DCC" (EDITOR);
@@ -381,13 +420,13 @@ static COMMANDS: &[HashCommand] = {
         "#FACE" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
         "#FF" (EDITOR) simplifies(ForeignFeed);
         "#FGROUP" (EDITOR) simplifies(FeedGroup);
-        "#FILE DELETE" ("FCT-C18");
-        "#FILE EXIST" ("FCT-C18");
+        "#FILE DELETE" ("PM/207518603") action(ChangeFile(FileAction::Delete));
+        "#FILE EXIST" ("PM/207524491") action(ChangeFile(FileAction::LookFor));
         "#FILE NAME" ("FCT-C18") action(NamePrograms);
-        "#FILE RENAME" ("FCT-C18");
+        "#FILE RENAME" ("PM/207511947") action(ChangeFile(FileAction::Rename));
         "#FILENAME" ("FCT-C18") action(NamePrograms);
         "#FILTER" (EDITOR);
-        "#FLUSH" (EDITOR) plc(Plc::ActsAfterWait);
+        "#FLUSH" (EDITOR) plc(Plc::ActsAfterWait) flushes(Both);
         "#FRC" (EDITOR);
         "#FREE TOOL CHANGE" (EDITOR);
         // Named only by the kernel's messages 21721, 50758, 70496 and 70497.
@@ -417,7 +456,7 @@ static COMMANDS: &[HashCommand] = {
         "#LASER" (EDITOR);
         "#LIMIT LOAD" (EDITOR);
         "#LIMIT REFRESH" (EDITOR);
-        "#LOAD CONFIG" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Restore));
+        "#LOAD CONFIG" ("PM/207542155") touches(Axes) action(SaveConfig(ConfigAction::Load)) flushes(Radius);
         "#LOCK" (EDITOR);
         "#MACHINE DATA" (EDITOR) action(WriteMachineData) basis(MachineData);
         "#MAIN SPINDLE" (EDITOR) action(SelectSpindle);
@@ -429,8 +468,9 @@ static COMMANDS: &[HashCommand] = {
         "#MEAS" (EDITOR);
         "#MICROJOINT" (EDITOR);
         "#MSG" (EDITOR) plc(Plc::ActsAfterAcknowledgement) path(GoesOn);
+        "#MSG SAVE" ("PM/207518603") action(ChangeFile(FileAction::Message)) plc(Plc::ActsAfterAcknowledgement) path(GoesOn);
         "#NIBBLE" (EDITOR);
-        "#OPTIONAL EXECUTION" (EDITOR);
+        "#OPTIONAL EXECUTION" (EDITOR) action(SkipBackward);
         "#ORI MODE" (EDITOR);
         "#ORIMODE" (EDITOR);
         "#OTC" (EDITOR);
@@ -449,18 +489,18 @@ static COMMANDS: &[HashCommand] = {
         "#RT ENDWHILE" (EDITOR) action(EndRealTimeLoop);
         "#RT WHILE" (EDITOR) action(RealTimeLoop);
         "#RTCP" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
-        "#SAVE CONFIG" (EDITOR);
+        "#SAVE CONFIG" ("PM/207535499") action(SaveConfig(ConfigAction::Save));
         "#SCALE" (EDITOR) chain(Coordinates);
         "#SCENE" (EDITOR);
         "#SEGMENTATION" (EDITOR);
         "#SET ASPLINE" (EDITOR);
-        "#SET AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange);
+        "#SET AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange) flushes(Radius);
         "#SET AX LINK" (EDITOR) action(DefineCoupling(MembersBy::Name));
         "#SET AX LINK NBR" (EDITOR) action(DefineCoupling(MembersBy::Number));
         "#SET CORNER PARAM" (EDITOR);
-        "#SET DEC LR SOLL" (EDITOR);
+        "#SET DEC LR SOLL" (EDITOR) flushes(Spline);
         "#SET HR" (EDITOR);
-        "#SET IPO SOLLPOS" (EDITOR) chain(Origin);
+        "#SET IPO SOLLPOS" (EDITOR) chain(Origin) flushes(Spline);
         "#SET JOG" (EDITOR);
         "#SET OFFSET" (EDITOR) chain(Origin);
         "#SET PATH SMOOTH" (EDITOR);
@@ -505,7 +545,7 @@ static COMMANDS: &[HashCommand] = {
         "#TOOL REFRESH" (EDITOR);
         "#TRACK CHAN" (EDITOR);
         "#TRACK CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible);
-        "#TRAFO" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#TRAFO" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both);
         "#TRANSFORM" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
         "#TRANSVELMIN" (EDITOR);
         "#TRC" (EDITOR);

@@ -1,6 +1,7 @@
 //! The words of the language as tables: what each command and function is, and what it does (R2.45, R2.70).
 //!
-//! `hash` has a row for each `#` command, `g` for each G function, `bracket` for each command in the bracket of an axis.
+//! `hash` has a row for each `#` command, `g` for each G function, `bracket` for each command in the bracket of an axis,
+//! `refusal` for each error that a program causes.
 //! Everything else asks the columns of a row: a command or function is described in one place.
 
 #![cfg_attr(not(feature = "unstable"), allow(unreachable_pub))]
@@ -21,6 +22,7 @@ mod g;
 mod group;
 mod hash;
 mod motion;
+mod refusal;
 mod simplification;
 
 pub(crate) use bracket::AxisAction;
@@ -31,10 +33,11 @@ pub use group::Group;
 pub(crate) use group::GroupSet;
 pub use hash::BlockSharing;
 pub(crate) use hash::{
-    ContouringCommand, Exchange, FurtherWord, HashAction, HashArguments, HashCommand, HashWords,
+    ConfigAction, ContouringCommand, Exchange, FileAction, Flushes, FurtherWord, HashAction, HashArguments, HashCommand, HashWords,
     MembersBy, PathFlow, Plc, SlopeForm, Touches, is_command,
 };
 pub(crate) use motion::{AxisWords, MotionEffect, Moves};
 pub use motion::{Certainty, MotionKind};
+pub use refusal::{Refusal, RefusalCheck};
 pub(crate) use simplification::Holds;
 pub use simplification::{Simplification, Simplifications};

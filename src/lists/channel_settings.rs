@@ -46,6 +46,8 @@ pub struct ChannelSettings {
     pub feed_mm_per_min: Option<f64>,
     /// Whether the lists of the channel were read and give no such feed.
     pub lacks_feed: bool,
+    /// Whether the lists of the channel were read, so that what they do not name is not there.
+    pub is_whole: bool,
     /// The G functions in force at the start of a program, P-CHAN-00063, if they differ from the control's defaults.
     pub functions: Vec<u32>,
     /// The unit of coordinates is inch, P-CHAN-00054. What G70 and G71 do then is not documented.
@@ -227,6 +229,7 @@ impl ChannelDraft {
             feed_unit: self.factor.as_ref().map_or(FeedUnit::default(), unit_of),
             feed_mm_per_min: feed,
             lacks_feed: feed.is_none() && !self.feed_is_odd,
+            is_whole: true,
             functions: self.functions.values().map(|given| given.value).collect(),
             inch: self.inch.as_ref().is_some_and(|given| given.value),
             slope: self.slope.as_ref().map(|given| given.value),

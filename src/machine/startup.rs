@@ -94,6 +94,7 @@ impl Loader<'_> {
                     motion: channel.motion.clone(),
                     settings: ChannelSettings {
                         lacks_feed: settings.lacks_feed && is_base_read,
+                        is_whole: is_base_read,
                         ..settings
                     },
                 }

@@ -161,7 +161,8 @@ fn is_line_end(byte: u8) -> bool {
     byte == b'\n' || byte == b'\r'
 }
 
-/// Whether a letter begins a word that is plain: calls, parameters and block numbers do not.
+/// Whether a letter begins a word that is plain: calls, parameters and block numbers do not, nor does E, which may look
+/// like an exponent.
 #[inline]
 fn is_address(byte: u8) -> bool {
     ADDRESSES[usize::from(byte)]
@@ -172,7 +173,7 @@ static ADDRESSES: [bool; 256] = {
     let mut table = [false; 256];
     let mut byte = b'A';
     while byte <= b'Z' {
-        table[byte as usize] = !matches!(byte, b'L' | b'N' | b'P');
+        table[byte as usize] = !matches!(byte, b'E' | b'L' | b'N' | b'P');
         byte += 1;
     }
     table

@@ -1,6 +1,7 @@
 //! Faults in the text of a block.
 
 use crate::diagnostic::{Advice, Code, Diagnostic, Fix};
+use crate::language::Refusal;
 use crate::text::{Place, Span};
 
 /// A statement about the text of one block: a diagnostic whose span counts from the block's start.
@@ -29,6 +30,21 @@ impl Fault {
             message: message.into(),
             advice: Vec::new(),
             fixes: Vec::new(),
+        }
+    }
+
+    /// An error of the control, with the advice of its row (R2.114).
+    pub(crate) fn refused(code: Code, span: Span, message: impl Into<String>) -> Box<Self> {
+        let number = code.as_str().strip_prefix("P-ERR-");
+        let number = number.and_then(|number| number.parse().ok());
+        Box::new(Self::new(code, span, message).with_cure(number))
+    }
+
+    /// Adds the advice on an error of the control.
+    pub(crate) fn with_cure(self, number: Option<u32>) -> Self {
+        match number.and_then(Refusal::of) {
+            Some(row) => self.with_help(row.cure),
+            None => self,
         }
     }
 

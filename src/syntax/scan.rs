@@ -260,8 +260,11 @@ fn call_place(text: &[u8], from: usize) -> Option<usize> {
     let begins = |at: &usize| {
         let before = at.checked_sub(1).map(|before| text[from + before]);
         let next = text.get(from + at + 1);
+        let is_local = next.is_some_and(|it| it.eq_ignore_ascii_case(&b'L'))
+            && text.get(from + at + 2).is_none_or(u8::is_ascii_whitespace);
         before.is_none_or(|it| !it.is_ascii_alphabetic() && !b"%._#$".contains(&it))
-            && next.is_some_and(|it| !it.eq_ignore_ascii_case(&b'L'))
+            && next.is_some()
+            && !is_local
     };
     let mut places = memchr::memchr2_iter(b'L', b'l', &text[from..]);
     places.find(begins).map(|at| from + at)

@@ -20,6 +20,8 @@ pub(crate) enum VariableFamily {
     Cycle,
     /// `V.S.`
     Shared,
+    /// `V.I.`
+    Internal,
     /// `V.E.`
     External,
     /// `V.A.`
@@ -38,6 +40,7 @@ impl VariableFamily {
             [b'V', b'.', b'L', b'.', ..] => Self::Local,
             [b'V', b'.', b'C', b'Y', b'C', b'.', ..] => Self::Cycle,
             [b'V', b'.', b'S', b'.', ..] => Self::Shared,
+            [b'V', b'.', b'I', b'.', ..] => Self::Internal,
             [b'V', b'.', b'E', b'.', ..] => Self::External,
             [b'V', b'.', b'A', b'.', ..] => Self::Axis,
             [b'V', b'.', ..] => Self::Control,
@@ -52,19 +55,24 @@ impl VariableFamily {
 
     /// Whether programs write its variables.
     pub(crate) fn is_written(self) -> bool {
-        self.is_of_run() || matches!(self, Self::Shared | Self::Local)
+        self.is_of_run() || matches!(self, Self::Shared | Self::Internal | Self::Local)
     }
 
     /// Whether only programs write its variables: `V.P.`, `V.L.`, `V.S.`.
     pub(crate) fn is_of_programs(self) -> bool {
-        self.is_written() && self != Self::Cycle
+        self.is_written() && !matches!(self, Self::Cycle | Self::Internal)
+    }
+
+    /// Whether its variables end with the level of the program that creates them.
+    pub(crate) fn is_of_level(self) -> bool {
+        matches!(self, Self::Local | Self::Cycle)
     }
 
     /// Whether others than the program that writes its variables read them (R2.34, R2.36).
     pub(crate) fn is_read_by_others(self) -> bool {
         matches!(
             self,
-            Self::Shared | Self::External | Self::Axis | Self::Control
+            Self::Shared | Self::Internal | Self::External | Self::Axis | Self::Control
         )
     }
 }

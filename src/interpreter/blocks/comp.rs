@@ -20,6 +20,7 @@ use crate::text::Span;
 impl Interpreter {
     pub(crate) fn comp(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let before = self.scratch.changes.len();
+        self.warn_described(command, at);
         let axis = match self.state.control.addressed(&command.axis) {
             Ok(Addressed::Axis(axis)) => Ok(axis),
             Ok(Addressed::Absent(axis)) => return self.switch_released(command, axis, at),
@@ -45,6 +46,7 @@ impl Interpreter {
                 self.warn_opposite(command, *axis, at);
                 self.warn_build(command, at);
                 self.warn_ineffective(command, *axis, at);
+                self.warn_optional(command, *axis, at);
             }
             Err(error) => {
                 let diagnostic = self.refusal(error, command, at);
@@ -57,6 +59,38 @@ impl Interpreter {
             changes: self.scratch.changes.len() - before,
             repeated: RepeatedSwitch::default(),
         });
+    }
+
+    /// FC328: a command in a region of which the manual lists the commands that it allows (R2.109).
+    fn warn_described(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
+        let Some(described) = &self.state.control.described else {
+            return;
+        };
+        let opener = described.opener.words;
+        let number = match opener {
+            "#CONTOUR BEGIN" => Some(22101),
+            "#STROKE DEF BEGIN" => Some(120_716),
+            _ => None,
+        };
+        let what = format!("a COMP command stands within `{opener}`");
+        self.may_refuse(number, &what, command.span, at);
+    }
+
+    /// FC902: the PLC may skip the command (R2.109).
+    fn warn_optional(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
+        if !self.state.control.optional {
+            return;
+        }
+        self.havoc(axis, command.selection.kinds());
+        let name = &command.axis;
+        let message = format!(
+            "this command is between `#OPTIONAL EXECUTION ON` and `OFF`, where the control skips blocks while it moves \
+             backward or simulates; what it switches on axis `{name}` is unknown"
+        );
+        let fault = Fault::new(Code::Fc902, command.span, message)
+            .with_help("switch compensation outside of the section");
+        let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+        self.scratch.diagnostics.push(diagnostic);
     }
 
     /// FC902: a command to an axis that the program gave away, which the control may refuse (R2.70).
@@ -160,10 +194,10 @@ impl Interpreter {
              control refuses this command, and what the command switches is unknown"
         );
         let fault =
-            Fault::new(Code::Fc902, command.span, message).with_help(Unknown::Coupling.advice());
+            Fault::new(Code::Fc902, command.span, message).with_help(Unknown::Refused(Some(21403)).advice());
         let diagnostic = at.diagnostic(fault).with_axis(name.clone());
         self.say_before_parting(diagnostic);
-        self.perhaps_stop((Unknown::Coupling, StopScope::Block), command.span, at);
+        self.perhaps_stop((Unknown::Refused(Some(21403)), StopScope::Block), command.span, at);
     }
 
     /// FC411: the control may refuse COMP while a transformation is active; which ones is not

@@ -7,9 +7,12 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::state::State;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
-use crate::interpreter::values::value::Value;
+use crate::interpreter::values::names::Sure;
+use crate::interpreter::values::value::{Value, exact};
+use crate::interpreter::values::value_type::{TypedValue, ValueType};
 use crate::syntax::ast::{Declaration, Hash, Operand};
 use crate::syntax::{Fault, Subscript, VariableFamily, VariableName};
+use crate::text::Span;
 
 impl Interpreter {
     pub(crate) fn delete(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
@@ -55,11 +58,18 @@ impl Interpreter {
             for operand in &declaration.initial {
                 values.push(self.value(*operand, at)?);
             }
-            let default = if declaration.kind.as_deref() == Some("STRING") {
-                Value::Text("".into())
-            } else {
-                Value::Number(0.0)
+            let length = match declaration.length {
+                Some(length) => self.operand_number(length, at).and_then(exact),
+                None => None,
             };
+            let kind = ValueType::named(declaration.kind.as_deref(), length);
+            for value in &mut values {
+                let taken = std::mem::replace(value, Value::Number(0.0));
+                *value = self.typed(kind, &name, taken, declaration.target.span, at)?;
+            }
+            self.refuse_second(&name, declaration.target.span, at)?;
+            let default = self.default_of(&name, kind);
+            self.warn_kept(&name, !values.is_empty(), declaration.target.span, at);
             self.scratch.wrote = true;
             let is_scalar = dimensions.is_empty();
             self.note_declaration(&name, is_scalar.then(|| values.first().unwrap_or(&default)));
@@ -85,11 +95,87 @@ impl Interpreter {
                     }
                 }
             }
+            memory.set_declared(&name, kind);
             if let Some(before) = before {
                 memory.declare_anew(&name, &before);
             }
         }
         Ok(())
+    }
+
+    /// The value that a declaration without one gives. A `V.I.` variable may exist, and then keeps its own (R2.102).
+    fn default_of(&self, name: &VariableName, kind: ValueType) -> Value {
+        if name.family() != VariableFamily::Internal {
+            return kind.default();
+        }
+        let held = self.state.control.memory.variable(name);
+        held.unwrap_or_else(|| Value::Unknown(Unknown::text(name.array())))
+    }
+
+    /// FC328: a `V.I.` variable that may exist is declared with a value (R2.102).
+    fn warn_kept(
+        &mut self,
+        name: &VariableName,
+        has_value: bool,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        if has_value && name.family() == VariableFamily::Internal {
+            let what = format!(
+                "`{name}` may exist from an earlier run, and this declaration gives it a value"
+            );
+            self.may_refuse(None, &what, span, at);
+        }
+    }
+
+    /// P-ERR-20909: a variable is declared again in its level (R2.102).
+    fn refuse_second(
+        &mut self,
+        name: &VariableName,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<(), Box<Fault>> {
+        let outlives = matches!(
+            name.family(),
+            VariableFamily::Shared | VariableFamily::Internal
+        );
+        match self.state.control.memory.is_declared_here(name) {
+            Some(declared) if !outlives && declared.certainty == Sure::Certain => {
+                let what = format!("`{name}` is declared already");
+                Err(Fault::refused(Code::PErr20909, span, what))
+            }
+            Some(_) if !outlives => {
+                let what = format!("`{name}` may be declared already");
+                self.may_refuse(20909, &what, span, at);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The value that a variable of a type has after an assignment (R2.101).
+    pub(crate) fn typed(
+        &mut self,
+        kind: ValueType,
+        name: &VariableName,
+        value: Value,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<Value, Box<Fault>> {
+        let shown = value.as_written();
+        match kind.take(name.array(), value) {
+            TypedValue::Taken(value) => Ok(value),
+            TypedValue::Rounded(value) => {
+                let what = format!("`{shown}` is between the last value of `{name}` and the next one");
+                self.may_refuse(20847, &what, span, at);
+                Ok(value)
+            }
+            TypedValue::OutOfRange(least, most) => {
+                let what = format!("`{name}` takes {least} to {most}, and the value is {shown}");
+                Err(Fault::refused(Code::PErr20847, span, what))
+            }
+            TypedValue::OtherKind(why) => Err(Box::new(Fault::new(Code::Fc312, span, why))),
+        }
     }
 
     /// Notes the start value of a variable, or an array, that may be there before.

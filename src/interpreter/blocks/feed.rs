@@ -88,7 +88,7 @@ impl Interpreter {
             } else {
                 self.say_before_parting(said);
                 self.perhaps_stop(
-                    (Unknown::MissingFeed, StopScope::Rest),
+                    (Unknown::Refused(Some(20008)), StopScope::Rest),
                     at.in_block(span),
                     at,
                 );
@@ -104,7 +104,7 @@ impl Interpreter {
         let fault = Fault::new(Code::Fc327, at.in_block(span), message);
         self.say_before_parting(at.diagnostic(fault.with_help("write a feed above 0")));
         self.perhaps_stop(
-            (Unknown::MissingFeed, StopScope::Rest),
+            (Unknown::Refused(Some(20008)), StopScope::Rest),
             at.in_block(span),
             at,
         );

@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::reported::StopScope;
 use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
-use crate::interpreter::programs::index::{EntryIndex, LabelName};
+use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, Links};
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -17,7 +17,7 @@ use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::unknown::branching::Goal;
 use crate::interpreter::values::cause::Unknown;
-use crate::interpreter::values::functions::finite;
+use crate::interpreter::values::functions::{are_nearly_equal, finite};
 use crate::interpreter::values::plain::Truth;
 use crate::interpreter::values::value::{Value, same_case};
 use crate::interpreter::ways::question::ConditionKind;
@@ -97,18 +97,19 @@ impl Interpreter {
             Flow::If(condition) => self.branch(*condition, links.next, span, at)?,
             Flow::ElseIf(condition) => match seeking {
                 Some(Seeking::Condition) => self.branch(*condition, links.next, span, at)?,
-                _ => Some(after),
+                _ => Some(self.skip_other_branches(links, after)),
             },
             Flow::Else => match seeking {
                 Some(Seeking::Condition) => None,
-                _ => Some(after),
+                _ => Some(self.skip_other_branches(links, after)),
             },
             Flow::Switch(target, operand) => {
                 let (value, doubt) = self.asked_value(*operand, at)?;
                 if let Some(target) = target {
                     let place = self.target_place(target.place, at)?;
                     self.warn_own(place.as_ref(), target.span, at);
-                    self.set_by(place, value.clone(), at);
+                    let set = self.as_declared(place.as_ref(), value.clone(), target.span, at)?;
+                    self.set_by(place, set, at);
                 }
                 if let Some(doubt) = &doubt
                     && self.part_at_cases(*operand, doubt, span, at)
@@ -146,6 +147,7 @@ impl Interpreter {
                 let start = self.value(*start, at)?;
                 let place = self.target_place(counter.place, at)?;
                 self.warn_own(place.as_ref(), counter.span, at);
+                let start = self.as_declared(place.as_ref(), start, counter.span, at)?;
                 self.set_by(place, start.clone(), at);
                 let count = Count {
                     counter: start,
@@ -180,10 +182,14 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
         let (value, doubt) = self.asked_value(condition, at)?;
+        let whole = self.current_block();
+        let is_open = self.is_unclosed(whole.start);
+        if is_open && value.truth() != Some(false) {
+            self.warn_unclosed(span, at);
+        }
         if let Some(doubt) = &doubt {
-            let whole = self.current_block();
             let mut goals = [whole.start + 1, next].map(Goal::block);
-            goals[1].seeking = (next != whole.end).then_some(Seeking::Condition);
+            goals[1].seeking = (is_open || next != whole.end).then_some(Seeking::Condition);
             if self.part_at(condition, doubt, (ConditionKind::Branch, span), goals, at) {
                 return Ok(None);
             }
@@ -197,6 +203,35 @@ impl Interpreter {
             }
             (_, None) => return Err(no_condition(span)),
         })
+    }
+
+    /// The branches after the one that was executed are passed over. Without `$ENDIF` there is nothing to be found after
+    /// them.
+    fn skip_other_branches(&mut self, links: Links, after: ControlStep) -> ControlStep {
+        if self.is_unclosed(links.opener) {
+            self.state.control.seek(Seeking::Condition);
+        }
+        after
+    }
+
+    /// Whether an `$IF` of the running file has no `$ENDIF`.
+    fn is_unclosed(&self, opener: EntryIndex) -> bool {
+        let frame = self.state.control.frames.running();
+        frame.is_some_and(|frame| {
+            let index = self.programs.index(frame.unit);
+            index.unclosed.contains(&index.links(opener).opener)
+        })
+    }
+
+    /// P-ERR-20375: an `$IF` has no `$ENDIF`.
+    fn warn_unclosed(&mut self, span: Span, at: &BlockContext<'_>) {
+        let message = format!(
+            "{}: where its condition is true the control goes on with a warning, where it is false it skips the rest \
+             of the text and stops at its end",
+            without_end(span.of(at.text))
+        );
+        let fault = Fault::new(Code::PErr20375, span, message);
+        self.say_before_parting(at.diagnostic(fault.with_help("write the end in a separate block")));
     }
 
     fn loop_while(
@@ -274,6 +309,12 @@ impl Interpreter {
         else {
             return Err(no_condition(span));
         };
+        if is_last_pass_open(counter, end, step) {
+            let goals = [opener + 1, region_end + 1].map(Goal::block);
+            if self.part_at_count(&Unknown::Rounding, span, goals, at) {
+                return Ok(None);
+            }
+        }
         let passed = if step > 0.0 {
             counter > end
         } else {
@@ -325,6 +366,9 @@ impl Interpreter {
             },
         };
         let place = self.target_place(counter.place, &head).map_err(shown)?;
+        let sum = self
+            .as_declared(place.as_ref(), sum, counter.span, &head)
+            .map_err(shown)?;
         self.set_by(place, sum.clone(), &head);
         let count = Count {
             counter: sum,
@@ -371,7 +415,10 @@ impl Interpreter {
             .index(frame.unit)
             .label(frame.section, label.clone());
         match found {
-            Some(entry) => Ok(Some(ControlStep::Jump(entry))),
+            Some(entry) => {
+                self.check_jump(entry, span, at)?;
+                Ok(Some(ControlStep::Jump(entry)))
+            }
             None if at.macro_depth == 0
                 && matches!(
                     target,
@@ -386,6 +433,38 @@ impl Interpreter {
                 span,
                 format!("jump label `{label}` does not exist in this program"),
             ))),
+        }
+    }
+
+    /// P-ERR-21480, FC328: the control refuses a jump within a loop (R2.103).
+    pub(crate) fn check_jump(
+        &mut self,
+        to: EntryIndex,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<(), Box<Fault>> {
+        let what = match self.jump_across(to) {
+            JumpAcross::Nothing => return Ok(()),
+            JumpAcross::WithinLoop => {
+                let what = "this jump stays within its loop, which the control refuses";
+                return Err(Fault::refused(Code::PErr21480, span, what));
+            }
+            JumpAcross::OneOfSeveralLoops => {
+                "this jump leaves a loop and stays within the one around it"
+            }
+            JumpAcross::IntoLoop => "this jump enters a loop from outside",
+            JumpAcross::IntoSwitch => "this jump enters a `$SWITCH` from outside",
+        };
+        self.may_refuse(21480, what, span, at);
+        Ok(())
+    }
+
+    /// What a jump from the current block crosses.
+    pub(crate) fn jump_across(&self, to: EntryIndex) -> JumpAcross {
+        let frames = &self.state.control.frames;
+        match (frames.running(), frames.entry()) {
+            (Some(frame), Some(from)) => self.programs.index(frame.unit).jump_across(from, to),
+            _ => JumpAcross::Nothing,
         }
     }
 
@@ -460,6 +539,22 @@ impl ControlState {
             frame.seeking = Some(seeking);
         }
     }
+}
+
+/// The statement that an `$IF` or `#IF` has no end.
+pub(crate) fn without_end(opener: &str) -> String {
+    let sign = opener.trim().get(..1).unwrap_or("$");
+    format!("this `{sign}IF` has no `{sign}ENDIF`")
+}
+
+/// Whether rounding decides whether a counter has passed its end: its step is not exact in binary, or it comes near
+/// without reaching it (R2.112; PM/206929163).
+fn is_last_pass_open(counter: f64, end: f64, step: f64) -> bool {
+    /// A step of so many parts of one is exact.
+    const EXACT: f64 = 1_048_576.0;
+    let is_exact = (step * EXACT).fract() == 0.0;
+    let is_near = are_nearly_equal(counter, end) || (counter - end).abs() <= 1e-9 * step.abs();
+    !is_exact && is_near
 }
 
 fn no_condition(span: Span) -> Box<Fault> {

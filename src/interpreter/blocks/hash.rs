@@ -10,7 +10,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
-use crate::language::{AxisWords, HashAction, PathFlow, Touches};
+use crate::language::{AxisWords, Flushes, FurtherWord, HashAction, PathFlow, Plc, Touches};
 use crate::readings::{Alternative, Question};
 use crate::syntax::ast::Hash;
 use crate::syntax::{Fault, VariableFamily};
@@ -31,6 +31,7 @@ impl Interpreter {
             self.scratch.rests.set(true);
         }
         self.scratch.plc_acts |= command.lets_plc_act();
+        self.check_flush(hash, at)?;
         match command.action {
             HashAction::Wait => self.wait_for(hash, at, outcome)?,
             HashAction::Initialise if hash.names_all_externals(at.text) => {
@@ -71,6 +72,9 @@ impl Interpreter {
             HashAction::RealTimeLoop => self.real_time_loop(hash.span, at, outcome),
             HashAction::ReportError => return self.report_error(hash, at, outcome),
             HashAction::ExchangeAxes(exchange) => self.exchange_axes(exchange, hash, at),
+            HashAction::SaveConfig(action) => return self.saved_config(action, hash, at),
+            HashAction::ChangeFile(action) => self.file_command(action, hash, at, outcome),
+            HashAction::SkipBackward => return self.skip_backward(hash, at),
             HashAction::PassOver
             | HashAction::Comment
             | HashAction::Initialise
@@ -82,6 +86,39 @@ impl Interpreter {
             | HashAction::SelectSlope(_)
             | HashAction::WriteMachineData => return self.pass_over_command(hash, at),
         }
+        Ok(())
+    }
+
+    /// FC328, P-ERR-51081: a command that flushes the channel where the control refuses that (R2.109, R2.111).
+    fn check_flush(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
+        let command = hash.command;
+        if command.flushes == Flushes::Never || command.has(FurtherWord::Continue) {
+            return Ok(());
+        }
+        if self.state.control.optional && command.plc == Plc::ActsAfterWait && command.lets_plc_act()
+        {
+            let what = "`#FLUSH WAIT` stands between `#OPTIONAL EXECUTION ON` and `OFF`";
+            return Err(Fault::refused(Code::PErr51081, hash.span, what));
+        }
+        let modal = &self.state.control.modal;
+        if command.flushes != Flushes::Spline && modal.transformed.contains("G41") {
+            let what = format!("`{}` flushes the channel under G41 or G42", hash.name);
+            self.may_refuse(20651, &what, hash.span, at);
+        } else if command.flushes != Flushes::Radius && modal.is_spline() {
+            let what = format!("`{}` flushes the channel under a spline", hash.name);
+            self.may_refuse(120_434, &what, hash.span, at);
+        }
+        Ok(())
+    }
+
+    /// `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
+    fn skip_backward(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
+        if hash.command.has(FurtherWord::On) && hash.brackets.has("SIMULATE", at.text) {
+            let what = "`#OPTIONAL EXECUTION ON` has `APPROACH SIMULATE`";
+            return Err(Fault::refused(Code::PErr22132, hash.span, what));
+        }
+        self.state.control.optional = hash.command.has(FurtherWord::On);
+        self.pass_over(hash.command.words, hash.span, at);
         Ok(())
     }
 
@@ -124,6 +161,11 @@ impl Interpreter {
         self.pass_over(word, hash.span, at);
         self.touch(hash, at);
         if command.action == HashAction::WriteMachineData {
+            let has = |word| hash.brackets.has(word, at.text);
+            if has("WAIT") && !has("SYN") {
+                let what = "`#MACHINE DATA` has `WAIT` and not `SYN`";
+                return Err(Fault::refused(Code::PErr21413, hash.span, what));
+            }
             self.write_machine_data(hash, at);
         }
         Ok(())

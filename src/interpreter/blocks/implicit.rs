@@ -49,7 +49,9 @@ impl Interpreter {
         self.call_word(word, span, at, outcome);
         if letter == b'T' && self.machine.programs.data_with_tool {
             // P-CHAN-00014: T selects the tool data, too.
+            let calls = outcome.implicit.take();
             self.call_word(word.of_data(), span, at, outcome);
+            outcome.implicit = calls;
         }
     }
 
@@ -65,6 +67,7 @@ impl Interpreter {
             Configured::None => return false,
             Configured::Program(name) => {
                 self.scratch.plc_acts |= word.letter == b'M';
+                self.check_implicit(word.letter, span, at, outcome);
                 let wanted = WantedCall::program(CallScope::Global, name, at.in_block(span));
                 outcome.calls.push(wanted);
             }
@@ -73,6 +76,20 @@ impl Interpreter {
             }
         }
         true
+    }
+
+    /// FC328: a second implicit call in the block (R2.104).
+    fn check_implicit(
+        &mut self,
+        letter: u8,
+        span: Span,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+    ) {
+        if outcome.implicit.replace(letter).is_some() {
+            let what = "two words of this block call programs";
+            self.may_refuse(22008, what, span, at);
+        }
     }
 
     /// A G function outside the groups: whether it calls a program.
@@ -88,7 +105,10 @@ impl Interpreter {
         }
         let function = GFunction::known(number);
         if function.is_some_and(GFunction::is_call) {
-            self.call_without_program(number, span, at, outcome);
+            let done = self.call_without_program(number, span, at, outcome);
+            if let Err(fault) = done {
+                self.scratch.complain(*fault, at);
+            }
             return true;
         }
         if self.machine.harmless.has_function(b'G', i64::from(number)) {
@@ -122,35 +142,47 @@ impl Interpreter {
         }
         match self.configured(FunctionWord::g(call.number)) {
             Configured::Program(name) => {
+                self.check_implicit(b'G', call.span, at, outcome);
                 let wanted = WantedCall::program(CallScope::Global, name, at.in_block(call.span));
                 outcome.calls.push(WantedCall { own, ..wanted });
             }
             Configured::Unknown(cause) => {
                 self.unknown_call("which program is called", &cause, call.span, at);
             }
-            Configured::None => self.call_without_program(call.number, call.span, at, outcome),
+            Configured::None => {
+                return self.call_without_program(call.number, call.span, at, outcome);
+            }
         }
         Ok(())
     }
 
     /// A word whose program is not known calls one of the machine, which may change anything, unless the
-    /// configuration says that it changes nothing but positions (R2.94).
+    /// configuration says that it changes nothing but positions (R2.94). Where the channel list is read it calls none
+    /// (R2.104).
     fn call_without_program(
         &mut self,
         number: u32,
         span: Span,
         at: &BlockContext<'_>,
         outcome: &mut BlockOutcome,
-    ) {
+    ) -> Result<(), Box<Fault>> {
         let is_harmless = self.machine.harmless.has_function(b'G', i64::from(number));
         if is_harmless {
             self.pass_over_implicit(number);
             self.pass_over(&format!("G{number}"), span, at);
+        } else if !self.machine.channel.is_whole {
+            let wanted = WantedCall::of_word(number, at.in_block(span));
+            outcome.calls.push(wanted);
+        } else if number == 80 {
+            let what = "the channel list names no program for `G80`, which the control refuses";
+            return Err(Fault::refused(Code::PErr20131, span, what));
         } else {
-            outcome
-                .calls
-                .push(WantedCall::of_word(number, at.in_block(span)));
+            let what = format!("the channel list names no program for `G{number}`");
+            self.may_refuse(None, &what, span, at);
+            self.pass_over_implicit(number);
+            self.pass_over(&format!("G{number}"), span, at);
         }
+        Ok(())
     }
 
     /// FC210: a G function that is in no public list; once per word and program (R2.94).
@@ -172,6 +204,10 @@ impl Interpreter {
 
     /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
     pub(crate) fn name_programs(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+        let messages = hash.brackets.after("MSG", at.text);
+        if let Some(file) = messages.and_then(|file| file.quoted(at.text)) {
+            self.state.control.files.write_messages_to(file);
+        }
         for (word, name) in file_names(hash, at.text) {
             let value = match name {
                 FileName::Written(name) => Value::Text(name.into()),

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind};
+use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
-use crate::interpreter::programs::index::{EntryIndex, LabelName};
+use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName};
 use crate::interpreter::programs::unit::Parsed;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
+use crate::interpreter::run::block_scratch::AfterError;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -25,8 +27,8 @@ use crate::interpreter::values::value::{Value, same_case};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::question::{ConditionKind, MAX_ANSWERS};
 use crate::readings::Question as Open;
-use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
-use crate::syntax::{Fault, VariableFamily};
+use crate::syntax::ast::{BlockReference, Expression, Flow, Item, Operand};
+use crate::syntax::Fault;
 use crate::text::{Place, Span};
 
 impl Interpreter {
@@ -64,8 +66,20 @@ impl Interpreter {
             yes.ruled_out.clone_from(&no.values);
             no.ruled_out.clone_from(&yes.values);
         }
-        let (text, place) = text_of(at.block, at.text, expression);
-        let question = MachineQuestion {
+        let question = self.question_of(expression, doubt, (kind, span), at);
+        self.part(question, vec![yes, no], at)
+    }
+
+    /// The question whether a condition holds.
+    fn question_of(
+        &self,
+        condition: Expression,
+        doubt: &Doubt,
+        (kind, span): (ConditionKind, Span),
+        at: &BlockContext<'_>,
+    ) -> MachineQuestion {
+        let (text, place) = text_of(at.block, at.text, condition);
+        MachineQuestion {
             kind,
             span: if kind == ConditionKind::Loop {
                 span
@@ -74,13 +88,12 @@ impl Interpreter {
             },
             texts: vec![text.into()],
             cause: doubt.cause(),
-            reads: reads(at.block, at.text, expression, &self.externals),
+            reads: reads(at.block, at.text, condition, &self.externals),
             kept: doubt.kept_answer(|value| match value.truth() {
                 Some(true) => 0,
                 _ => 1,
             }),
-        };
-        self.part(question, vec![yes, no], at)
+        }
     }
 
     /// The state that a condition asks for, where it is unknown because ways differ.
@@ -117,7 +130,7 @@ impl Interpreter {
     fn may_conclude(&self, target: &Location) -> bool {
         match target {
             Location::Variable(name) => {
-                name.family() != VariableFamily::Local && !self.is_own(name)
+                !name.family().is_of_level() && !self.is_own(name)
             }
             Location::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
             Location::Elements(_) | Location::Parameters => false,
@@ -154,8 +167,20 @@ impl Interpreter {
             return false;
         };
         let next = self.state.control.frames.running().map_or(0, |it| it.next);
+        let asked = (ConditionKind::Branch, span);
+        match (self.jump_across(to), condition) {
+            (JumpAcross::WithinLoop, Operand::Expression(condition)) => {
+                let question = self.question_of(condition, doubt, asked, at);
+                let what = "this jump stays within its loop, which the control refuses";
+                let said = at.diagnostic(*Fault::refused(Code::PErr21480, span, what));
+                self.refused_where(question, said, AfterError::Reset, at);
+                return true;
+            }
+            (JumpAcross::Nothing, _) => {}
+            _ => _ = self.check_jump(to, span, at),
+        }
         let goals = [to, next].map(Goal::block);
-        self.part_at(condition, doubt, (ConditionKind::Branch, span), goals, at)
+        self.part_at(condition, doubt, asked, goals, at)
     }
 
     /// Whether the one jump of a block goes back, so that its condition is that of a loop.

@@ -103,18 +103,29 @@ impl Interpreter {
                     reads: reads.map(|asking| asking.about(ConditionSubject::RemedyClass)),
                     kept: doubt.kept_answer(|value| usize::from(value.number() == Some(0.0))),
                 };
-                let ways = self.part_at_error(question, at);
-                if let Some([ends, _]) = ways.as_ref().filter(|[ends, _]| !ends.is_never()) {
-                    let mut said = error_with("an `RC` that is not 0", hash.span, at);
-                    limit_to(&mut said, &ways_of(ends, &self.state.conditions));
-                    self.scratch.of_some_ways.push(said);
-                }
-                if self.perhaps_end(ways, AfterError::ResetOrRestart, at) {
+                let said = error_with("an `RC` that is not 0", hash.span, at);
+                if self.refused_where(question, said, AfterError::ResetOrRestart, at) {
                     self.end_with(AfterError::ResetOrRestart, at, outcome);
                 }
             }
         }
         Ok(())
+    }
+
+    /// An error ends the program where the first answer to a question is given. Returns whether it ends on all ways.
+    pub(crate) fn refused_where(
+        &mut self,
+        question: MachineQuestion,
+        mut said: Diagnostic,
+        after: AfterError,
+        at: &BlockContext<'_>,
+    ) -> bool {
+        let ways = self.part_at_error(question, at);
+        if let Some([ends, _]) = ways.as_ref().filter(|[ends, _]| !ends.is_never()) {
+            limit_to(&mut said, &ways_of(ends, &self.state.conditions));
+            self.scratch.of_some_ways.push(said);
+        }
+        self.perhaps_end(ways, after, at)
     }
 
     /// Reports a message about all ways that lead to a block after which they part.

@@ -47,6 +47,14 @@ impl Interpreter {
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Request> {
+        if wanted.form == CallForm::Cycle && self.is_refused_in_cycle(wanted.span, at) {
+            return None;
+        }
+        if wanted.scope == CallScope::Global && self.state.control.files.has(&wanted.name) {
+            let why = "an earlier block renames, deletes or writes it";
+            self.call_unknown(&wanted, why, at);
+            return None;
+        }
         if self.is_external(&wanted) {
             self.pass_over_external(wanted, at);
             return None;
@@ -75,6 +83,11 @@ impl Interpreter {
             |here| Ok(Some(here)),
         ) {
             Ok(found) => found?,
+            Err(_) if self.state.control.files.is_guarded(&wanted.name) => {
+                let why = "it is not here, and the program asks whether it exists";
+                self.call_unknown(&wanted, why, at);
+                return None;
+            }
             Err(fault) => {
                 let cause = Unknown::Program(wanted.missing());
                 self.state.mentioned.enter_root(&cause, wanted.span, at);
@@ -127,6 +140,38 @@ impl Interpreter {
             form: wanted.form,
             called_from: at.place(wanted.span),
         })
+    }
+
+    /// FC902: the program that is called may be another one on the machine (R2.108).
+    fn call_unknown(&mut self, wanted: &WantedCall, why: &str, at: &BlockContext<'_>) {
+        let cause = Unknown::Program(wanted.missing());
+        self.havoc_by_call(&cause);
+        let message = format!(
+            "what `{}` does is not known: {why}; the call is passed over, and everything that a program could change \
+             becomes unknown",
+            wanted.name
+        );
+        let fault = Fault::new(Code::Fc902, wanted.span, message);
+        self.tell_once(&cause, "call", fault, at);
+    }
+
+    /// P-ERR-21381: a cycle is called while a modal one is in force (R2.104). Returns whether that stops the program.
+    fn is_refused_in_cycle(&mut self, span: Span, at: &BlockContext<'_>) -> bool {
+        let cycles = self.state.control.cycles.known();
+        if cycles.is_empty() {
+            return false;
+        }
+        let perhaps = |it: &Repeated| matches!(it.call, RepeatedCall::Perhaps(_));
+        let is_open = cycles.iter().any(perhaps) || self.state.control.frames.cycle_mut().is_some();
+        if is_open {
+            let what = "this block calls a cycle while a modal cycle may be active";
+            self.may_refuse(21381, what, span, at);
+            return false;
+        }
+        let what = "this block calls a cycle while a modal cycle is active, which the control refuses";
+        let said = at.diagnostic(*Fault::refused(Code::PErr21381, span, what));
+        self.scratch.diagnostics.push(said);
+        true
     }
 
     /// A program that only the machine has (R2.83): whatever it may change is unknown after it.

@@ -30,6 +30,9 @@ struct LetterWord {
     span: Span,
 }
 
+/// The least number of an M function that the control refuses in any case.
+const FIRST_ABOVE_M: i64 = 1001;
+
 impl Interpreter {
     pub(crate) fn word(
         &mut self,
@@ -302,7 +305,7 @@ impl Interpreter {
             (b'M', Some(2)) => outcome.end = Some(EndedBy::M02),
             (b'M', Some(17 | 29)) => outcome.returns = true,
             (b'S', _) => self.state.control.modal.pace.speed(number),
-            (b'E', _) => self.scratch.geometry().end_feed = Some(number),
+            (b'E', _) => self.end_feed_word(number, span, at),
             (b'F', _) => outcome.feed = Feed::Given(number),
             (b'M', None) => {
                 self.unknown_word("M", span, at);
@@ -311,6 +314,10 @@ impl Interpreter {
                 for exit in [Exit::End, Exit::Return] {
                     let _ = self.note_jump(&exit, &Unknown::text("M"));
                 }
+            }
+            (b'M', Some(FIRST_ABOVE_M..)) => {
+                let what = format!("`{}` is above M1000", span.of(at.text).trim());
+                return Err(Fault::refused(Code::PErr20160, span, what));
             }
             (b'M' | b'T' | b'D', number) => {
                 // A function may wait for its acknowledgement.
@@ -335,11 +342,25 @@ impl Interpreter {
                 self.scratch.plc_acts |= self.may_acknowledge(letter, function);
             }
             (b'N', _) => {}
-            (b'O', _) if is_program_number(at.block) => self.pass_over("O", span, at),
+            (b'O', _) if is_program_number(at.block) => {
+                self.pass_over("O", span, at);
+                self.may_refuse(20192, "`O` gives a program number", span, at);
+            }
             _ if !is_letter(letter) => self.unread_word(span, at),
             _ => self.lack_axis(&char::from(letter).to_string(), span, at),
         }
         Ok(())
+    }
+
+    /// The feed at the end of the block; FC327 for one that is not above 0 (R2.113).
+    fn end_feed_word(&mut self, feed: Option<f64>, span: Span, at: &BlockContext<'_>) {
+        self.scratch.geometry().end_feed = Some(feed);
+        if let Some(feed) = feed.filter(|feed| *feed <= 0.0) {
+            let message = format!("the feed `{feed}` at the end of this block is not above 0");
+            let fault = Fault::new(Code::Fc327, at.in_block(span), message);
+            let said = at.diagnostic(fault.with_help("write a feed above 0"));
+            self.scratch.diagnostics.push(said);
+        }
     }
 
     fn g_word(

@@ -21,6 +21,8 @@ pub struct Contouring {
     pub max_angle_deg: Option<f64>,
     /// Blocks that become one curve.
     pub joining: Joining,
+    /// Whether the path becomes a spline, `OPMODE 2` (R2.111).
+    pub is_spline: bool,
 }
 
 /// Selection of the straight blocks that become one curve.
@@ -90,6 +92,7 @@ impl ContouringCommand {
                 } else {
                     Contouring::high_speed()
                 };
+                next.is_spline |= has("BSPLINE");
                 if spline {
                     next.tolerance_mm = Some(SPLINE_MM);
                     next.max_angle_deg = Some(SPLINE_ANGLE_DEG);
@@ -98,6 +101,7 @@ impl ContouringCommand {
                     && given != Some(1.0)
                 {
                     next.tolerance_mm = None;
+                    next.is_spline = given.is_none_or(|mode| mode == 2.0);
                 }
                 for key in ["CONTERROR", "PATH_DEV"] {
                     match value(key) {
@@ -125,6 +129,7 @@ impl Default for Contouring {
             reach: 0.5,
             max_angle_deg: None,
             joining: Joining::Fine,
+            is_spline: false,
         }
     }
 }

@@ -301,6 +301,21 @@ impl Modal {
         self.havoc_positions();
     }
 
+    /// Whether the programmed coordinate of an axis is that of the machine: no zero offset, no G92 and no tool data are
+    /// in force (R2.112).
+    pub(crate) fn is_without_offsets(&self, axis: AxisIndex) -> bool {
+        self.functions.offset == 53
+            && self.is_known(Group::Offset)
+            && self.reference(axis) == Some(0.0)
+            && self.functions.tool_data.is_none_or(|data| data == 0)
+    }
+
+    /// Whether the path between points is a spline, G151 or `#HSC ON [OPMODE 2]`.
+    pub(crate) fn is_spline(&self) -> bool {
+        let fast = self.simplified.contains(Simplification::HighSpeed);
+        self.transformed.contains("#SPLINE") || fast && self.high_speed.is_spline
+    }
+
     /// Whether offsets may be switched off.
     pub(crate) fn are_offsets_suspended(&self) -> bool {
         let mut rows = self

@@ -22,11 +22,22 @@ impl Interpreter {
 
     pub(crate) fn enable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let group = self.group_of(hash, at);
+        self.enable_group(&group);
+    }
+
+    fn enable_group(&mut self, group: &str) {
         self.simplify(Simplification::Coupling, Holds::On);
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
-        let changed = self.state.control.couplings.enable(&group, axes);
+        let changed = self.state.control.couplings.enable(group, axes);
         self.state.control.mark_coupled(changed);
-        self.state.control.lose_followers(&group);
+        self.state.control.lose_followers(group);
+    }
+
+    /// Couplings come into force as a group of these pairs.
+    pub(crate) fn restore_couplings(&mut self, group: &str, axes: Vec<AxisIndex>) {
+        let changed = self.state.control.couplings.define(group, axes);
+        self.state.control.mark_coupled(changed);
+        self.enable_group(group);
     }
 
     /// Without a group the last one that was enabled is released.
@@ -218,7 +229,7 @@ impl ControlState {
         }
     }
 
-    fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
+    pub(crate) fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
         for axis in changed {
             let coupling = self.couplings.of(axis);
             self.compensation.set_coupled(axis, coupling);

@@ -10,10 +10,13 @@ use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::values::expression::{Evaluator, ExpressionScope, Macros, ParameterSource};
+use crate::interpreter::values::expression::{
+    Evaluator, ExpressionScope, Macros, ParameterSource, misused,
+};
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
+use crate::lists::AxisType;
 use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
 use crate::syntax::{AxisOfVariable, Fault, Subscript, VariableFamily, VariableName};
 use crate::text::Span;
@@ -55,6 +58,9 @@ impl Interpreter {
         self.scratch.stack = stack;
         if let Some(name) = self.scratch.flushing.take() {
             self.scratch.note_flush(&name, at);
+        }
+        if let Some(name) = self.scratch.undeclared.take() {
+            self.miss_internal(&name, Span::new(0, at.text.trim_end().len()), at);
         }
         value
     }
@@ -148,6 +154,11 @@ impl Interpreter {
         if let Some(index) = given_parameter(name) {
             return self.state.control.is_given(index);
         }
+        if name.family() == VariableFamily::Internal
+            && self.state.control.memory.is_absent(name)
+        {
+            self.scratch.undeclared.replace(Some(name.array().to_owned()));
+        }
         let own = self.own_variable(name)?;
         let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
         if is_state && self.state.control.modal.transformed.contains("G41") {
@@ -169,7 +180,9 @@ impl Interpreter {
             }
             OwnVariable::Absolute(axis) => {
                 let position = self.state.control.modal.position(axis);
-                let is_of_machine = position.frame == PositionFrame::Machine;
+                let is_of_machine = position.frame == PositionFrame::Machine
+                    && self.machine.axis(axis).axis_type == AxisType::Linear
+                    && self.state.control.modal.is_without_offsets(axis);
                 let value = position.value.filter(|_| is_of_machine);
                 value.map(Value::Number)
             }
@@ -279,12 +292,56 @@ impl Interpreter {
         let value = value?;
         let place = self.target_place(assignment.target.place, at)?;
         self.warn_own(place.as_ref(), assignment.target.span, at);
+        let value = self.as_declared(place.as_ref(), value, assignment.target.span, at)?;
         let counts = self.counts_given(assignment, place.as_ref(), at);
         self.set_by(place, value, at);
         if let Some(name) = counts {
             self.state.control.memory.release(&name);
         }
         Ok(())
+    }
+
+    /// A value as the variable that it is assigned to takes it (R2.101, R2.102).
+    pub(crate) fn as_declared(
+        &mut self,
+        place: Option<&Denoted>,
+        value: Value,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<Value, Box<Fault>> {
+        let Some(place) = place else {
+            return Ok(value);
+        };
+        let (Location::Variable(name) | Location::Elements(name)) = &place.location else {
+            return Ok(value);
+        };
+        let memory = &self.state.control.memory;
+        if let Some(misuse) = place.variable().and_then(|name| memory.misuse(name)) {
+            return Err(misused(misuse, span, at.text));
+        }
+        if let Some(declared) = memory.declaration(name) {
+            return self.typed(declared.kind, name, value, span, at);
+        }
+        let needs_declaration = match name.family() {
+            VariableFamily::Local => true,
+            VariableFamily::Program | VariableFamily::Cycle | VariableFamily::Parameter => {
+                name.is_element()
+            }
+            _ => false,
+        };
+        if needs_declaration && memory.is_absent(name) {
+            let what = format!("`{}` is written without a declaration in `#VAR`", name.array());
+            self.may_refuse(None, &what, span, at);
+        } else if name.family() == VariableFamily::Internal && memory.is_absent(name) {
+            self.miss_internal(name.array(), span, at);
+        }
+        Ok(value)
+    }
+
+    /// FC328: no program of the run declares a `V.I.` variable (R2.102).
+    fn miss_internal(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
+        let what = format!("no program of this run declares `{name}`");
+        self.may_refuse(20392, &what, span, at);
     }
 
     pub(crate) fn target_place(

@@ -19,6 +19,7 @@ use crate::language::{Exchange, FurtherWord};
 use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Argument, BracketArguments, Hash};
+use crate::text::Span;
 
 impl Interpreter {
     /// Executes an exchange command.
@@ -46,8 +47,6 @@ impl Interpreter {
             return;
         }
         match exchange {
-            Exchange::Restore if self.state.control.channel_axes == ChannelAxes::default() => {}
-            Exchange::Restore => self.state.control.havoc_exchange(),
             Exchange::Undescribed => {
                 self.state.control.havoc_exchange();
                 let fault = Fault::new(
@@ -73,10 +72,15 @@ impl Interpreter {
     }
 
     fn request_axes(&mut self, exchanged: NamedInExchange<'_>, at: &BlockContext<'_>) {
+        let (mut names, mut numbers) = (BTreeSet::new(), BTreeSet::new());
         for (name, number) in exchanged.axes() {
             let number = number.and_then(|number| self.argument_number(number, at));
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
-            let meaning = self.requested(name, number);
+            let meaning = self.requested(number);
+            self.check_request(name, number, (&mut names, &mut numbers), at);
+            if number.is_some() && meaning.is_none() {
+                self.say_without_number(name, at);
+            }
             if let Some(AxisNameMeaning::Axis(axis)) = meaning
                 && self.state.control.was_released(axis)
             {
@@ -108,17 +112,56 @@ impl Interpreter {
             .return_to(&start, (axis, kinds), changes);
     }
 
-    /// Returns the axis of a name after a request with this logical axis number, if it is known. An axis
-    /// of the machine without a number is taken to be the one of that name.
-    fn requested(&self, name: &str, number: Option<u32>) -> Option<AxisNameMeaning> {
-        let number = number?;
-        let axes = self.machine.axes.iter();
-        let by_number = axes.clone().position(|axis| axis.number == Some(number));
-        let by_name = axes
-            .clone()
-            .position(|axis| axis.name == name && axis.number.is_none());
-        let found = by_number.or(by_name)?;
+    /// Returns the axis of a name after a request with this logical axis number, if it is known.
+    fn requested(&self, number: Option<u32>) -> Option<AxisNameMeaning> {
+        let mut axes = self.machine.axes.iter();
+        let found = axes.position(|axis| number.is_some() && axis.number == number)?;
         Some(AxisNameMeaning::Axis(AxisIndex::new(found)))
+    }
+
+    /// FC328: an axis or a name is asked for twice, or a name that the channel has (R2.106).
+    fn check_request<'n>(
+        &mut self,
+        name: &'n str,
+        number: Option<u32>,
+        (names, numbers): (&mut BTreeSet<&'n str>, &mut BTreeSet<u32>),
+        at: &BlockContext<'_>,
+    ) {
+        let span = Span::new(0, at.text.trim_end().len());
+        if number.is_some_and(|number| !numbers.insert(number)) {
+            self.may_refuse(21256, "one axis is asked for twice", span, at);
+        }
+        if !names.insert(name) {
+            let what = format!("the name `{name}` is given twice");
+            self.may_refuse(21258, &what, span, at);
+        }
+        let axes = &self.state.control.channel_axes;
+        let own = self.machine.find(name).map(AxisNameMeaning::Axis);
+        let held = match axes.meaning(name).or(own) {
+            Some(AxisNameMeaning::Axis(axis)) => self.machine.axis(axis).number,
+            _ => None,
+        };
+        if held.is_some() && number.is_some() && held != number {
+            let what = format!("the channel has another axis with the name `{name}`");
+            self.may_refuse(21261, &what, span, at);
+        }
+    }
+
+    /// FC902: the axes of the machine have no numbers, so that the meaning of a name is not known (R2.106).
+    fn say_without_number(&mut self, name: &str, at: &BlockContext<'_>) {
+        if self.machine.axes.iter().all(|axis| axis.number.is_some()) {
+            return;
+        }
+        let message = format!(
+            "which axis `{name}` means from here on is not known: the axes of the machine have no logical numbers, and \
+             a COMP command with this name may switch any of them"
+        );
+        if self.state.is_new_word("axes without numbers") {
+            let span = Span::new(0, at.text.trim_end().len());
+            let fault = Fault::new(Code::Fc902, span, message)
+                .with_help("write `number = …` in each `[[axis]]` of frictcomp.toml, or name the start-up list");
+            self.scratch.diagnostics.push(at.diagnostic(fault));
+        }
     }
 
     fn release_axis(&mut self, name: &str) {
@@ -195,7 +238,7 @@ impl<'a> NamedInExchange<'a> {
                     .collect()
             }
             Exchange::Request | Exchange::Define => self.axes().map(|(name, _)| name).collect(),
-            Exchange::Restore | Exchange::Undescribed => Vec::new(),
+            Exchange::Undescribed => Vec::new(),
         }
     }
 

@@ -128,6 +128,9 @@ impl Interpreter {
         self.look_at_motion(&outcome, at);
         self.havoc_ways(at, finder);
         let calls = self.take_calls(&mut outcome, at, finder);
+        if let Some(name) = outcome.looks_for.take() {
+            self.look_for_file(name, at, finder);
+        }
         if self.scratch.plc_acts {
             self.let_plc_act();
         }

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use super::merging::MetWays;
 use crate::comp::{AxisIndex, Compensation, KindSet};
-use crate::diagnostic::{Collected, Diagnostic};
+use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::interpreter::blocks::flow::without_end;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
-use crate::interpreter::run::block_scratch::OwnEnd;
+use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -20,7 +21,7 @@ use crate::interpreter::run::state::State;
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
 use crate::interpreter::run::ways::AxisKinds;
 use crate::interpreter::ways::set::WaySet;
-use crate::syntax::RawBlock;
+use crate::syntax::{Fault, RawBlock};
 use crate::syntax::ast::Block;
 use crate::text::{Place, Span};
 
@@ -50,6 +51,43 @@ impl Interpreter {
             self.check_all_unexecuted(&mut notes);
         }
         self.ended(by, &notes, observer)
+    }
+
+    /// P-ERR-21500 to 21502: the text ends while the control skips it for a false `$IF` without `$ENDIF` (R2.103).
+    /// Returns whether the run stops there.
+    #[cold]
+    pub(crate) fn ends_in_open_if(&mut self) -> bool {
+        let Some(frame) = self.state.control.frames.running_mut() else {
+            return false;
+        };
+        let (unit, level, is_main) = (frame.unit, frame.level, frame.level == 0);
+        let (section, next) = (frame.section, frame.next);
+        frame.seeking = None;
+        let index = self.programs.index(unit);
+        let Some(opener) = index.last_unclosed(next) else {
+            return false;
+        };
+        let code = match index.sections.get(section) {
+            _ if is_main => Code::PErr21501,
+            Some(section) if section.local => Code::PErr21500,
+            _ => Code::PErr21502,
+        };
+        let parsed = self.programs.parsed(unit, opener);
+        let shown = ShownBlockLines::default();
+        let at = BlockContext::of_parsed(&parsed, level, &shown);
+        let span = Span::new(0, at.text.trim_end().len());
+        let what = format!(
+            "{}: the control skips the rest of the text and stops at its end",
+            without_end(at.text)
+        );
+        let mut said = at.diagnostic(*Fault::refused(code, span, what));
+        self.state.limit_to_reach(&mut said, None);
+        self.scratch.over.push(said);
+        if self.options.stop == StopPolicy::FirstError {
+            return true;
+        }
+        self.fail(AfterError::Reset, &at);
+        false
     }
 
     pub(crate) fn ended(

@@ -108,6 +108,7 @@ impl Interpreter {
             return self.go_on_elsewhere(ending.unwrap_or(EndedBy::EndOfFile));
         };
         let (unit, section, next) = (frame.unit, frame.section, frame.next);
+        let (passage, level) = (frame.passage, frame.level);
         if !frame.waiting.is_empty() {
             return match self.call_waiting() {
                 ControlFlow::Continue(()) => ControlFlow::Continue(None),
@@ -115,8 +116,11 @@ impl Interpreter {
             };
         }
         let is_past = next >= self.programs.section(ProgramId { unit, section }).end;
-        if is_past || frame.passage.is_some_and(|passage| next > passage.last) {
-            if frame.level == 0 {
+        if is_past && frame.seeking.is_some() && self.ends_in_open_if() {
+            return self.go_on_elsewhere(EndedBy::Error);
+        }
+        if is_past || passage.is_some_and(|passage| next > passage.last) {
+            if level == 0 {
                 self.meet_at_end(finder);
                 return self.go_on_elsewhere(EndedBy::EndOfFile);
             }

@@ -116,6 +116,7 @@ impl Interpreter {
         self.state.last = None;
         self.state.parked = None;
         self.state.control.named.clear();
+        self.state.control.optional = false;
         self.state.control.channel_axes = ChannelAxes::default();
         self.state.control.described = None;
         self.state.track = RunTrack::default();

@@ -1,6 +1,6 @@
 //! Construction of the index of a program: control blocks are paired, labels and jumps noted.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 use super::index::{
@@ -50,6 +50,8 @@ impl Index {
                 sections: Vec::new(),
                 links: BTreeMap::new(),
                 loops: Vec::new(),
+                unclosed: BTreeSet::new(),
+                switches: Vec::new(),
                 labels: HashMap::new(),
                 targets: JumpTargets::default(),
                 locals: HashMap::new(),
@@ -202,8 +204,30 @@ impl Builder {
         if let Some(section) = self.index.sections.last_mut() {
             section.end = end;
         }
-        for open in std::mem::take(&mut self.open) {
-            self.refuse_open(&open);
+        let open = std::mem::take(&mut self.open);
+        let is_if = |open: &Open| open.kind == ControlBlock::If && open.sign.is_some();
+        if open.iter().all(is_if) {
+            for mut open in open {
+                self.index.unclosed.insert(open.opener);
+                open.parts.push(end);
+                self.link(&open, end);
+            }
+        } else {
+            for open in open {
+                self.refuse_open(&open);
+            }
+        }
+    }
+
+    /// Links the parts of a control block up to its end.
+    fn link(&mut self, open: &Open, end: EntryIndex) {
+        for pair in open.parts.windows(2) {
+            let links = Links {
+                opener: open.opener,
+                next: pair[1],
+                end,
+            };
+            self.index.links.insert(pair[0], links);
         }
     }
 
@@ -376,8 +400,10 @@ impl Builder {
             .with_help(Advice::RaiseBudget(Budget::Nesting));
             self.refuse(at.entry, fault);
         }
-        if !matches!(kind, ControlBlock::If | ControlBlock::Switch) {
-            self.index.loops.push(at.entry);
+        match kind {
+            ControlBlock::If => {}
+            ControlBlock::Switch => self.index.switches.push(at.entry),
+            _ => self.index.loops.push(at.entry),
         }
         let mut innermost = self.open.last().map(|open| open.innermost);
         innermost.get_or_insert_default()[kind as usize] = self.open.len() + 1;
@@ -456,14 +482,7 @@ impl Builder {
         {
             self.index.split.insert(open.opener, *level);
         }
-        for pair in open.parts.windows(2) {
-            let links = Links {
-                opener: open.opener,
-                next: pair[1],
-                end: at.entry,
-            };
-            self.index.links.insert(pair[0], links);
-        }
+        self.link(&open, at.entry);
         let links = Links {
             opener: open.opener,
             next: at.entry,

@@ -31,6 +31,10 @@ pub(crate) fn file_names<'a>(hash: &Hash, text: &'a str) -> Vec<(String, FileNam
             None => (argument.span, arguments.next()),
         };
         let word = word.of(text);
+        // The file of `#MSG SAVE` (PM/207504523).
+        if word.eq_ignore_ascii_case("MSG") {
+            continue;
+        }
         if !is_word(word) {
             names.extend(LETTERS.map(|letter| (letter.to_owned(), FileName::Elsewhere(word))));
         }

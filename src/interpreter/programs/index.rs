@@ -3,7 +3,7 @@
 //! It holds offsets, not trees: blocks are parsed when they are executed, and kept only when they
 //! are executed again.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -104,6 +104,21 @@ impl std::fmt::Display for LabelName {
     }
 }
 
+/// Control blocks whose borders a jump crosses, where the control may refuse it (R2.103).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum JumpAcross {
+    /// None, or it leaves them completely.
+    Nothing,
+    /// It stays within its loop.
+    WithinLoop,
+    /// It leaves a loop and stays within another one.
+    OneOfSeveralLoops,
+    /// It enters a loop.
+    IntoLoop,
+    /// It enters a `$SWITCH`.
+    IntoSwitch,
+}
+
 /// The targets of the jumps of a program.
 #[derive(Debug, Default)]
 pub(crate) struct JumpTargets {
@@ -139,6 +154,10 @@ pub(crate) struct Index {
     pub(crate) links: BTreeMap<EntryIndex, Links>,
     /// The statements that open loops.
     pub(crate) loops: Vec<EntryIndex>,
+    /// The `$IF` statements without `$ENDIF`, which reach to the end of their section.
+    pub(crate) unclosed: BTreeSet<EntryIndex>,
+    /// The statements that open a `$SWITCH`.
+    pub(crate) switches: Vec<EntryIndex>,
     pub(crate) labels: HashMap<(usize, LabelName), EntryIndex>,
     pub(crate) targets: JumpTargets,
     /// The local subprograms by name, the first of each.
@@ -166,6 +185,11 @@ impl Index {
     /// Whether a `$` statement belongs to a control block that is whole.
     pub(crate) fn is_linked(&self, entry: EntryIndex) -> bool {
         self.links.contains_key(&entry)
+    }
+
+    /// The last `$IF` without `$ENDIF` before a block.
+    pub(crate) fn last_unclosed(&self, before: EntryIndex) -> Option<EntryIndex> {
+        self.unclosed.range(..before).next_back().copied()
     }
 
     /// The links of a `$` statement.
@@ -338,8 +362,41 @@ impl Index {
 
     /// The innermost loop that contains a block and does not begin with it, by its opener.
     pub(crate) fn loop_around(&self, entry: EntryIndex) -> Option<EntryIndex> {
-        let around = |opener: &&EntryIndex| **opener < entry && entry <= self.links(**opener).end;
-        self.loops.iter().filter(around).max().copied()
+        self.loops_around(entry).max()
+    }
+
+    /// The loops that contain a block and do not begin with it, by their openers.
+    fn loops_around(&self, entry: EntryIndex) -> impl Iterator<Item = EntryIndex> {
+        let loops = self.loops.iter().copied();
+        loops.filter(move |opener| self.is_within(entry, *opener))
+    }
+
+    /// Whether a block is within a control block, by its opener, and does not open it.
+    fn is_within(&self, entry: EntryIndex, opener: EntryIndex) -> bool {
+        opener < entry && entry <= self.links(opener).end
+    }
+
+    /// What a jump crosses (R2.103).
+    pub(crate) fn jump_across(&self, from: EntryIndex, to: EntryIndex) -> JumpAcross {
+        if self.loops.is_empty() && self.switches.is_empty() {
+            return JumpAcross::Nothing;
+        }
+        let innermost = self.loop_around(from);
+        if innermost.is_some_and(|opener| self.is_within(to, opener)) {
+            JumpAcross::WithinLoop
+        } else if self.loops_around(from).any(|opener| self.is_within(to, opener)) {
+            JumpAcross::OneOfSeveralLoops
+        } else if self.loop_around(to).is_some() {
+            JumpAcross::IntoLoop
+        } else {
+            let mut switches = self.switches.iter().copied();
+            let enters =
+                |opener: EntryIndex| self.is_within(to, opener) && !self.is_within(from, opener);
+            match switches.any(enters) {
+                true => JumpAcross::IntoSwitch,
+                false => JumpAcross::Nothing,
+            }
+        }
     }
 
     /// Returns the end of the branches of an `#IF`.

@@ -126,6 +126,8 @@ pub(crate) struct BlockScratch {
     pub(crate) unread: Cell<bool>,
     /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
     pub(crate) flushing: RefCell<Option<String>>,
+    /// A `V.I.` variable that was read and that no program of the run declares (R2.102).
+    pub(crate) undeclared: RefCell<Option<String>>,
     /// Why a program may be called that is not known, if one may.
     pub(crate) unknown_call: Option<Unknown>,
     /// A part of the macro expanded last that limits what may be in the block.

@@ -4,11 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use super::changed_files::ChangedFiles;
 use super::channel_axes::ChannelAxes;
 use super::coupling::Couplings;
 use super::cycles::ModalCycles;
 use super::description::Description;
 use super::event::EndedBy;
+use super::saved_config::SavedConfig;
 use super::stack::CallStack;
 use super::ways::join_names;
 use crate::comp::Compensation;
@@ -41,6 +43,12 @@ pub(crate) struct ControlState {
     pub(crate) ending: Option<EndedBy>,
     /// Programs that `#FILE NAME` assigns to words, until the program ends.
     pub(crate) named: BTreeMap<String, Value>,
+    /// Configurations that `#SAVE CONFIG` saved.
+    pub(crate) saved: SavedConfig,
+    /// Files that programs changed.
+    pub(crate) files: ChangedFiles,
+    /// Whether the control may skip blocks while it moves backward (`#OPTIONAL EXECUTION`).
+    pub(crate) optional: bool,
     /// G functions and positions before a contour description, inside it.
     pub(crate) described: Option<Box<Description>>,
 }
@@ -60,6 +68,9 @@ impl ControlState {
             refused: BTreeSet::new(),
             ending: None,
             named: BTreeMap::new(),
+            saved: SavedConfig::default(),
+            files: ChangedFiles::default(),
+            optional: false,
             described: None,
         }
     }
@@ -80,6 +91,9 @@ impl ControlState {
             // The call stack tells where a program end is executed.
             ending: _,
             named,
+            saved,
+            files,
+            optional,
             described,
         } = other;
         let theirs = HistorySide {
@@ -103,6 +117,9 @@ impl ControlState {
         self.cycles.join(cycles);
         self.refused.extend(refused);
         join_names(&mut self.named, named, cause);
+        self.saved.join(saved);
+        self.files.join(files);
+        self.optional |= optional;
         self.join_description(described.as_deref());
         differing
     }
@@ -140,6 +157,9 @@ impl ControlState {
             refused,
             ending,
             named,
+            saved,
+            files,
+            optional,
             described,
         } = self;
         let same = *frames == other.frames
@@ -151,6 +171,9 @@ impl ControlState {
             && *refused == other.refused
             && *ending == other.ending
             && *named == other.named
+            && *saved == other.saved
+            && *files == other.files
+            && *optional == other.optional
             && *channel_axes == other.channel_axes
             && *described == other.described;
         same.then(|| memory.differing_numbers(&other.memory))?

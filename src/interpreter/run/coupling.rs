@@ -138,6 +138,14 @@ impl Couplings {
         self.doubted || !self.enabled.is_empty()
     }
 
+    /// The pairs of axes that groups couple; `None` where that is not known.
+    pub(crate) fn in_force(&self) -> Option<Vec<AxisIndex>> {
+        let groups = self.enabled.values().map(|name| self.groups.get(name));
+        let groups: Option<Vec<_>> = groups.collect();
+        let axes = groups?.into_iter().flat_map(|group| &group.axes);
+        (!self.is_doubted()).then(|| axes.copied().collect())
+    }
+
     /// Whether axes may be coupled by a group whose axes are unknown.
     fn is_doubted(&self) -> bool {
         self.doubted || self.unknown > 0

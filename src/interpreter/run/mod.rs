@@ -3,6 +3,7 @@
 pub(super) mod block_context;
 pub(super) mod block_scratch;
 pub(super) mod call_effects;
+pub(super) mod changed_files;
 pub(super) mod channel_axes;
 pub(super) mod control;
 pub(super) mod coupling;
@@ -20,6 +21,7 @@ pub(super) mod options;
 pub(super) mod outcome;
 pub(super) mod path;
 pub(super) mod region;
+pub(super) mod saved_config;
 pub(super) mod search;
 pub(super) mod stack;
 pub(super) mod state;

@@ -28,6 +28,10 @@ pub(crate) struct BlockOutcome {
     pub(crate) step: Option<ControlStep>,
     /// Calls, in the order in which they are made.
     pub(crate) calls: Vec<WantedCall>,
+    /// The file that `#FILE EXIST` looks for; its name where it is known.
+    pub(crate) looks_for: Option<Option<String>>,
+    /// Letter of the last word that calls a program.
+    pub(crate) implicit: Option<u8>,
     /// The groups of its G functions, a bit each: those of [`Group`], then those of [`BlockGroup`].
     groups: u32,
     /// The letters of which it has a word and may have one, D at bit 0.

@@ -26,7 +26,7 @@ use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::clash::RememberedConditions;
 use crate::interpreter::ways::set::WaySet;
 use crate::syntax::ast::Owner;
-use crate::syntax::{VariableFamily, VariableName};
+use crate::syntax::VariableName;
 use crate::text::{Place, Span};
 
 /// The way of the run to its current block.
@@ -219,7 +219,7 @@ impl RunTrack {
     pub(crate) fn change_level(&mut self, depth: usize) {
         let is_own = |target: &Location| match target {
             Location::Parameter(owner, _) => *owner == Owner::Call,
-            Location::Variable(name) => name.family() == VariableFamily::Local,
+            Location::Variable(name) => name.family().is_of_level(),
             Location::Elements(_) | Location::Parameters => true,
         };
         self.asked

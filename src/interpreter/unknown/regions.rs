@@ -213,9 +213,14 @@ impl Interpreter {
             }
             RegionEffect::Hash(command) => {
                 self.havoc_hash(*command, cause);
-                if matches!(command.action, HashAction::ExchangeAxes(_)) {
-                    self.state.control.havoc_exchange();
-                    self.state.control.modal.havoc_positions();
+                match command.action {
+                    HashAction::ExchangeAxes(_) => {
+                        self.state.control.havoc_exchange();
+                        self.state.control.modal.havoc_positions();
+                    }
+                    HashAction::SaveConfig(action) => self.havoc_config(action),
+                    HashAction::ChangeFile(_) => self.state.control.files.change(None),
+                    _ => {}
                 }
             }
             RegionEffect::Coupling(axes) => self.state.control.havoc_definitions(axes),

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::externals::SetAt;
 use crate::diagnostic::{Advice, Budget};
-use crate::language::is_command;
+use crate::language::{Refusal, is_command};
 
 /// Something that only the machine knows and that makes values unknown (R2.50).
 ///
@@ -30,12 +30,11 @@ pub enum Unknown {
     /// The reaction of the control to a missing jump label.
     #[serde(rename = "a missing jump label")]
     MissingLabel,
-    /// The reaction of the control to a feed move without a feed, error 20008 (R2.110).
-    #[serde(rename = "error 20008")]
-    MissingFeed,
-    /// A coupling that may be active, in which the control refuses COMP (TF5200 Diagnostics, ID 21403).
-    #[serde(rename = "error 21403")]
-    Coupling,
+    /// Whether the control refuses a block, by the number of its error where that is public (R2.114).
+    Refused(Option<u32>),
+    /// The last digits of a computed number (R2.112; PM/206929163).
+    #[serde(rename = "the rounding of a computed number")]
+    Rounding,
     /// The number of passes of a loop (R14.3).
     #[serde(rename = "a loop that is repeated")]
     Passes,
@@ -147,9 +146,9 @@ impl Unknown {
             Self::Program(word) => format!("the program of `{word}`, which is missing"),
             Self::Changed(changed) => changed.seen_from(file),
             Self::RemedyClass => format!("what the control does at `{self}`"),
-            Self::MissingLabel | Self::MissingFeed | Self::Coupling => {
-                format!("what the control does at {self}")
-            }
+            Self::MissingLabel => format!("what the control does at {self}"),
+            Self::Refused(_) => format!("whether the control refuses a block by {self}"),
+            Self::Rounding => format!("{self}, which the control may do otherwise"),
             Self::Passes => "how often a loop is repeated".to_owned(),
             Self::Search => "whether the block search executes what it passes".to_owned(),
             Self::Cycle(name) => format!("whether the modal cycle `{name}` is in force"),
@@ -176,8 +175,8 @@ impl Unknown {
             Self::Changed(changed) => Advice::SetVariable(changed.name.to_string()),
             Self::RemedyClass => "`RC=0` lets the program go on, `RC=2` stops it".into(),
             Self::MissingLabel => "write the label that the jump looks for".into(),
-            Self::MissingFeed => "write a feed before the first feed move".into(),
-            Self::Coupling => "release all couplings first, with `#DISABLE AX LINK ALL`".into(),
+            Self::Refused(number) => number.and_then(Refusal::of).map_or("", |row| row.cure).into(),
+            Self::Rounding => "compare with a tolerance, `ABS[P1 - 0.3] < 0.001`".into(),
             Self::Passes => "give the values that decide how often the loop is repeated".into(),
             Self::Ways => Advice::RaiseBudget(Budget::Ways),
             Self::Work => Advice::RaiseBudget(Budget::Work),
@@ -228,8 +227,9 @@ impl fmt::Display for Unknown {
             }
             Self::RemedyClass => f.write_str("#ERROR"),
             Self::MissingLabel => f.write_str("a missing jump label"),
-            Self::MissingFeed => f.write_str("error 20008"),
-            Self::Coupling => f.write_str("error 21403"),
+            Self::Refused(Some(number)) => write!(f, "error {number}"),
+            Self::Refused(None) => f.write_str("an error"),
+            Self::Rounding => f.write_str("the rounding of a computed number"),
             Self::Passes => f.write_str("a loop that is repeated"),
             Self::Ways => f.write_str("ways that are not followed"),
             Self::Work => f.write_str("the budget of work"),

@@ -12,6 +12,7 @@ use super::found::VariableUse;
 use super::functions::{binary, call, fault, numeric, wrong_type};
 use super::location::{Denoted, Location};
 use super::memory::Memory;
+use super::names::Misuse;
 use super::reads::Reads;
 use super::value::{Slot, Value, rounded};
 use super::work_budget::{ITEM, WorkBudget};
@@ -195,7 +196,7 @@ impl Evaluator<'_> {
                         _ => 0,
                     });
                     self.work.charge(read.sum());
-                    match self.perhaps_there(function, at) {
+                    match self.existence(function, at) {
                         Some(unknown) => Ok(unknown),
                         None => self.bounded(call(function, slots, span), span),
                     }
@@ -205,14 +206,20 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The result of `EXIST` for a variable that an earlier program may or may not have left.
-    fn perhaps_there(&self, function: Function, at: usize) -> Option<Value> {
-        self.scope.used.filter(|_| function == Function::Exist)?;
+    /// The result of `EXIST` for a variable that an earlier program may or may not have left, and for a `V.CYC.`
+    /// variable that no open level has (R2.102).
+    fn existence(&self, function: Function, at: usize) -> Option<Value> {
+        if function != Function::Exist {
+            return None;
+        }
         let argument = at.checked_sub(1)?;
         let location = match self.block.nodes[argument] {
             Node::Variable { subscripts: 0 } => {
-                let text = self.block.spans[argument].of(self.text);
-                Location::Variable(VariableName::read(text))
+                let name = VariableName::read(self.block.spans[argument].of(self.text));
+                if name.family() == VariableFamily::Cycle && self.scope.memory.is_absent(&name) {
+                    return Some(false.into());
+                }
+                Location::Variable(name)
             }
             Node::Parameter {
                 owner: Owner::Program,
@@ -220,6 +227,7 @@ impl Evaluator<'_> {
             } => Location::Parameter(Owner::Program, index),
             _ => return None,
         };
+        self.scope.used?;
         let is_found = self.scope.memory.is_found(&location);
         is_found.then(|| Value::Unknown(Unknown::text(location.to_string())))
     }
@@ -381,6 +389,9 @@ impl Evaluator<'_> {
         if let Some(value) = self.as_set(span) {
             return Ok(value);
         }
+        if let Some(misuse) = self.scope.memory.misuse(name) {
+            return Err(misused(misuse, span, self.text));
+        }
         if family.is_of_programs() {
             return Err(never_written(span, self.text));
         }
@@ -509,6 +520,10 @@ impl Evaluator<'_> {
         };
         let span = self.block.spans[root as usize];
         let size = |slot: Slot| match slot? {
+            Value::Number(number) if number < 0.5 => {
+                let what = format!("a dimension of `{}` is below 1", span.of(self.text).trim());
+                Err(Fault::refused(Code::PErr20966, span, what))
+            }
             Value::Number(number) => {
                 let size = rounded(number).and_then(|size| u32::try_from(size).ok());
                 size.map(Ok)
@@ -538,6 +553,24 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
         )
         .with_help(Advice::AssignVariable(name.to_owned())),
     )
+}
+
+/// The use of a name that its declaration does not allow (R2.102).
+pub(crate) fn misused(misuse: Misuse, span: Span, text: &str) -> Box<Fault> {
+    let name = span.of(text).trim();
+    match misuse {
+        Misuse::NoIndex => Fault::refused(
+            Code::PErr21216,
+            span,
+            format!("`{name}` is an array, and has no index here"),
+        ),
+        Misuse::Outside => wrong_type(span, "this index is outside the array"),
+        Misuse::OtherCount(1) => wrong_type(span, "the array has one dimension"),
+        Misuse::OtherCount(count) => {
+            wrong_type(span, &format!("the array has {count} dimensions"))
+        }
+        Misuse::NoArray => wrong_type(span, "the variable is declared without dimensions"),
+    }
 }
 
 /// A text without its quotes.

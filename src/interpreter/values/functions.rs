@@ -1,5 +1,6 @@
 //! Operators and functions of the language (R2.30, R2.31, R2.35).
 
+use super::cause::Unknown;
 use super::value::{Slot, Value, is_true, rounded};
 use crate::diagnostic::Code;
 use crate::syntax::Fault;
@@ -69,6 +70,13 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
         Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
         Modulo, Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
+    let compares = matches!(
+        operator,
+        Equal | NotEqual | GreaterOrEqual | LessOrEqual | Less | Greater
+    );
+    if compares && are_nearly_equal(left, right) {
+        return Ok(Value::Unknown(Unknown::Rounding));
+    }
     #[allow(clippy::float_cmp)] // comparison is the language's own
     let value = match operator {
         Add => left + right,
@@ -91,6 +99,15 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
         And | Or => return Ok((is_true(left) && is_true(right)).into()),
     };
     finite(value, span)
+}
+
+/// Greatest difference of two numbers, as a share of them, that the rounding of a computation may make (R2.112).
+const ROUNDING: f64 = 1e-9;
+
+/// Whether two numbers differ, and by no more than rounding: the control may have rounded otherwise.
+pub(crate) fn are_nearly_equal(left: f64, right: f64) -> bool {
+    let difference = (left - right).abs();
+    difference > 0.0 && difference <= ROUNDING * left.abs().max(right.abs())
 }
 
 /// FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.

@@ -8,10 +8,13 @@ use super::cause::Unknown;
 use super::externals::{ExternalVariables, HeldVariable};
 use super::found::FoundVariables;
 use super::location::Location;
-use super::names::{Array, NamedVariable, VariableNames, Weight, compare, join_value, weight};
+use super::names::{
+    Array, Declared, Misuse, NamedVariable, Sure, VariableNames, Weight, compare, join_value, weight,
+};
 use super::parameter_values::ParameterValues;
 use super::persistent::PersistentMap;
 use super::value::Value;
+use super::value_type::ValueType;
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 use crate::syntax::{VariableFamily, VariableName};
@@ -103,8 +106,12 @@ impl Memory {
 
     /// The value of a variable, the declared default of an array element that was never written.
     pub(crate) fn variable(&self, name: &VariableName) -> Option<Value> {
-        if name.family() == VariableFamily::Local {
-            return self.locals.iter().rev().find_map(|level| level.value(name));
+        if name.family().is_of_level() {
+            let mut levels = self.locals.iter().rev();
+            let found = levels.find_map(|level| level.value(name));
+            if found.is_some() || name.family() == VariableFamily::Local {
+                return found;
+            }
         }
         let unknown = self.unknown_names.as_ref();
         let unknown = unknown.filter(|_| self.is_written(name));
@@ -191,7 +198,7 @@ impl Memory {
     }
 
     pub(crate) fn set_variable(&mut self, name: &VariableName, value: Value) {
-        if name.family() != VariableFamily::Local {
+        if !name.family().is_of_level() {
             self.lose_found(name);
             self.externals.release(name);
             self.variables.set(name, value);
@@ -204,7 +211,7 @@ impl Memory {
         }
     }
 
-    /// The `V.L.` variables of the current level.
+    /// The variables of the current level.
     fn level(&mut self) -> &mut VariableNames {
         if self.locals.is_empty() {
             self.locals.push(VariableNames::default());
@@ -215,7 +222,7 @@ impl Memory {
 
     /// Returns the names of the kind that a declaration of the name belongs to.
     fn declared(&mut self, name: &VariableName) -> &mut VariableNames {
-        if name.family() == VariableFamily::Local {
+        if name.family().is_of_level() {
             self.level()
         } else {
             &mut self.variables
@@ -289,6 +296,55 @@ impl Memory {
         self.declared(name).declare_array(name.array(), array);
     }
 
+    /// A variable was declared with a type, where that is certain.
+    pub(crate) fn set_declared(&mut self, name: &VariableName, kind: ValueType) {
+        let names = self.declared(name);
+        names.set_declared(name.array(), Declared { kind, certainty: Sure::Certain });
+    }
+
+    /// The declaration of a variable or an array, in the level of the program or around it.
+    pub(crate) fn declaration(&self, name: &VariableName) -> Option<Declared> {
+        let levels = self.locals.iter().rev();
+        let mut levels = levels.filter(|_| name.family().is_of_level());
+        let local = levels.find_map(|level| level.names.get(name.array()));
+        local.or_else(|| self.variables.names.get(name.array()))?.declared
+    }
+
+    /// Whether a declaration of the name in the current level is a second one.
+    pub(crate) fn is_declared_here(&self, name: &VariableName) -> Option<Declared> {
+        let level = match name.family().is_of_level() {
+            true => self.locals.last()?,
+            false => &self.variables,
+        };
+        level.names.get(name.array())?.declared
+    }
+
+    /// Whether nothing of the name is known, or may be there.
+    pub(crate) fn is_absent(&self, name: &VariableName) -> bool {
+        let mut levels = self.locals.iter().chain([&self.variables]);
+        self.unknown_names.is_none()
+            && !self.may_find(name)
+            && levels.all(|level| level.names.get(name.array()).is_none())
+    }
+
+    /// How a name is used otherwise than the variable allows.
+    pub(crate) fn misuse(&self, name: &VariableName) -> Option<Misuse> {
+        let array = self.array(name.array());
+        match (name.is_element(), array) {
+            (false, Some(_)) => Some(Misuse::NoIndex),
+            (true, Some(array)) if array.has(name.subscripts()) => None,
+            (true, Some(array)) => {
+                let numbers = name.subscripts().numbers()?;
+                Some(match numbers.len() == array.dimensions.len() {
+                    true => Misuse::Outside,
+                    false => Misuse::OtherCount(array.dimensions.len()),
+                })
+            }
+            (true, None) => self.declaration(name).map(|_| Misuse::NoArray),
+            (false, None) => None,
+        }
+    }
+
     /// A declared array.
     pub(crate) fn array(&self, name: &str) -> Option<&Array> {
         let mut levels = self.locals.iter().rev();
@@ -297,7 +353,7 @@ impl Memory {
     }
 
     pub(crate) fn delete(&mut self, name: &VariableName) {
-        if name.family() != VariableFamily::Local {
+        if !name.family().is_of_level() {
             self.lose_found(name);
             self.externals.release(name);
             self.variables.delete(name);

@@ -18,4 +18,5 @@ pub(super) mod reads;
 pub(super) mod rows;
 pub(super) mod shared;
 pub(super) mod value;
+pub(super) mod value_type;
 pub(super) mod work_budget;

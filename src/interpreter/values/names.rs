@@ -9,6 +9,7 @@ use super::cause::Unknown;
 use super::location::Location;
 use super::persistent::PersistentMap;
 use super::value::Value;
+use super::value_type::ValueType;
 use crate::syntax::{Subscripts, VariableName};
 
 /// Number of bytes of a text or a name that count as one more value in the budget of values
@@ -45,6 +46,50 @@ pub(crate) struct NamedVariable {
     pub(crate) elements: PersistentMap<Subscripts, Value>,
     /// Set when some element was written, but it is not known which.
     pub(crate) lost: Option<Unknown>,
+    /// Its declaration, where it has one on some way.
+    pub(crate) declared: Option<Declared>,
+}
+
+/// Declaration of a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Declared {
+    pub(crate) kind: ValueType,
+    pub(crate) certainty: Sure,
+}
+
+/// Whether a variable is declared on every way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Sure {
+    Certain,
+    Possible,
+}
+
+/// Use of a name that its declaration does not allow (R2.102).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Misuse {
+    /// An array without an index.
+    NoIndex,
+    /// An index outside the array.
+    Outside,
+    /// More or fewer indices than its dimensions.
+    OtherCount(usize),
+    /// An index on a variable that is no array.
+    NoArray,
+}
+
+impl Declared {
+    /// The declaration where another way has another one, or none.
+    fn join(mine: Option<Self>, theirs: Option<Self>) -> Option<Self> {
+        let kind = match (mine, theirs) {
+            (Some(mine), Some(theirs)) if mine == theirs => return Some(mine),
+            (Some(mine), Some(theirs)) if mine.kind != theirs.kind => ValueType::Any,
+            (mine, theirs) => mine.or(theirs)?.kind,
+        };
+        Some(Self {
+            kind,
+            certainty: Sure::Possible,
+        })
+    }
 }
 
 /// A declared array.
@@ -121,6 +166,7 @@ impl NamedVariable {
     /// Makes unknown what differs from another variable of the name.
     fn join(&mut self, other: &Self, cause: &Unknown, weight: &mut Weight) {
         join_value(&mut self.scalar, other.scalar.as_ref(), cause);
+        self.declared = Declared::join(self.declared, other.declared);
         if self.array != other.array {
             // An array that may have another shape has no known contents.
             self.array = self.array.take().or_else(|| other.array.clone());
@@ -161,6 +207,7 @@ impl NamedVariable {
         self.scalar.is_none()
             && self.array.is_none()
             && self.lost.is_none()
+            && self.declared.is_none()
             && self.elements.is_empty()
     }
 }
@@ -218,6 +265,11 @@ impl VariableNames {
         self.drop_elements(name);
     }
 
+    pub(crate) fn set_declared(&mut self, name: &str, declared: Declared) {
+        let variable = self.names.slot(name.to_owned(), NamedVariable::default);
+        variable.declared = Some(declared);
+    }
+
     pub(crate) fn drop_elements(&mut self, name: &str) {
         if let Some(variable) = self.names.get_mut(name) {
             self.weight.take(variable.elements_weight());
@@ -268,6 +320,7 @@ impl VariableNames {
             let (mine, theirs) = self.names.get(name).zip(other.names.get(name))?;
             let same = mine.array == theirs.array
                 && mine.lost == theirs.lost
+                && mine.declared == theirs.declared
                 && mine.elements.len() == theirs.elements.len();
             if !same {
                 return None;

@@ -267,6 +267,8 @@ pub struct Declaration {
     pub target: Target,
     /// The type in upper case, REAL64 when left out.
     pub kind: Option<String>,
+    /// The number in the bracket of the type, the most characters of a STRING.
+    pub length: Option<Operand>,
     /// The initial values in row order; a scalar has one.
     pub initial: Vec<Operand>,
 }

@@ -46,7 +46,7 @@ impl BlockLowering<'_> {
 
     fn declaration(&mut self, pair: Pair<'_, Rule>, base: u32) -> Option<Declaration> {
         let mut target = None;
-        let mut kind = None;
+        let (mut kind, mut length) = (None, None);
         let mut initial = Vec::new();
         for part in pair.into_inner() {
             match part.as_rule() {
@@ -56,10 +56,10 @@ impl BlockLowering<'_> {
                     target = Some(Target { place, span });
                 }
                 Rule::type_name => {
-                    kind = part
-                        .into_inner()
-                        .next()
-                        .map(|word| word.as_str().to_ascii_uppercase());
+                    let mut parts = part.into_inner();
+                    kind = parts.next().map(|word| word.as_str().to_ascii_uppercase());
+                    let number = parts.next();
+                    length = number.map(|number| expression::lower(number, base, self.block));
                 }
                 Rule::initial => self.initial(part, base, &mut initial),
                 _ => {}
@@ -68,6 +68,7 @@ impl BlockLowering<'_> {
         Some(Declaration {
             target: target?,
             kind,
+            length,
             initial,
         })
     }

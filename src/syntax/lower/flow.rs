@@ -6,7 +6,7 @@ use super::lowering::{BlockLowering, not_closed, not_understood, span_of, trimme
 use crate::diagnostic::{Code, nearest};
 use crate::syntax::ast::{BlockReference, Effect, Expression, Flow, Item, Operand, Target};
 use crate::syntax::keywords::FLOW_WORDS;
-use crate::syntax::{expression, fault::Fault, grammar::Rule};
+use crate::syntax::{VariableFamily, VariableName, expression, fault::Fault, grammar::Rule};
 use crate::text::Span;
 
 impl BlockLowering<'_> {
@@ -81,6 +81,13 @@ impl BlockLowering<'_> {
                     return Flow::Goto(BlockReference::Label(name.unwrap_or_default()));
                 }
                 Rule::variable => {
+                    let span = span_of(&part);
+                    if VariableName::read(span.of(self.code)).family() != VariableFamily::External {
+                        let fault = self.no_target(span);
+                        self.block.faults.push(fault);
+                        let unread = expression::unread(span, self.block);
+                        return Flow::Goto(BlockReference::Variable(unread));
+                    }
                     let place = expression::place(part, 0, self.block);
                     return Flow::Goto(BlockReference::Variable(place));
                 }
@@ -130,16 +137,23 @@ impl BlockLowering<'_> {
                 let statement = Span::new(start.saturating_sub(word.len()), start);
                 Fault::new(Code::Fc207, statement, format!("`{word}` is incomplete"))
             }
+            None if word.eq_ignore_ascii_case("$GOTO") => self.no_target(rest),
             None => not_understood(rest, self.code),
         };
-        self.block
-            .faults
-            .push(match word.to_ascii_uppercase().as_str() {
-                "$FOR" => fault.with_help("write `$FOR P1 = start, end, step`"),
-                "$GOTO" => fault.with_help("write `$GOTO N100` or `$GOTO [NAME]`"),
-                _ => fault,
-            });
+        let is_for = word.eq_ignore_ascii_case("$FOR");
+        self.block.faults.push(if is_for {
+            fault.with_help("write `$FOR P1 = start, end, step`")
+        } else {
+            fault
+        });
         expression::unread(rest, self.block)
+    }
+
+    /// P-ERR-20839: what follows `$GOTO` is no label (R2.103).
+    fn no_target(&self, span: Span) -> Fault {
+        let shown = span.of(self.code).trim();
+        let message = format!("`{shown}` follows `$GOTO`, where only `[`, `N` or `V.E.` may stand");
+        *Fault::refused(Code::PErr20839, span, message)
     }
 
     /// An unknown statement: for the pairing, a misspelt one counts as the one that it means; any other

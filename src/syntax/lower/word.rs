@@ -3,8 +3,10 @@
 use pest::iterators::Pair;
 
 use super::lowering::{BlockLowering, span_of};
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Address, BlockNumber, Effect, GCall, Item, Operand, Word};
-use crate::syntax::{expression, fault::repeated_word, grammar::Rule};
+use crate::syntax::fault::{Fault, repeated_word};
+use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;
 
 impl BlockLowering<'_> {
@@ -29,6 +31,27 @@ impl BlockLowering<'_> {
             return;
         }
         self.block.number = Some(BlockNumber { value, label, span });
+    }
+
+    /// FC212: `X1E2` is X1 and a feed of 2 at the end of the block (R2.113; PM/206811147).
+    fn note_exponent(&mut self, span: Span) {
+        let start = span.start as usize;
+        let bytes = self.code.as_bytes();
+        let is_number = |byte: u8| byte.is_ascii_digit() || byte == b'.';
+        let before = start.checked_sub(1).and_then(|at| bytes.get(at));
+        let after = bytes.get(start + 1);
+        let joins = before.is_some_and(|byte| is_number(*byte))
+            && after.is_some_and(|byte| is_number(*byte) || matches!(byte, b'+' | b'-'));
+        if joins {
+            let shown = span.of(self.code).trim();
+            let message = format!(
+                "`{shown}` looks like an exponent and is a word of its own: the feed at the end of the block"
+            );
+            self.block.faults.push(
+                Fault::new(Code::Fc212, span, message)
+                    .with_help("write the number without an exponent, or a blank before `E`"),
+            );
+        }
     }
 
     pub(super) fn bare_word(&mut self, span: Span) {
@@ -100,6 +123,9 @@ impl BlockLowering<'_> {
             return;
         };
         let byte = letter.as_str().bytes().next().unwrap_or_default();
+        if byte.eq_ignore_ascii_case(&b'E') && !main {
+            self.note_exponent(span);
+        }
         if main || !is_axis_letter(byte) {
             self.note_case(span_of(&letter));
         }

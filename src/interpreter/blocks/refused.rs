@@ -1,0 +1,30 @@
+//! Blocks that the control may refuse (R2.114): a warning, and the ways on which the error ends the program.
+
+use super::reported::StopScope;
+use crate::diagnostic::Code;
+use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::cause::Unknown;
+use crate::syntax::Fault;
+use crate::text::Span;
+
+impl Interpreter {
+    /// FC328: the control may refuse the block with an error; once a program for each text.
+    #[cold]
+    pub(crate) fn may_refuse(
+        &mut self,
+        number: impl Into<Option<u32>>,
+        what: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        let (number, span) = (number.into(), at.in_block(span));
+        if self.state.is_new_word(what) {
+            let error = number.map_or_else(String::new, |number| format!(" ({number})"));
+            let message = format!("{what}; the control may refuse it{error}");
+            let fault = Fault::new(Code::Fc328, span, message).with_cure(number);
+            self.say_before_parting(at.diagnostic(fault));
+        }
+        self.perhaps_stop((Unknown::Refused(number), StopScope::Block), span, at);
+    }
+}

@@ -1,0 +1,121 @@
+//! `#SAVE CONFIG`, `#LOAD CONFIG`, `#CLEAR CONFIG` (R2.107; PM/207535499, PM/207542155, PM/207551115).
+
+use crate::comp::AxisIndex;
+use crate::diagnostic::Code;
+use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::control::ControlState;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::saved_config::{Saved, SavedConfig};
+use crate::language::ConfigAction;
+use crate::syntax::Fault;
+use crate::syntax::ast::Hash;
+
+/// The group in which saved couplings are restored.
+const RESTORED_GROUP: &str = "1";
+
+impl Interpreter {
+    /// Executes a command of saved configurations.
+    pub(crate) fn saved_config(
+        &mut self,
+        action: ConfigAction,
+        hash: &Hash,
+        at: &BlockContext<'_>,
+    ) -> Result<(), Box<Fault>> {
+        self.state.control.modal.hash(hash.command);
+        self.pass_over(hash.command.words, hash.span, at);
+        let [axes, links] = ["AX", "AXLINK"].map(|word| hash.brackets.has(word, at.text));
+        match action {
+            ConfigAction::Clear => {
+                self.state.control.saved = SavedConfig {
+                    axes: Saved::Nothing,
+                    links: Saved::Nothing,
+                };
+            }
+            // Whether both are meant is not documented.
+            ConfigAction::Save if !axes && !links => {
+                self.state.control.saved = SavedConfig::default();
+            }
+            ConfigAction::Save => self.state.control.save_config(axes, links),
+            ConfigAction::Load => {
+                let is_open = !axes && !links;
+                if axes || is_open {
+                    self.load_axes(hash, at)?;
+                }
+                if links || is_open {
+                    self.load_links(hash, at)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn load_axes(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
+        match self.state.control.saved.axes.clone() {
+            Saved::Known(axes) => self.state.control.channel_axes = axes,
+            Saved::Nothing => {
+                let what = "no axes are saved, and the control refuses to restore them";
+                return Err(Fault::refused(Code::PErr21274, hash.span, what));
+            }
+            Saved::Perhaps => {
+                let what = "which axes are restored here is not known: no program of this run saved them";
+                self.may_refuse(21274, what, hash.span, at);
+                self.state.control.havoc_exchange();
+            }
+        }
+        Ok(())
+    }
+
+    fn load_links(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
+        match self.state.control.saved.links.clone() {
+            Saved::Known(axes) => {
+                self.release_couplings();
+                self.restore_couplings(RESTORED_GROUP, axes);
+            }
+            Saved::Nothing => {
+                let what = "no couplings are saved, and the control refuses to restore them";
+                return Err(Fault::refused(Code::PErr21275, hash.span, what));
+            }
+            Saved::Perhaps => {
+                let what = "which couplings are restored here is not known: no program of this run saved them";
+                self.may_refuse(21275, what, hash.span, at);
+                self.couple_any();
+            }
+        }
+        Ok(())
+    }
+
+    /// A command of saved configurations may have been executed.
+    pub(crate) fn havoc_config(&mut self, action: ConfigAction) {
+        if action == ConfigAction::Load {
+            self.state.control.havoc_exchange();
+            self.couple_any();
+        }
+        self.state.control.saved = SavedConfig::default();
+    }
+
+    /// Any axes may be coupled.
+    fn couple_any(&mut self) {
+        let all = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
+        let changed = self.state.control.couplings.define(RESTORED_GROUP, all);
+        self.state.control.mark_coupled(changed);
+        self.havoc_couplings();
+    }
+}
+
+impl ControlState {
+    fn save_config(&mut self, axes: bool, links: bool) {
+        if axes {
+            self.saved.axes = match self.channel_axes.doubtful {
+                true => Saved::Perhaps,
+                false => Saved::Known(self.channel_axes.clone()),
+            };
+        }
+        if links {
+            self.saved.links = match self.couplings.in_force() {
+                Some(axes) if axes.is_empty() => Saved::Nothing,
+                Some(axes) => Saved::Known(axes),
+                None => Saved::Perhaps,
+            };
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Files that a program renames, deletes or writes (R2.108). They stay as they are when it ends.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+/// The files that are not those of the archive any more.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct ChangedFiles {
+    /// Their names without folders, in lower case.
+    names: BTreeSet<String>,
+    /// Whether any file may have changed: the program computes a name.
+    any: bool,
+    /// The file to which `#MSG SAVE` writes, where the program named one.
+    messages: Option<String>,
+    /// The file that `#FILE EXIST` looked for last and that is not here.
+    missing: Option<String>,
+}
+
+impl ChangedFiles {
+    /// A file is changed; `None` for one whose name is not known.
+    pub(crate) fn change(&mut self, name: Option<&str>) {
+        match name {
+            Some(name) => _ = self.names.insert(base_name(name)),
+            None => self.any = true,
+        }
+    }
+
+    /// Whether a program is not that of the archive.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.any || !self.names.is_empty() && self.names.contains(&base_name(name))
+    }
+
+    /// Messages are written to a file from here on.
+    pub(crate) fn write_messages_to(&mut self, name: &str) {
+        self.messages = Some(name.to_owned());
+    }
+
+    /// A message is written.
+    pub(crate) fn write_message(&mut self) {
+        if let Some(name) = self.messages.clone() {
+            self.change(Some(&name));
+        }
+    }
+
+    /// `#FILE EXIST` looked for a file that is not here.
+    pub(crate) fn miss(&mut self, name: Option<String>) {
+        self.missing = name.as_deref().map(base_name);
+    }
+
+    /// Whether the program asked whether a file that is not here exists.
+    pub(crate) fn is_guarded(&self, name: &str) -> bool {
+        self.missing.as_deref() == Some(&base_name(name))
+    }
+
+    /// The files of another way may be changed, too.
+    pub(crate) fn join(&mut self, other: &Self) {
+        self.names.extend(other.names.iter().cloned());
+        self.any |= other.any;
+        if self.messages.is_none() {
+            self.messages.clone_from(&other.messages);
+        }
+        if self.missing != other.missing {
+            self.missing = None;
+        }
+    }
+}
+
+fn base_name(path: &str) -> String {
+    let name = path.trim().rsplit(['/', '\\']).next().unwrap_or_default();
+    name.to_ascii_lowercase()
+}

@@ -1,0 +1,164 @@
+//! What the control refuses, one row an error number (R2.114).
+//!
+//! Each row says what is refused, on which page of the TF5200 diagnosis manual, and what a dry run does about it. An
+//! error has the number of the control only where the words of the page cover the case; else the message is a warning,
+//! and the ways on which the error ends the program are followed beside those on which the program goes on (R2.103).
+
+/// An error of the control that has its cause in a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Refusal {
+    /// The number, without `P-ERR-`.
+    pub number: u32,
+    /// What is refused.
+    pub refused: &'static str,
+    /// The page that describes it, by its number; empty where only the number or its title was found.
+    pub page: &'static str,
+    /// Result of a dry run.
+    pub check: RefusalCheck,
+    /// What to write instead.
+    pub cure: &'static str,
+}
+
+/// Result of a dry run where the control refuses a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RefusalCheck {
+    /// An error with the number of the control.
+    Error,
+    /// A warning, and both ways: the page or a list leaves open whether the case is refused.
+    Possible,
+    /// Another message of frictcomp, by its code.
+    Said(&'static str),
+    /// Nothing, for a reason.
+    Open(&'static str),
+}
+
+macro_rules! refusals {
+    ($($number:literal $page:literal $check:expr, $refused:literal, $cure:literal;)+) => {
+        &[$(Refusal { number: $number, refused: $refused, page: $page, check: $check, cure: $cure }),+]
+    };
+}
+
+/// The rows, in the order of their numbers.
+static REFUSALS: &[Refusal] = {
+    use RefusalCheck::{Error, Open, Possible, Said};
+    refusals! {
+        20008 "250515083" Error, "the first feed move of a program for which neither the program nor the channel list gives a feed",
+            "write a feed before the first feed move";
+        20100 "PM/207916683" Possible, "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
+            "write a variable of your own";
+        20131 "206278923" Error, "G80 without a program, and a G function that the control does not know",
+            "name the program, `g80_prog_file` in the channel list";
+        20160 "diagnosis" Error, "an M function above 1000, and one above the number that P-CHAN-00041 allows",
+            "use a number up to 1000";
+        20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
+            "write `%1234` for the name of a program";
+        20375 "diagnosis" Said("P-ERR-20375"), "a true `$IF` without `$ENDIF`; this is a warning",
+            "write `$ENDIF`";
+        20392 "PM/1225681547" Possible, "a `V.I.` variable that no program declares",
+            "declare it with `#VAR`";
+        20651 "PM/524821515" Said("FC328"), "a command that flushes the channel under G41 or G42",
+            "write it before G41 or G42";
+        20839 "252734603" Error, "`$GOTO` that neither `[`, nor `N`, nor `V.E.` follows",
+            "write `$GOTO N100` or `$GOTO [NAME]`";
+        20847 "252765067" Error, "a value outside the type of its variable",
+            "declare the variable with a wider type";
+        20906 "tccnc/15557118091" Said("FC312"), "an index outside an array",
+            "use an index that the declaration allows";
+        20909 "252956555" Error, "a variable that is declared twice in one level",
+            "declare it once";
+        20915 "" Open("no page describes it"), "`#DELETE` of a `V.E.` variable",
+            "delete variables of your own only";
+        20933 "486167307" Possible, "`#DELETE` of a `V.CYC.` variable of an outer level",
+            "delete it in the cycle that declares it";
+        20966 "253121931" Error, "a dimension below 1 in the declaration of an array",
+            "declare at least one element";
+        20974 "253143691" Said("FC312"), "more indices than an array has dimensions",
+            "write one index for each dimension";
+        21216 "253831307" Error, "an array without an index",
+            "write one index for each dimension";
+        21256 "diagnosis" Possible, "an axis that one command of axis exchange asks for twice",
+            "ask for each axis once";
+        21258 "diagnosis" Possible, "a name that one command of axis exchange gives twice",
+            "give each axis a name of its own";
+        21261 "diagnosis" Possible, "a name that another axis of the channel has",
+            "give the axis another name, or release the other axis first";
+        21274 "254005387" Error, "`#LOAD CONFIG [AX]` with no saved axes",
+            "save them first, with `#SAVE CONFIG [AX]`";
+        21275 "254009739" Error, "`#LOAD CONFIG [AXLINK]` with no saved couplings",
+            "save them first, with `#SAVE CONFIG [AXLINK]`";
+        21381 "254436235" Error, "a cycle call while a modal cycle is active",
+            "write `#DISABLE MODAL CYCLE` before it";
+        21403 "diagnosis" Error, "COMP on an axis in an active coupling",
+            "release all couplings first, with `#DISABLE AX LINK ALL`";
+        21413 "diagnosis" Error, "`#MACHINE DATA` with WAIT and without SYN",
+            "write `SYN`, too";
+        21480 "254849675" Error, "`$GOTO` to a label within the same loop",
+            "leave the loop, or use `$IF` and `$CONTINUE` within it";
+        21500 "diagnosis" Error, "a false `$IF` without `$ENDIF` at the end of a local subprogram",
+            "write `$ENDIF`";
+        21501 "diagnosis" Error, "a false `$IF` without `$ENDIF` at the end of a main program",
+            "write `$ENDIF`";
+        21502 "diagnosis" Error, "a false `$IF` without `$ENDIF` at the end of a global subprogram",
+            "write `$ENDIF`";
+        21768 "" Said("FC312"), "an index on a variable that is no array",
+            "declare it as an array";
+        21772 "255959435" Possible, "a `V.I.` array that exists with other dimensions",
+            "declare it with the dimensions that it has";
+        22008 "480201355" Possible, "several implicit calls in one block",
+            "write each in a block of its own";
+        22073 "782961163" Open("the page that allows commands has no complete list"), "commands within `#RT WHILE`",
+            "write COMP commands outside";
+        22101 "777094283" Possible, "commands within `#CONTOUR BEGIN`",
+            "write COMP commands outside";
+        22132 "diagnosis" Error, "`#OPTIONAL EXECUTION ON [APPROACH SIMULATE]`",
+            "leave out `APPROACH SIMULATE`";
+        51081 "diagnosis" Error, "`#FLUSH WAIT` within `#OPTIONAL EXECUTION`",
+            "write it outside";
+        90050 "PM/524821515" Said("FC328"), "a command that flushes the channel under G41 or G42",
+            "write it before G41 or G42";
+        120102 "264720011" Said("FC328"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
+            "write it before the spline, or after it";
+        120104 "" Open("no page describes it; 120102 and 120434 do"), "the same",
+            "write it before the spline, or after it";
+        120434 "264284811" Said("FC328"), "the same",
+            "write it before the spline, or after it";
+        120716 "265538187" Possible, "commands within `#STROKE DEF`",
+            "write COMP commands outside";
+    }
+};
+
+impl Refusal {
+    /// All of them, in the order of their numbers.
+    pub fn all() -> &'static [Self] {
+        REFUSALS
+    }
+
+    /// The one with a number.
+    pub fn of(number: u32) -> Option<&'static Self> {
+        let place = REFUSALS.binary_search_by_key(&number, |row| row.number);
+        REFUSALS.get(place.ok()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Code;
+
+    #[test]
+    fn the_rows_are_in_order_and_say_by_which_code() {
+        // R2.114
+        assert!(REFUSALS.is_sorted_by(|one, next| one.number < next.number));
+        for row in REFUSALS {
+            let code = match row.check {
+                RefusalCheck::Error => format!("P-ERR-{}", row.number),
+                RefusalCheck::Possible => "FC328".to_owned(),
+                RefusalCheck::Said(code) => code.to_owned(),
+                RefusalCheck::Open(_) => continue,
+            };
+            assert!(code.parse::<Code>().is_ok(), "{}: {code}", row.number);
+        }
+    }
+}

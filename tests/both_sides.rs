@@ -59,7 +59,14 @@ fn called(name: &str) -> Option<SourceFile> {
 }
 
 /// The errors of the blocks at which the control stops.
-const STOPS: [Code; 4] = [Code::PErr70495, Code::PErr21403, Code::Fc209, Code::Fc320];
+const STOPS: [Code; 6] = [
+    Code::PErr70495,
+    Code::PErr21381,
+    Code::PErr21403,
+    Code::PErr21480,
+    Code::Fc209,
+    Code::Fc320,
+];
 
 /// States of an axis, by their names.
 type Possible = BTreeSet<&'static str>;

@@ -324,17 +324,17 @@ static COMMANDS: &[HashCommand] = {
     use BlockSharing::WordsBefore;
     use Certainty::{Certain, Possible};
     use ChainStep::{Coordinates, Kinematics, Machine, Origin, Path};
+    use Flushes::{Both, Radius, Spline};
     use HashAction::{
-        Comment, Declare, DefineCoupling, Delete, Describe, Dwell, EnableCoupling, EndComment,
-        EndDeclarations, EndDescription, EndModalCycles, EndRealTimeLoop, ExchangeAxes,
-        ChangeFile, ForgetMacros, Initialise, NamePrograms, Override, RealTimeLoop, ReleaseCoupling,
+        ChangeFile, Comment, Declare, DefineCoupling, Delete, Describe, Dwell, EnableCoupling,
+        EndComment, EndDeclarations, EndDescription, EndModalCycles, EndRealTimeLoop, ExchangeAxes,
+        ForgetMacros, Initialise, NamePrograms, Override, RealTimeLoop, ReleaseCoupling,
         ReleaseCouplings, ReportError, RetainCycleChanges, Rotate, Round, SaveConfig, SelectSlope,
         SelectSpindle, SkipBackward, Wait, WriteMachineData,
     };
     use HashArguments::{Declarations, Expressions, Lines, RemedyClass};
     use MotionKind::{Coupled, Frame, Independent};
     use Moves::{Channel, Follower, Main, NamedOrAll};
-    use Flushes::{Both, Radius, Spline};
     use PathFlow::GoesOn;
     use Question::{AxisExchange, MachineData};
     use Simplification::{

@@ -33,8 +33,9 @@ pub use group::Group;
 pub(crate) use group::GroupSet;
 pub use hash::BlockSharing;
 pub(crate) use hash::{
-    ConfigAction, ContouringCommand, Exchange, FileAction, Flushes, FurtherWord, HashAction, HashArguments, HashCommand, HashWords,
-    MembersBy, PathFlow, Plc, SlopeForm, Touches, is_command,
+    ConfigAction, ContouringCommand, Exchange, FileAction, Flushes, FurtherWord, HashAction,
+    HashArguments, HashCommand, HashWords, MembersBy, PathFlow, Plc, SlopeForm, Touches,
+    is_command,
 };
 pub(crate) use motion::{AxisWords, MotionEffect, Moves};
 pub use motion::{Certainty, MotionKind};

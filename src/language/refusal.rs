@@ -34,6 +34,18 @@ pub enum RefusalCheck {
     Open(&'static str),
 }
 
+impl RefusalCheck {
+    /// What frictcomp does.
+    pub fn words(self) -> String {
+        match self {
+            Self::Error => "an error with this number".to_owned(),
+            Self::Possible => "FC328, a warning, and both ways are followed".to_owned(),
+            Self::Said(code) => format!("{code}"),
+            Self::Open(why) => format!("nothing: {why}"),
+        }
+    }
+}
+
 macro_rules! refusals {
     ($($number:literal $page:literal $check:expr, $refused:literal, $cure:literal;)+) => {
         &[$(Refusal { number: $number, refused: $refused, page: $page, check: $check, cure: $cure }),+]
@@ -130,6 +142,36 @@ static REFUSALS: &[Refusal] = {
 };
 
 impl Refusal {
+    /// Its page: what is refused, what frictcomp does, and the source.
+    pub fn explanation(&self) -> String {
+        let Self {
+            number,
+            refused,
+            cure,
+            ..
+        } = self;
+        format!(
+            "# P-ERR-{number}\n\nThe control refuses {refused}.\n\nfrictcomp: {}. {}{}.\n\nSource: {} (R2.114).\n",
+            self.check.words(),
+            cure[..1].to_uppercase(),
+            &cure[1..],
+            self.source(),
+        )
+    }
+
+    /// The document that describes it.
+    pub fn source(&self) -> String {
+        match self.page {
+            "" => "error texts of the control".to_owned(),
+            "diagnosis" => format!("TF5200 Diagnosis, error {}", self.number),
+            page => match page.split_once('/') {
+                Some(("PM", page)) => format!("TF5200 Programming manual, page {page}"),
+                Some((document, page)) => format!("{document}, page {page}"),
+                None => format!("TF5200 Diagnosis, error {}, page {page}", self.number),
+            },
+        }
+    }
+
     /// All of them, in the order of their numbers.
     pub fn all() -> &'static [Self] {
         REFUSALS
@@ -146,6 +188,43 @@ impl Refusal {
 mod tests {
     use super::*;
     use crate::diagnostic::Code;
+
+    #[test]
+    fn each_number_has_a_row_in_the_document() {
+        // R2.114
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/refusals.md");
+        let rows = REFUSALS.iter().map(|row| {
+            let (check, source) = (row.check.words(), row.source());
+            format!(
+                "| {} | {} | {check} | {source} |\n",
+                row.number, row.refused
+            )
+        });
+        let count = |is_it: fn(&RefusalCheck) -> bool| {
+            REFUSALS.iter().filter(|row| is_it(&row.check)).count()
+        };
+        let fresh = format!(
+            "{HEAD}\nOf {} numbers {} are errors here, {} are warnings with both ways, {} have another message, {} are \
+             not looked at.\n\n| number | what the control refuses | frictcomp | source |\n|---|---|---|---|\n{}",
+            REFUSALS.len(),
+            count(|it| *it == RefusalCheck::Error),
+            count(|it| *it == RefusalCheck::Possible),
+            count(|it| matches!(it, RefusalCheck::Said(_))),
+            count(|it| matches!(it, RefusalCheck::Open(_))),
+            rows.collect::<String>()
+        );
+        if std::env::var_os("UPDATE_DOCS").is_some() {
+            std::fs::write(path, &fresh).expect("written");
+        }
+        assert_eq!(std::fs::read_to_string(path).expect("the document"), fresh);
+    }
+
+    /// Beginning of the document.
+    const HEAD: &str = "# What the control refuses\n\n\
+        Error numbers of the control that have their cause in a program, without those of COMP commands and of lists, \
+        which have [pages of their own](codes). `frictcomp explain 21480` shows one of them. An error is given only where the words \
+        of the page cover the case; where the page, or a list of the machine, leaves that open, the warning FC328 says so, and the \
+        ways on which the program ends there are followed beside those on which it goes on.\n";
 
     #[test]
     fn the_rows_are_in_order_and_say_by_which_code() {

@@ -57,8 +57,62 @@ pub struct ChannelSettings {
     /// The names of the main spindle in addition to `S`: P-CHAN-00053 and the name of the spindle with the number of
     /// P-CHAN-00051.
     pub main_spindle: Vec<String>,
+    /// Switches of the channel that are on.
+    pub switches: BTreeSet<ChannelSwitch>,
     /// The M and H functions that the PLC does not acknowledge, P-CHAN-00041 and P-CHAN-00027: letter and number.
     pub unacknowledged: BTreeSet<(u8, u32)>,
+}
+
+/// A switch of a channel list that decides what outlives a cycle, a program or a reset (R2.105).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum ChannelSwitch {
+    /// P parameters are kept at program end.
+    KeepParameters,
+    /// A cycle keeps its changes to G functions and feed.
+    KeepCycleChanges,
+    /// Couplings are kept after a reset.
+    KeepCouplingsAfterReset,
+    /// Couplings are kept at program end.
+    KeepCouplings,
+    /// The axes of the channel are kept at program end.
+    KeepAxes,
+}
+
+impl ChannelSwitch {
+    /// Each with its key and the number of its parameter.
+    const KEYS: [(Self, &str, &str); 5] = [
+        (Self::KeepParameters, "p_param_haltend", "P-CHAN-00067"),
+        (
+            Self::KeepCycleChanges,
+            "cycle_changes_modal",
+            "P-CHAN-00210",
+        ),
+        (
+            Self::KeepCouplingsAfterReset,
+            "synchro_data.restore_coupling_after_reset",
+            "P-CHAN-00104",
+        ),
+        (
+            Self::KeepCouplings,
+            "synchro_data.preserve_coupling_after_prog_end",
+            "P-CHAN-00105",
+        ),
+        (Self::KeepAxes, "retain_last_ax_config", "P-CHAN-00460"),
+    ];
+
+    fn of(key: &str) -> Option<Self> {
+        let mut all = Self::KEYS.iter();
+        let found = all.find(|(_, known, _)| *known == key)?;
+        Some(found.0)
+    }
+}
+
+impl ChannelSettings {
+    /// Whether a switch is on.
+    pub fn has(&self, switch: ChannelSwitch) -> bool {
+        self.switches.contains(&switch)
+    }
 }
 
 /// The acceleration profile, P-CHAN-00071.
@@ -103,6 +157,7 @@ pub struct ChannelDraft {
     spindle_number: Option<Given<u32>>,
     spindle_name: Option<Given<String>>,
     acknowledged: BTreeMap<(u8, u32), bool>,
+    switches: BTreeMap<ChannelSwitch, Given<bool>>,
 }
 
 impl ChannelDraft {
@@ -160,6 +215,15 @@ impl ChannelDraft {
                 let name = entry.text();
                 self.spindle_name = Some(name.with(name.value.to_owned()));
             }
+            (key, []) => {
+                if let Some(switch) = ChannelSwitch::of(key) {
+                    let given = entry.truth();
+                    match given.value {
+                        Some(on) => _ = self.switches.insert(switch, given.with(on)),
+                        None => diagnostics.push(odd(entry, "`0` or `1`")),
+                    }
+                }
+            }
             _ => {}
         }
     }
@@ -207,6 +271,7 @@ impl ChannelDraft {
         self.spindle_number = other.spindle_number.or(self.spindle_number.take());
         self.spindle_name = other.spindle_name.or(self.spindle_name.take());
         self.acknowledged.extend(other.acknowledged);
+        self.switches.extend(other.switches);
     }
 
     /// Returns the effective settings; `spindles` are the names of the spindles with their axis numbers.
@@ -237,6 +302,10 @@ impl ChannelDraft {
                 .filter(|name| !name.is_empty())
                 .map(str::to_owned)
                 .collect(),
+            switches: {
+                let on = self.switches.iter().filter(|(_, given)| given.value);
+                on.map(|(switch, _)| *switch).collect()
+            },
             unacknowledged: {
                 let silent = self.acknowledged.iter().filter(|(_, is_it)| !**is_it);
                 silent.map(|(function, _)| *function).collect()
@@ -293,6 +362,12 @@ impl ChannelDraft {
         if let Some(given) = &self.spindle_name {
             let key = "main_spindle_name".to_owned();
             row("P-CHAN-00053", key, given.value.clone(), ("", given.into()));
+        }
+        for (switch, key, number) in ChannelSwitch::KEYS {
+            if let Some(given) = self.switches.get(&switch) {
+                let value = u8::from(given.value).to_string();
+                row(number, key.to_owned(), value, ("", given.into()));
+            }
         }
         rows
     }

@@ -22,7 +22,7 @@ mod write;
 
 pub use axis::AxisValues;
 pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
-pub use channel_settings::{ChannelDraft, ChannelSettings, FeedUnit, SlopeProfile};
+pub use channel_settings::{ChannelDraft, ChannelSettings, ChannelSwitch, FeedUnit, SlopeProfile};
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use dynamics::{DynamicsDraft, ListedDynamics};
 pub use entry::Entry;

@@ -65,6 +65,8 @@ struct Macro {
 pub struct ChannelPrograms {
     named: BTreeMap<ProgramRole, ListedProgram>,
     macros: BTreeMap<u32, Macro>,
+    /// Start and end programs that only run in manual block mode, with the key of the mode.
+    manual: BTreeMap<ProgramRole, Given<bool>>,
     /// `einrechnen_mit_t`, P-CHAN-00014: a T word also has the effect of a D word.
     data_with_tool: Option<Given<bool>>,
 }
@@ -84,6 +86,8 @@ impl ChannelPrograms {
         match (entry.pattern.as_str(), indices) {
             ("start_init_prog_file", []) => self.name(ProgramRole::Start, "P-CHAN-00119", entry),
             ("final_prog_file", []) => self.name(ProgramRole::End, "P-CHAN-00252", entry),
+            ("start_init_prog_file_mode", []) => self.mode(ProgramRole::Start, entry),
+            ("final_prog_file_mode", []) => self.mode(ProgramRole::End, entry),
             ("g800_prog_file[]", &[index]) if index < 200 => {
                 self.name(ProgramRole::Word(format!("G{}", 800 + index)), G800, entry);
             }
@@ -123,6 +127,14 @@ impl ChannelPrograms {
         self.named.insert(role, named);
     }
 
+    /// The modes of operation in which a program runs, `AUTOMATIC | MDI` (P-CHAN-00260, P-CHAN-00433).
+    fn mode(&mut self, role: ProgramRole, entry: &Entry) {
+        let given = entry.text();
+        let modes = given.value.to_ascii_uppercase();
+        let is_manual = modes.contains("MDI") && !modes.contains("AUTOMATIC");
+        self.manual.insert(role, given.with(is_manual));
+    }
+
     fn macro_at(&mut self, index: u32) -> Option<&mut Macro> {
         let is_room = self.macros.len() < MAX_MACROS || self.macros.contains_key(&index);
         is_room.then(|| self.macros.entry(index).or_default())
@@ -131,6 +143,7 @@ impl ChannelPrograms {
     /// Replaces programs and macros by those of another list.
     pub fn override_with(&mut self, other: Self) {
         self.named.extend(other.named);
+        self.manual.extend(other.manual);
         for (index, found) in other.macros {
             let kept = self.macros.entry(index).or_default();
             kept.symbol = found.symbol.or(kept.symbol.take());
@@ -145,7 +158,8 @@ impl ChannelPrograms {
             .named
             .iter()
             .map(|(role, named)| (role, &*named.name.value));
-        named.filter(|(_, name)| !name.is_empty())
+        let is_manual = |role| self.manual.get(role).is_some_and(|given| given.value);
+        named.filter(move |(role, name)| !name.is_empty() && !is_manual(*role))
     }
 
     /// Returns the macros: name and code.

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::assemble::{AxisDraft, AxisReport};
 use super::described::describe;
-use super::description::{AxisSet, GantrySlave, Machine};
+use super::description::{AxisSet, GantrySlave, Machine, Parameters};
 use super::files::ListFiles;
 use super::gantry;
 use super::loader::Loader;
 use super::setting::Setting;
 use crate::diagnostic::{Code, Diagnostic, Levels};
-use crate::lists::{Conditions, Entries, ListKind, Parameter};
+use crate::lists::{ChannelSwitch, Conditions, Entries, ListKind, Parameter};
 use crate::text::{SourceFile, Span};
 
 /// A machine and the other contents of its configuration.
@@ -78,6 +78,9 @@ impl Configuration {
             self.programs.extend(programs);
             self.programs.extend(channel.motion.parameters());
             self.machine.programs.add_channel(&channel.programs);
+            if channel.settings.has(ChannelSwitch::KeepParameters) {
+                self.machine.parameters = Parameters::Kept;
+            }
             self.machine.channel = channel.settings;
         }
         let conditions = Conditions {

@@ -19,7 +19,11 @@ use workspace::root;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 31] = [
+const ELSEWHERE: [(&str, &str); 32] = [
+    (
+        "P-ERR-21502",
+        "said of a called file; tests/rules/language/refusals.md has it",
+    ),
     (
         "FC104",
         "said of files in folders; crates/cli/tests/options/folders.rs has it",

@@ -193,11 +193,15 @@ impl Interpreter {
             "whether axis `{name}` is in an active coupling is not known offline; if it is, the \
              control refuses this command, and what the command switches is unknown"
         );
-        let fault =
-            Fault::new(Code::Fc902, command.span, message).with_help(Unknown::Refused(Some(21403)).advice());
+        let fault = Fault::new(Code::Fc902, command.span, message)
+            .with_help(Unknown::Refused(Some(21403)).advice());
         let diagnostic = at.diagnostic(fault).with_axis(name.clone());
         self.say_before_parting(diagnostic);
-        self.perhaps_stop((Unknown::Refused(Some(21403)), StopScope::Block), command.span, at);
+        self.perhaps_stop(
+            (Unknown::Refused(Some(21403)), StopScope::Block),
+            command.span,
+            at,
+        );
     }
 
     /// FC411: the control may refuse COMP while a transformation is active; which ones is not

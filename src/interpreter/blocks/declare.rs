@@ -166,7 +166,8 @@ impl Interpreter {
         match kind.take(name.array(), value) {
             TypedValue::Taken(value) => Ok(value),
             TypedValue::Rounded(value) => {
-                let what = format!("`{shown}` is between the last value of `{name}` and the next one");
+                let what =
+                    format!("`{shown}` is between the last value of `{name}` and the next one");
                 self.may_refuse(20847, &what, span, at);
                 Ok(value)
             }

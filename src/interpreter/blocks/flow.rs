@@ -231,7 +231,9 @@ impl Interpreter {
             without_end(span.of(at.text))
         );
         let fault = Fault::new(Code::PErr20375, span, message);
-        self.say_before_parting(at.diagnostic(fault.with_help("write the end in a separate block")));
+        self.say_before_parting(
+            at.diagnostic(fault.with_help("write the end in a separate block")),
+        );
     }
 
     fn loop_while(

@@ -95,7 +95,9 @@ impl Interpreter {
         if command.flushes == Flushes::Never || command.has(FurtherWord::Continue) {
             return Ok(());
         }
-        if self.state.control.optional && command.plc == Plc::ActsAfterWait && command.lets_plc_act()
+        if self.state.control.optional
+            && command.plc == Plc::ActsAfterWait
+            && command.lets_plc_act()
         {
             let what = "`#FLUSH WAIT` stands between `#OPTIONAL EXECUTION ON` and `OFF`";
             return Err(Fault::refused(Code::PErr51081, hash.span, what));

@@ -27,8 +27,8 @@ use crate::interpreter::values::value::{Value, same_case};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::question::{ConditionKind, MAX_ANSWERS};
 use crate::readings::Question as Open;
-use crate::syntax::ast::{BlockReference, Expression, Flow, Item, Operand};
 use crate::syntax::Fault;
+use crate::syntax::ast::{BlockReference, Expression, Flow, Item, Operand};
 use crate::text::{Place, Span};
 
 impl Interpreter {
@@ -129,9 +129,7 @@ impl Interpreter {
     /// that does not follow from something else.
     fn may_conclude(&self, target: &Location) -> bool {
         match target {
-            Location::Variable(name) => {
-                !name.family().is_of_level() && !self.is_own(name)
-            }
+            Location::Variable(name) => !name.family().is_of_level() && !self.is_own(name),
             Location::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
             Location::Elements(_) | Location::Parameters => false,
         }

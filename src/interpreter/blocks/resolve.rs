@@ -168,7 +168,8 @@ impl Interpreter {
             self.may_refuse(21381, what, span, at);
             return false;
         }
-        let what = "this block calls a cycle while a modal cycle is active, which the control refuses";
+        let what =
+            "this block calls a cycle while a modal cycle is active, which the control refuses";
         let said = at.diagnostic(*Fault::refused(Code::PErr21381, span, what));
         self.scratch.diagnostics.push(said);
         true

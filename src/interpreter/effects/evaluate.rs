@@ -154,10 +154,10 @@ impl Interpreter {
         if let Some(index) = given_parameter(name) {
             return self.state.control.is_given(index);
         }
-        if name.family() == VariableFamily::Internal
-            && self.state.control.memory.is_absent(name)
-        {
-            self.scratch.undeclared.replace(Some(name.array().to_owned()));
+        if name.family() == VariableFamily::Internal && self.state.control.memory.is_absent(name) {
+            self.scratch
+                .undeclared
+                .replace(Some(name.array().to_owned()));
         }
         let own = self.own_variable(name)?;
         let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
@@ -330,7 +330,10 @@ impl Interpreter {
             _ => false,
         };
         if needs_declaration && memory.is_absent(name) {
-            let what = format!("`{}` is written without a declaration in `#VAR`", name.array());
+            let what = format!(
+                "`{}` is written without a declaration in `#VAR`",
+                name.array()
+            );
             self.may_refuse(None, &what, span, at);
         } else if name.family() == VariableFamily::Internal && memory.is_absent(name) {
             self.miss_internal(name.array(), span, at);

@@ -56,23 +56,27 @@ impl Interpreter {
         };
         let is_changed = |name: &String| self.state.control.files.has(name);
         let wanted = name.clone().filter(|name| !is_changed(name));
-        let wanted = wanted.map(|name| {
-            WantedCall::program(CallScope::Global, name, Span::new(0, at.text.len()))
-        });
+        let wanted = wanted
+            .map(|name| WantedCall::program(CallScope::Global, name, Span::new(0, at.text.len())));
         let found = wanted.and_then(|wanted| {
-            let found = self.programs.find(&wanted, caller, finder, &self.state.work);
+            let found = self
+                .programs
+                .find(&wanted, caller, finder, &self.state.work);
             found.ok().flatten()
         });
         let value = match (&found, &name) {
             (Some(_), _) => Value::Number(1.0),
-            (None, Some(name)) => {
-                Value::Unknown(Unknown::Program(MissingProgram::Named(name.as_str().into())))
-            }
+            (None, Some(name)) => Value::Unknown(Unknown::Program(MissingProgram::Named(
+                name.as_str().into(),
+            ))),
             (None, None) => Value::Unknown(Unknown::text(RESULT)),
         };
         let result = VariableName::read(RESULT);
         self.state.control.memory.set_variable(&result, value);
         self.scratch.wrote = true;
-        self.state.control.files.miss(name.filter(|_| found.is_none()));
+        self.state
+            .control
+            .files
+            .miss(name.filter(|_| found.is_none()));
     }
 }

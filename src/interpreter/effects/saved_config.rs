@@ -57,7 +57,8 @@ impl Interpreter {
                 return Err(Fault::refused(Code::PErr21274, hash.span, what));
             }
             Saved::Perhaps => {
-                let what = "which axes are restored here is not known: no program of this run saved them";
+                let what =
+                    "which axes are restored here is not known: no program of this run saved them";
                 self.may_refuse(21274, what, hash.span, at);
                 self.state.control.havoc_exchange();
             }

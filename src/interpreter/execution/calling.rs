@@ -10,6 +10,7 @@ use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::{CallFrame, Retains};
 use crate::interpreter::run::step::{ControlStep, Destination, Request};
+use crate::lists::ChannelSwitch;
 use crate::syntax::ast::CallForm;
 
 impl Interpreter {
@@ -31,6 +32,7 @@ impl Interpreter {
             .enter_call(usize::try_from(level).unwrap_or(usize::MAX));
         let restores = match request.form {
             CallForm::Plain => None,
+            CallForm::Cycle if self.machine.channel.has(ChannelSwitch::KeepCycleChanges) => None,
             CallForm::Cycle => Some(Box::new(self.state.control.modal.save())),
         };
         self.journal.begin_anew();

@@ -21,8 +21,9 @@ use crate::interpreter::run::state::State;
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
 use crate::interpreter::run::ways::AxisKinds;
 use crate::interpreter::ways::set::WaySet;
-use crate::syntax::{Fault, RawBlock};
+use crate::lists::ChannelSwitch;
 use crate::syntax::ast::Block;
+use crate::syntax::{Fault, RawBlock};
 use crate::text::{Place, Span};
 
 impl Interpreter {
@@ -145,7 +146,13 @@ impl Interpreter {
             self.state.control.history.close(change.axis, kinds);
         }
         self.state.control.frames.clear();
-        self.release_couplings();
+        let keeps = match by {
+            EndedBy::Error => ChannelSwitch::KeepCouplingsAfterReset,
+            _ => ChannelSwitch::KeepCouplings,
+        };
+        if !self.machine.channel.has(keeps) {
+            self.release_couplings();
+        }
         self.state.control.couplings.end_following();
         // The program ends on all ways.
         self.state.track.reach = WaySet::always();

@@ -19,6 +19,7 @@ use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::run::undecided::MentionedUnknowns;
 use crate::interpreter::values::cause::MissingProgram;
+use crate::lists::ChannelSwitch;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::{Place, SourceFile, Span};
 
@@ -117,7 +118,9 @@ impl Interpreter {
         self.state.parked = None;
         self.state.control.named.clear();
         self.state.control.optional = false;
-        self.state.control.channel_axes = ChannelAxes::default();
+        if !self.machine.channel.has(ChannelSwitch::KeepAxes) {
+            self.state.control.channel_axes = ChannelAxes::default();
+        }
         self.state.control.described = None;
         self.state.track = RunTrack::default();
         self.begin_search();

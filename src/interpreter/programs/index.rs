@@ -384,7 +384,10 @@ impl Index {
         let innermost = self.loop_around(from);
         if innermost.is_some_and(|opener| self.is_within(to, opener)) {
             JumpAcross::WithinLoop
-        } else if self.loops_around(from).any(|opener| self.is_within(to, opener)) {
+        } else if self
+            .loops_around(from)
+            .any(|opener| self.is_within(to, opener))
+        {
             JumpAcross::OneOfSeveralLoops
         } else if self.loop_around(to).is_some() {
             JumpAcross::IntoLoop

@@ -25,8 +25,8 @@ use crate::interpreter::values::rows;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::clash::RememberedConditions;
 use crate::interpreter::ways::set::WaySet;
-use crate::syntax::ast::Owner;
 use crate::syntax::VariableName;
+use crate::syntax::ast::Owner;
 use crate::text::{Place, Span};
 
 /// The way of the run to its current block.

@@ -566,9 +566,7 @@ pub(crate) fn misused(misuse: Misuse, span: Span, text: &str) -> Box<Fault> {
         ),
         Misuse::Outside => wrong_type(span, "this index is outside the array"),
         Misuse::OtherCount(1) => wrong_type(span, "the array has one dimension"),
-        Misuse::OtherCount(count) => {
-            wrong_type(span, &format!("the array has {count} dimensions"))
-        }
+        Misuse::OtherCount(count) => wrong_type(span, &format!("the array has {count} dimensions")),
         Misuse::NoArray => wrong_type(span, "the variable is declared without dimensions"),
     }
 }

@@ -9,7 +9,8 @@ use super::externals::{ExternalVariables, HeldVariable};
 use super::found::FoundVariables;
 use super::location::Location;
 use super::names::{
-    Array, Declared, Misuse, NamedVariable, Sure, VariableNames, Weight, compare, join_value, weight,
+    Array, Declared, Misuse, NamedVariable, Sure, VariableNames, Weight, compare, join_value,
+    weight,
 };
 use super::parameter_values::ParameterValues;
 use super::persistent::PersistentMap;
@@ -299,7 +300,13 @@ impl Memory {
     /// A variable was declared with a type, where that is certain.
     pub(crate) fn set_declared(&mut self, name: &VariableName, kind: ValueType) {
         let names = self.declared(name);
-        names.set_declared(name.array(), Declared { kind, certainty: Sure::Certain });
+        names.set_declared(
+            name.array(),
+            Declared {
+                kind,
+                certainty: Sure::Certain,
+            },
+        );
     }
 
     /// The declaration of a variable or an array, in the level of the program or around it.
@@ -307,7 +314,9 @@ impl Memory {
         let levels = self.locals.iter().rev();
         let mut levels = levels.filter(|_| name.family().is_of_level());
         let local = levels.find_map(|level| level.names.get(name.array()));
-        local.or_else(|| self.variables.names.get(name.array()))?.declared
+        local
+            .or_else(|| self.variables.names.get(name.array()))?
+            .declared
     }
 
     /// Whether a declaration of the name in the current level is a second one.

@@ -1,0 +1,10 @@
+%MAIN
+N10 P1 = 1
+; wrong: the jump enters a loop
+N20 $GOTO N40
+N30 $WHILE P1 < 3
+N40: P1 = P1 + 1
+N50 X[COMP OFF FRICT]
+N60 X[COMP ON FRICT]
+N70 $ENDWHILE
+N80 M30

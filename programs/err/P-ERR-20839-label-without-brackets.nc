@@ -1,0 +1,3 @@
+; wrong: the label has no brackets
+N10 $GOTO END
+N20 [END] M30

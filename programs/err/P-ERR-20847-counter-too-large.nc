@@ -1,0 +1,6 @@
+N10 #VAR
+V.P.COUNT : UNS08
+#ENDVAR
+; wrong: UNS08 ends at 255
+N20 V.P.COUNT = 300
+N30 M30

@@ -1,0 +1,9 @@
+%L DRILL
+N10 Z-5
+N20 M17
+%MAIN
+N10 LL CYCLE [NAME=DRILL MODAL_BLOCK]
+N20 X10
+; wrong: the modal cycle is still active
+N30 LL CYCLE [NAME=DRILL]
+N40 M30

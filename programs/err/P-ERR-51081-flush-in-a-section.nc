@@ -1,0 +1,5 @@
+N10 #OPTIONAL EXECUTION ON
+; wrong: the section may be skipped
+N20 #FLUSH WAIT
+N30 #OPTIONAL EXECUTION OFF
+N40 M30

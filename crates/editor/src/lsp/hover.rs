@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind, Position};
 
-use super::completion::about;
+use super::completion::{about, toml_header};
 use super::documents::{Document, Kind};
 use super::markdown::{code, plain};
 use super::moving::{AxisMoves, moves};
-use super::parameters::page_of;
+use super::parameters::{page_of, page_of_toml};
 use super::states::{Pass, StateBook};
 use super::view::RequestView;
 use frictcomp::comp::{CompCommand, Selection};
@@ -23,7 +23,13 @@ pub(super) fn hover(view: &RequestView, params: &HoverParams) -> Option<Hover> {
     let text = match document.kind {
         Kind::Program => program(view, document, at.position),
         Kind::List => page_of(document.line(at.position.line)).map(|page| page.text),
-        Kind::Configuration | Kind::Other => None,
+        Kind::Configuration => {
+            let line = document.line(at.position.line);
+            let offset = view.client.encoding.offset(line, at.position.character);
+            let header = toml_header(document, at.position.line);
+            page_of_toml(line, offset, header).map(|page| page.text)
+        }
+        Kind::Other => None,
     };
     Some(Hover {
         contents: MarkupContent {
@@ -104,7 +110,7 @@ fn meaning(command: &CompCommand) -> String {
 }
 
 /// Returns the motion of an axis in the block, in the state that its row shows.
-fn moving(moves: &AxisMoves, row: Option<&StateRow<'_>>) -> String {
+fn moving(moves: &AxisMoves, row: Option<&HoverRow<'_>>) -> String {
     let AxisMoves {
         axis,
         times,
@@ -126,17 +132,17 @@ fn moving(moves: &AxisMoves, row: Option<&StateRow<'_>>) -> String {
 }
 
 /// Friction compensation of an axis in a block, in words.
-struct StateRow<'a> {
+struct HoverRow<'a> {
     axis: &'a str,
     before: String,
     after: String,
 }
 
 /// Returns the states of each axis before and after a block, in all passes.
-fn rows<'a>(states: &'a StateBook, passes: &[Pass<'_>], file: &str) -> Vec<StateRow<'a>> {
+fn rows<'a>(states: &'a StateBook, passes: &[Pass<'_>], file: &str) -> Vec<HoverRow<'a>> {
     let total = passes.iter().map(|pass| u64::from(pass.times)).sum();
     let axes = states.axes().iter().enumerate();
-    let rows = axes.map(|(at, axis)| StateRow {
+    let rows = axes.map(|(at, axis)| HoverRow {
         axis,
         before: words(&of_all(passes, |pass| pass.before.told(at, file)), total),
         after: words(&of_all(passes, |pass| pass.after.told(at, file)), total),
@@ -144,9 +150,9 @@ fn rows<'a>(states: &'a StateBook, passes: &[Pass<'_>], file: &str) -> Vec<State
     rows.filter(|row| !row.after.is_empty()).collect()
 }
 
-fn table(rows: &[StateRow<'_>], passes: &[Pass<'_>]) -> String {
+fn table(rows: &[HoverRow<'_>], passes: &[Pass<'_>]) -> String {
     let mut text = String::from("| axis | before | after |\n|---|---|---|\n");
-    for StateRow {
+    for HoverRow {
         axis,
         before,
         after,

@@ -1,5 +1,6 @@
 //! Results as a notebook shows them.
 
+use std::fmt::Write as _;
 use std::hash::{BuildHasher, RandomState};
 
 use pyo3::prelude::*;
@@ -30,19 +31,19 @@ pub(crate) fn tabular(
 ) -> PyResult<String> {
     let mut html = format!("<p>{}</p><table><tr>", escaped(py, words)?);
     for column in columns {
-        html.push_str(&format!("<th>{}</th>", column.replace('_', " ")));
+        let _ = write!(html, "<th>{}</th>", column.replace('_', " "));
     }
     html.push_str("</tr>");
     for row in table.texts(columns).take(MOST_ROWS) {
         html.push_str("<tr>");
         for text in row {
-            html.push_str(&format!("<td>{}</td>", escaped(py, &text)?));
+            let _ = write!(html, "<td>{}</td>", escaped(py, &text)?);
         }
         html.push_str("</tr>");
     }
     html.push_str("</table>");
     if let more @ 1.. = table.rows().saturating_sub(MOST_ROWS) {
-        html.push_str(&format!("<p>{more} more rows</p>"));
+        let _ = write!(html, "<p>{more} more rows</p>");
     }
     Ok(html)
 }

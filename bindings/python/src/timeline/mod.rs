@@ -5,6 +5,7 @@ mod recorder;
 mod rows;
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use frictcomp_report::svg::Frame;
 use pyo3::prelude::*;
@@ -224,7 +225,7 @@ impl PyTimeline {
         let mut html = notebook::pictured(py, &self.counted(), &pictures)?;
         if let more @ 1.. = programs.len().saturating_sub(SHOWN) {
             let words = "more programs: <code>svg(program)</code> draws one";
-            html.push_str(&format!("<p>{more} {words}</p>"));
+            let _ = write!(html, "<p>{more} {words}</p>");
         }
         Ok(html)
     }

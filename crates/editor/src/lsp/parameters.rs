@@ -1,6 +1,8 @@
 //! Parameters of lists and keys of `frictcomp.toml`, each with a description for the user
 //! (R12.3, R12.6).
 
+use std::fmt::Write as _;
+
 use frictcomp::comp::Kind;
 use frictcomp::config::{self, CONFIG_FORMS, Form, KeyForm};
 use frictcomp::lists::{AxisType, Field};
@@ -159,11 +161,11 @@ pub(super) fn keys_of(header: &str) -> Vec<Page> {
 fn page_of_key(key: &KeyForm) -> Page {
     let mut text = format!("{}: {}\n", key.meaning, in_words(key.form));
     if let Some(example) = config::example(key.key) {
-        text.push_str(&format!("\n{example}\n"));
+        let _ = writeln!(text, "\n{example}");
     }
     let is_it = |page: &Page| page.key.rsplit('.').next() == Some(key.key);
     if let Some(parameter) = pages().into_iter().find(is_it) {
-        text.push_str(&format!("\n{}", parameter.text));
+        let _ = write!(text, "\n{}", parameter.text);
     }
     Page {
         key: key.key.to_owned(),
@@ -202,7 +204,8 @@ pub(super) fn page_of_toml(line: &str, offset: usize, header: &str) -> Option<Pa
     let begins_a_key =
         |text: &str| text.trim_end().is_empty() || text.trim_end().ends_with(['{', ',']);
     let is_header = line.trim_start().starts_with('[');
-    if !is_header && !(begins_a_key(start) && rest.trim_start().starts_with('=')) {
+    let is_of_a_value = begins_a_key(start) && rest.trim_start().starts_with('=');
+    if !is_header && !is_of_a_value {
         return None;
     }
     let inner = start.contains('{').then_some("[axis.value]");

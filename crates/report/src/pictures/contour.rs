@@ -168,7 +168,7 @@ impl ContourPicture {
                 [one, other] if size(&other.0) > size(&one.0) || other.0.stroke != one.0.stroke => {
                     other.clone()
                 }
-                [one, other] => (one.0.clone(), one.1.clone(), other.2),
+                [one, other] => (one.0, one.1.clone(), other.2),
                 _ => pair[0].clone(),
             });
             self.points = joined.collect();

@@ -129,6 +129,21 @@ fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
 }
 
 #[test]
+fn a_comment_stands_above_a_block_that_it_would_make_too_long() {
+    // R12.20: a block has at most 4000 characters (R2.2).
+    let block = "X[COMP OFF FRICT]";
+    for (blanks, above) in [(3900, false), (3960, true)] {
+        let text = format!("N1 {}{block}\nM30\n", " ".repeat(blanks));
+        let before = run(&[("a.nc", &text)]).said;
+        let source = SourceFile::new("a.nc", text.as_str());
+        let fix = allow_here(&before[0], &source).expect("a comment");
+        let mended = Fixed::new(&source, [&fix]).text;
+        assert_eq!(mended.starts_with("; frictcomp: allow FC401\nN1 "), above);
+        assert_eq!(run(&[("a.nc", &mended)]).said, [], "{mended}");
+    }
+}
+
+#[test]
 fn every_fix_takes_its_message_away_and_brings_no_other() {
     // R12.5, for every code that has a fix and every program with a mistake.
     let mut paths = Vec::new();

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use super::cure::{Cure, Mending};
 use super::effect::{Inherits, ProgramEffect};
 use super::insertion::{Insertion, with_blocks};
-use super::numbering::Numbering;
 use super::observation::Observation;
 use super::places::places;
 use super::program::{Auditor, AxisAudit};
 use super::runs::ProgramRuns;
 
 use crate::interpreter::{Interpreter, Observer};
+use crate::text::Numbering;
 
 /// A mended file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

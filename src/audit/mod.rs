@@ -17,7 +17,6 @@ mod effect;
 mod insertion;
 mod mending;
 mod motions;
-mod numbering;
 mod observation;
 mod places;
 mod program;

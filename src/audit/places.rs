@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::cure::{Cure, Mending};
-use super::numbering::Numbering;
 use super::observation::Observation;
 use super::runs::ProgramRuns;
 use crate::interpreter::EndedBy;
+use crate::text::Numbering;
 
 /// The most places that are tried.
 const MOST: usize = 16;

@@ -3,7 +3,7 @@
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::text::{Place, SourceFile, Span};
+use crate::text::{Numbering, Place, SourceFile, Span};
 
 crate::words! {
     /// Whether a fix may be applied without review.
@@ -16,6 +16,16 @@ crate::words! {
         /// It guesses the intention or changes what the machine does, and has to be reviewed.
         Unsafe = "unsafe",
     }
+}
+
+/// Form of the text of a fix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum FixForm {
+    /// It is written as it is.
+    Text,
+    /// It is a block on a line of its own, with a number where its neighbours have numbers.
+    Block,
 }
 
 /// A change to a text: it replaces the text at a place.
@@ -32,6 +42,10 @@ pub struct Fix<P = Place> {
     pub text: String,
     /// Whether it may be applied without review.
     pub safety: Safety,
+    /// Form of the replacement.
+    pub form: FixForm,
+    /// A further change of the same file that is made with it, because each alone is half a remedy.
+    pub also: Option<Box<Fix>>,
 }
 
 impl<P> Fix<P> {
@@ -41,15 +55,32 @@ impl<P> Fix<P> {
             place,
             text: text.into(),
             safety: Safety::Safe,
+            form: FixForm::Text,
+            also: None,
         }
     }
 
     /// Creates a fix that has to be reviewed.
     pub fn guess(place: P, text: impl Into<String>) -> Self {
         Self {
-            place,
-            text: text.into(),
             safety: Safety::Unsafe,
+            ..Self::safe(place, text)
+        }
+    }
+
+    /// Creates a fix that inserts a block above the line of an empty place; it has to be reviewed.
+    pub fn block(place: P, command: &str) -> Self {
+        Self {
+            form: FixForm::Block,
+            ..Self::guess(place, format!("{command}\n"))
+        }
+    }
+
+    /// Adds a change that is made with it.
+    pub fn with(self, also: Fix) -> Self {
+        Self {
+            also: Some(Box::new(also)),
+            ..self
         }
     }
 
@@ -59,7 +90,16 @@ impl<P> Fix<P> {
             place: to(self.place),
             text: self.text,
             safety: self.safety,
+            form: self.form,
+            also: self.also,
         }
+    }
+}
+
+impl Fix {
+    /// The changes that it consists of.
+    pub fn changes(&self) -> impl Iterator<Item = &Self> {
+        std::iter::successors(Some(self), |fix| fix.also.as_deref())
     }
 }
 
@@ -73,7 +113,7 @@ impl Fix<Span> {
 impl Serialize for Fix {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (start, end) = (self.place.start(), self.place.end());
-        let mut object = serializer.serialize_struct("Fix", 7)?;
+        let mut object = serializer.serialize_struct("Fix", 8)?;
         object.serialize_field("file", &self.place.file)?;
         object.serialize_field("line", &start.line)?;
         object.serialize_field("column", &start.column)?;
@@ -81,6 +121,10 @@ impl Serialize for Fix {
         object.serialize_field("end_column", &end.column)?;
         object.serialize_field("text", &self.text)?;
         object.serialize_field("safety", &self.safety)?;
+        match &self.also {
+            Some(also) => object.serialize_field("also", also)?,
+            None => object.skip_field("also")?,
+        }
         object.end()
     }
 }
@@ -139,28 +183,38 @@ pub struct Edit {
 /// Returns the changes that fixes make in a file, from its start to its end. A fix that overlaps an earlier one, or
 /// whose place is not in the text, changes nothing.
 pub fn edits<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) -> Vec<Edit> {
-    let line_end = line_end(source.text());
-    let placed = fixes.into_iter().filter_map(|fix| {
-        Some(Edit {
-            span: source.find(&fix.place)?,
-            text: fix.text.replace('\n', line_end),
-        })
-    });
-    let mut edits: Vec<Edit> = placed.collect();
-    edits.sort_by(|one, other| {
-        let key = |it: &Edit| (it.span.start, it.span.end);
-        (key(one), &one.text).cmp(&(key(other), &other.text))
-    });
-    edits.dedup();
+    let (text, lines) = (source.text(), source.lines());
+    let line_end = line_end(text);
+    let changes = fixes.into_iter().flat_map(Fix::changes);
+    let placed = changes.filter_map(|fix| Some((source.find(&fix.place)?, fix)));
+    let mut placed: Vec<(Span, &Fix)> = placed.collect();
+    let key = |(span, fix): &(Span, &'a Fix)| (span.start, span.end, fix.text.as_str(), fix.form);
+    placed.sort_by_key(key);
+    placed.dedup_by_key(|placed| key(placed));
     let mut end = 0;
-    edits.retain(|edit| {
-        let is_free = edit.span.start >= end;
+    placed.retain(|(span, _)| {
+        let is_free = span.start >= end;
         if is_free {
-            end = edit.span.end;
+            end = span.end;
         }
         is_free
     });
-    edits
+    let mut numbering = None;
+    let written = placed.into_iter().map(|(span, fix)| {
+        let new = match fix.form {
+            FixForm::Text => fix.text.clone(),
+            FixForm::Block => {
+                let line = lines.line(span.start) - lines.first() + 1;
+                let numbering = numbering.get_or_insert_with(|| Numbering::of(text));
+                numbering.block(line, fix.text.trim_end()) + "\n"
+            }
+        };
+        Edit {
+            span,
+            text: new.replace('\n', line_end),
+        }
+    });
+    written.collect()
 }
 
 /// Returns a text after changes, given from its start to its end.

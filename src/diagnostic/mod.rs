@@ -17,7 +17,7 @@ pub use advice::{Advice, Budget, Wording};
 pub use codes::{Code, UnknownCode};
 pub use collected::{Collected, MAX_MESSAGES};
 pub use filter::CodeFilter;
-pub use fix::{Edit, Fix, Fixed, NamedFix, Safety, edited, edits};
+pub use fix::{Edit, Fix, FixForm, Fixed, NamedFix, Safety, edited, edits};
 pub use levels::Levels;
 pub use message::{Diagnostic, Label};
 pub use number::ReadableNumber;

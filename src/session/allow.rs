@@ -1,11 +1,11 @@
 //! The comment that allows a message where it is reported (R9.24, R12.5).
 
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::syntax::{allow, goes_on};
+use crate::syntax::{MAX_LINE, allow, goes_on};
 use crate::text::{SourceFile, Span};
 
 /// The change of a program that silences a message of it: a comment in its block, or above a block
-/// of several lines. `None` for what cannot be silenced, the numbers of the control, budgets,
+/// of several lines or one that would have more than 4000 characters. `None` for what cannot be silenced, the numbers of the control, budgets,
 /// messages about such comments, about `%` lines, about files as a whole and about comments that hide what follows them,
 /// and for a message whose lines are not those of the file.
 pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
@@ -32,11 +32,10 @@ pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
     if of(first).of(text).trim_start().starts_with('%') {
         return None;
     }
-    let (offset, comment) = if first == end {
-        allow::insertion(of(first).of(text), said.code)
-    } else {
-        (0, allow::line_above(said.code))
-    };
+    let block = of(first).of(text);
+    let inside = (first == end).then(|| allow::insertion(block, said.code));
+    let inside = inside.filter(|(_, comment)| block.len() + comment.len() <= MAX_LINE);
+    let (offset, comment) = inside.unwrap_or_else(|| (0, allow::line_above(said.code)));
     let at = of(first).start as usize + offset;
     Some(Fix::safe(program.place(Span::new(at, at)), comment))
 }

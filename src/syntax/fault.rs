@@ -84,11 +84,7 @@ impl Fault {
         diagnostic.advice = self.advice;
         for fix in self.fixes {
             if let Some(place) = at(fix.place) {
-                diagnostic.fixes.push(Fix {
-                    place,
-                    text: fix.text,
-                    safety: fix.safety,
-                });
+                diagnostic.fixes.push(fix.map(|_| place));
             }
         }
         diagnostic

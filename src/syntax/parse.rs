@@ -8,7 +8,7 @@ use super::lines::{BlockReader, FastPath};
 use crate::comp::CompCommand;
 use crate::diagnostic::{Code, Severity, nearest};
 use crate::language::HashAction;
-use crate::text::{Span, TextLines};
+use crate::text::{Span, TextLines, lines_of};
 
 /// Parses one COMP command, `X[COMP ON FRICT]`; `None` where the text is something else:
 /// another bracket, an expression, or no bracket at all.
@@ -25,9 +25,25 @@ use crate::text::{Span, TextLines};
 /// ```
 ///
 /// # Errors
-/// The first fault that keeps the control from accepting a COMP command, also one whose `COMP` is misspelt.
+/// The first fault that keeps the control from accepting a COMP command, also one whose `COMP` is misspelt. The text is
+/// more than one command or line, or has a skip mark, so that the machine decides whether it is executed.
 pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
-    let mut block = parse_block(text);
+    let mut block = Block::default();
+    let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
+    let _ = reader.next(&mut block);
+    let mut rest = String::new();
+    reader.append_rest(&mut rest);
+    let faulty = |message: &str| {
+        let fault = Fault::new(Code::Fc207, Span::new(0, text.len()), message);
+        Err(fault.with_help("write `X[COMP ON FRICT]`"))
+    };
+    if !rest.trim().is_empty() {
+        return if lines_of(text).any(opens_comp) {
+            faulty("these are several lines; one command is read at a time")
+        } else {
+            Ok(None)
+        };
+    }
     let refused = |fault: &Fault| fault.code.severity() == Severity::Error;
     if let Some(at) = block.faults.iter().position(refused) {
         let fault = block.faults.swap_remove(at);
@@ -40,14 +56,12 @@ pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     let is_alone = block.items.len() == 1 && block.words.is_empty();
     let is_comp = |item: &Item| matches!(item, Item::Comp(_));
     match block.items.into_iter().find(is_comp) {
+        Some(Item::Comp(_)) if block.skip.is_some() => {
+            faulty("a skip mark leaves it to the machine whether the command is executed")
+        }
         Some(Item::Comp(command)) if is_alone => Ok(Some(command)),
         None => Ok(None),
-        Some(_) => Err(Fault::new(
-            Code::Fc207,
-            Span::new(0, text.len()),
-            "this is not a single COMP command",
-        )
-        .with_help("write `X[COMP ON FRICT]`")),
+        Some(_) => faulty("this is not a single COMP command"),
     }
 }
 

@@ -37,9 +37,27 @@ fn what_is_no_comp_command_is_told_from_a_wrong_one() {
         ("X[KOMP ON FRICT]", "P-ERR-21301"),
         ("X[COMP ON FRICT] Y[COMP ON FRICT]", "FC207"),
         ("X[COMP ON FRICT] M30", "FC207"),
+        // R13.16
+        ("X[COMP ON FRICT]\nY[COMP ON FRICT]", "FC207"),
+        ("G1 X5\r\nX[COMP ON FRICT]", "FC207"),
+        ("/X[COMP ON FRICT]", "FC207"),
+        ("/2 X[COMP ON FRICT]", "FC207"),
     ] {
         assert_eq!(parse_comp(text).unwrap_err().code.as_str(), code, "{text}");
     }
+}
+
+#[test]
+fn a_command_may_end_its_line_and_go_on_in_the_next() {
+    // R13.16
+    for text in [
+        "X[COMP ON FRICT]\r\n",
+        "X[COMP \\\nON FRICT]\n\n",
+        "N10 X[COMP ON FRICT] (X)",
+    ] {
+        assert_eq!(command(text).axis, "X", "{text}");
+    }
+    assert_eq!(parse_comp("G1 X5\nG1 X7\n"), Ok(None));
 }
 
 #[test]

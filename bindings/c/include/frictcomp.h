@@ -26,7 +26,7 @@ typedef enum {
     FRICTCOMP_STATUS_REFUSED = 1,
     // The text is a bracket or a word that does not concern COMP; nothing is changed.
     FRICTCOMP_STATUS_NOT_COMP = 2,
-    // The text is a COMP command with a mistake; nothing is changed.
+    // The text is a COMP command with a mistake, or more than one command or line; nothing is changed.
     FRICTCOMP_STATUS_FAULTY = 3,
     // An argument is missing, is not UTF-8, or names something that does not exist.
     FRICTCOMP_STATUS_BAD_ARGUMENT = 4,
@@ -100,15 +100,16 @@ typedef struct {
 extern "C" {
 #endif // __cplusplus
 
-// The version of frictcomp, as `0.1.0`.
+// The version of frictcomp, as `0.1.0`. The text is always valid.
 const char *frictcomp_version(void);
 
-// Why the last call of this thread failed, in one sentence; NULL if it did not fail. The text is
-// valid until the next call of this thread.
+// Why a call of this thread failed, the last one that did, in one sentence; NULL if none has failed yet. A
+// call that succeeds changes nothing here: read it after a call that reports a failure. The text is valid
+// until the next call of this thread that fails.
 const char *frictcomp_last_error(void);
 
-// The number of the last error of this thread, such as `P-ERR-70495` for an error of the control or `FC202`
-// for one of frictcomp; NULL if it has none. The text is valid until the next call of this thread.
+// The number of that error, such as `P-ERR-70495` for an error of the control or `FC202` for one of
+// frictcomp; NULL if it has none. The text is valid until the next call of this thread that fails.
 const char *frictcomp_last_error_code(void);
 
 // Reads the machine from a start-up list of the control, with every list that it names, or from a
@@ -121,7 +122,9 @@ FrictcompMachine *frictcomp_machine_read(const char *path);
 FrictcompMachine *frictcomp_machine_unconfigured(void);
 
 // Assumes friction compensation on an axis: P-AXIS-00522 is 1 and its value list is accepted. What was
-// made from the machine before does not change.
+// made from the machine before does not change. A machine without lists gets an axis that it does not have
+// if a program can name it: a capital A, B, C, U, V, W, X, Y, Z or Q, then capitals, digits or `_`, but not
+// `Q` alone, `ALL` or a word of the COMP command; from lists, only their axes are accepted.
 FrictcompStatus frictcomp_machine_enable(FrictcompMachine *machine,
                                          const char *axis);
 
@@ -163,7 +166,8 @@ FrictcompCompensation *frictcomp_compensation_read(const FrictcompMachine *machi
 // Frees the states; NULL is ignored.
 void frictcomp_compensation_free(FrictcompCompensation *compensation);
 
-// Applies one COMP command, such as `X[COMP OFF FRICT]`. If the control refuses it, nothing is changed,
+// Applies one COMP command on one line, such as `X[COMP OFF FRICT]`. More than one command or line, and a
+// skip mark, whose switch only the machine has, are `FRICTCOMP_STATUS_FAULTY`. If the control refuses it, nothing is changed,
 // `FRICTCOMP_STATUS_REFUSED` is returned, and `frictcomp_last_error_code` is the control's error.
 FrictcompStatus frictcomp_apply(FrictcompCompensation *compensation,
                                 const char *command);

@@ -14,7 +14,7 @@ use crate::compensation::{FrictcompChange, FrictcompCompensation, FrictcompState
 use crate::failure::{Failure, FrictcompStatus, call, last_code, last_message};
 use crate::machine::FrictcompMachine;
 
-/// The version of frictcomp, as `0.1.0`.
+/// The version of frictcomp, as `0.1.0`. The text is always valid.
 #[unsafe(no_mangle)]
 pub extern "C" fn frictcomp_version() -> *const c_char {
     const VERSION: &CStr =
@@ -25,15 +25,16 @@ pub extern "C" fn frictcomp_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
-/// Why the last call of this thread failed, in one sentence; NULL if it did not fail. The text is
-/// valid until the next call of this thread.
+/// Why a call of this thread failed, the last one that did, in one sentence; NULL if none has failed yet. A
+/// call that succeeds changes nothing here: read it after a call that reports a failure. The text is valid
+/// until the next call of this thread that fails.
 #[unsafe(no_mangle)]
 pub extern "C" fn frictcomp_last_error() -> *const c_char {
     last_message()
 }
 
-/// The number of the last error of this thread, such as `P-ERR-70495` for an error of the control or `FC202`
-/// for one of frictcomp; NULL if it has none. The text is valid until the next call of this thread.
+/// The number of that error, such as `P-ERR-70495` for an error of the control or `FC202` for one of
+/// frictcomp; NULL if it has none. The text is valid until the next call of this thread that fails.
 #[unsafe(no_mangle)]
 pub extern "C" fn frictcomp_last_error_code() -> *const c_char {
     last_code()
@@ -64,7 +65,9 @@ pub extern "C" fn frictcomp_machine_unconfigured() -> *mut FrictcompMachine {
 }
 
 /// Assumes friction compensation on an axis: P-AXIS-00522 is 1 and its value list is accepted. What was
-/// made from the machine before does not change.
+/// made from the machine before does not change. A machine without lists gets an axis that it does not have
+/// if a program can name it: a capital A, B, C, U, V, W, X, Y, Z or Q, then capitals, digits or `_`, but not
+/// `Q` alone, `ALL` or a word of the COMP command; from lists, only their axes are accepted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_enable(
     machine: *mut FrictcompMachine,
@@ -197,7 +200,8 @@ pub unsafe extern "C" fn frictcomp_compensation_free(compensation: *mut Frictcom
     unsafe { free(compensation) };
 }
 
-/// Applies one COMP command, such as `X[COMP OFF FRICT]`. If the control refuses it, nothing is changed,
+/// Applies one COMP command on one line, such as `X[COMP OFF FRICT]`. More than one command or line, and a
+/// skip mark, whose switch only the machine has, are `FRICTCOMP_STATUS_FAULTY`. If the control refuses it, nothing is changed,
 /// `FRICTCOMP_STATUS_REFUSED` is returned, and `frictcomp_last_error_code` is the control's error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_apply(

@@ -1,4 +1,4 @@
-//! What went wrong in the last call of a thread, and the border that no panic crosses.
+//! The last error of a thread, and the border that no panic crosses.
 
 use std::cell::RefCell;
 use std::ffi::{CString, c_char};
@@ -22,7 +22,7 @@ pub enum FrictcompStatus {
     Refused = 1,
     /// The text is a bracket or a word that does not concern COMP; nothing is changed.
     NotComp = 2,
-    /// The text is a COMP command with a mistake; nothing is changed.
+    /// The text is a COMP command with a mistake, or more than one command or line; nothing is changed.
     Faulty = 3,
     /// An argument is missing, is not UTF-8, or names something that does not exist.
     BadArgument = 4,
@@ -116,13 +116,12 @@ thread_local! {
     static LAST: RefCell<LastError> = RefCell::default();
 }
 
-/// Does the work of a call: forgets the error of the previous call, and returns `fallback` if the work
-/// fails or panics.
+/// Does the work of a call, and returns `fallback` if it fails or panics. The error of an earlier call stays until
+/// then, and with it the text that the host may hold.
 pub(crate) fn call<T>(
     fallback: impl FnOnce(FrictcompStatus) -> T,
     work: impl FnOnce() -> Result<T, Failure>,
 ) -> T {
-    remember(None);
     let done = catch_unwind(AssertUnwindSafe(work));
     let failure = match done {
         Ok(Ok(result)) => return result,
@@ -135,21 +134,14 @@ pub(crate) fn call<T>(
             Failure::Internal(words.unwrap_or_else(|| "no reason is given".to_owned()))
         }
     };
-    let status = failure.status();
-    remember(Some(&failure));
-    fallback(status)
-}
-
-fn remember(failure: Option<&Failure>) {
     LAST.with_borrow_mut(|last| {
-        last.message = failure.map(|failure| c_text(&failure.to_string()));
-        last.code = failure
-            .and_then(Failure::code)
-            .map(|code| c_text(code.as_str()));
+        last.message = Some(c_text(&failure.to_string()));
+        last.code = failure.code().map(|code| c_text(code.as_str()));
     });
+    fallback(failure.status())
 }
 
-/// The words of the last error, if the last call of this thread failed.
+/// The words of the last error of this thread; NULL before the first one.
 pub(crate) fn last_message() -> *const c_char {
     LAST.with_borrow(|last| last.message.as_ref().map_or(null(), |text| text.as_ptr()))
 }
@@ -185,9 +177,11 @@ mod tests {
         // R13.5
         let status = call(|status| status, || panic!("of {} kinds", 2));
         assert_eq!(status, FrictcompStatus::Internal);
+        // R13.16: a call that succeeds leaves the text where it is.
+        let text = last_message();
         let done = call(|status| status, || Ok(FrictcompStatus::Ok));
         assert_eq!(done, FrictcompStatus::Ok);
-        assert!(last_message().is_null());
+        assert_eq!(last_message(), text);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::ffi::CString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use frictcomp::comp::AxisIndex;
+use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::machine::Machine;
 use frictcomp::parse_comp;
 use frictcomp_host::{ConfigurationChoice, FileRegistry, LoadedMachine, MachineOptions, Machines};
@@ -64,9 +64,7 @@ impl FrictcompMachine {
 
     /// Assumes friction compensation on an axis.
     pub(crate) fn enable(&mut self, name: &str) -> Result<(), Failure> {
-        let is_known = self.machine.find(name).is_some();
-        let command = parse_comp(&format!("{name}[COMP ON FRICT]"));
-        if !is_known && !matches!(command, Ok(Some(command)) if command.axis == name) {
+        if self.machine.find(name).is_none() && !may_be_axis(name) {
             return Err(Failure::bad(format!("`{name}` is not an axis name")));
         }
         if !self.machine.enable(name) {
@@ -101,6 +99,15 @@ impl FrictcompMachine {
     }
 }
 
+/// Whether a program can name an axis so where no list does (R2.20): in capital letters, not by `Q` alone, which is an
+/// axis only where a list says so, and not by a word of the COMP command.
+fn may_be_axis(name: &str) -> bool {
+    let is_word = matches!(name, "Q" | "COMP" | "ALL") || name.parse::<Kind>().is_ok();
+    let is_capital = !name.contains(|letter: char| letter.is_ascii_lowercase());
+    let command = parse_comp(&format!("{name}[COMP ON FRICT]"));
+    is_capital && !is_word && matches!(command, Ok(Some(command)) if command.axis == name)
+}
+
 fn names(machine: &Machine) -> Vec<CString> {
     machine.axes.iter().map(|axis| c_text(&axis.name)).collect()
 }
@@ -111,14 +118,32 @@ mod tests {
 
     #[test]
     fn a_text_that_is_no_name_makes_no_axis() {
-        // R13.14
+        // R13.14, R13.16
         let mut machine = FrictcompMachine::unconfigured();
         let before = machine.names().len();
-        for name in ["", " ", "x y", "X[", "7", "X;", "X Y", "P1", "X\n", "G"] {
+        for name in [
+            "",
+            " ",
+            "x y",
+            "X[",
+            "7",
+            "X;",
+            "X Y",
+            "P1",
+            "X\n",
+            "G",
+            "Q",
+            "x",
+            "COMP",
+            "CROSS",
+            "/X",
+            "N1X",
+            "X[COMP ON FRICT]\nY",
+        ] {
             assert!(machine.enable(name).is_err(), "{name}");
         }
         assert_eq!(machine.names().len(), before);
-        for name in ["X", "X2", "Z_AXIS"] {
+        for name in ["X", "X2", "Z_AXIS", "Q1"] {
             assert!(machine.enable(name).is_ok(), "{name}");
         }
     }

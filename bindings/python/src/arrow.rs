@@ -3,8 +3,10 @@
 use std::ffi::CStr;
 use std::sync::Arc;
 
+use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use arrow_array::{ArrayRef, RecordBatch, RecordBatchIterator};
+use arrow_array::types::UInt32Type;
+use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchIterator};
 use arrow_ipc::reader::StreamReader;
 use arrow_ipc::writer::StreamWriter;
 use arrow_schema::{ArrowError, Field, Schema, SchemaRef};
@@ -57,6 +59,19 @@ impl ArrowTable {
         fields.map(|field| field.name().clone()).collect()
     }
 
+    /// The named columns of texts and numbers, row by row, as texts.
+    pub(crate) fn texts<'a>(
+        &'a self,
+        columns: &'a [&str],
+    ) -> impl Iterator<Item = Vec<String>> + 'a {
+        self.batches.iter().flat_map(move |batch| {
+            (0..batch.num_rows()).map(move |row| {
+                let columns = columns.iter().filter_map(|name| batch.column_by_name(name));
+                columns.map(|column| text(column, row)).collect()
+            })
+        })
+    }
+
     /// The table as the bytes of a stream of Arrow, to be pickled.
     pub(crate) fn pickled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = self.to_bytes();
@@ -91,4 +106,16 @@ impl ArrowTable {
         let reader = RecordBatchIterator::new(batches, self.schema.clone());
         PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(reader)), STREAM)
     }
+}
+
+/// Returns a value as a text; empty if it is missing.
+fn text(column: &ArrayRef, row: usize) -> String {
+    if column.is_null(row) {
+        return String::new();
+    }
+    if let Some(texts) = column.as_string_opt::<i32>() {
+        return texts.value(row).to_owned();
+    }
+    let numbers = column.as_primitive_opt::<UInt32Type>();
+    numbers.map_or_else(String::new, |numbers| numbers.value(row).to_string())
 }

@@ -20,6 +20,7 @@ use crate::kinds::Kinds;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, remark_without_machine};
 use crate::messages::{GivenMessages, PyMessage, PyMessages};
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::program::GivenPrograms;
 use crate::work::{Stop, interruptible};
@@ -297,6 +298,13 @@ impl PyAudit {
     ) -> PyResult<Bound<'py, PyCapsule>> {
         let _ = requested_schema;
         self.table.stream(py)
+    }
+
+    /// The effect of each program on each axis, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let words = format!("{} programs, {} hazards", self.programs, self.hazards);
+        let columns = ["file", "axis", "kind", "effect", "reason", "inherits"];
+        notebook::tabular(py, &words, (&self.table, &columns))
     }
 
     fn __repr__(&self) -> String {

@@ -24,6 +24,7 @@ use crate::json;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, watched_machine_of};
 use crate::messages::{GivenMessages, PyMessages};
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::planner::planner;
 use crate::program::GivenPrograms;
@@ -91,7 +92,7 @@ pub(crate) fn contour(
         machine: machine_options(machine)?,
         plane: axes_of(plane)?,
         plant: plant.to_owned(),
-        model: meant(model)?,
+        model: meant("model", model)?,
         value_lists: value_list.unwrap_or_default(),
         cycle_s: cycle_time_ms.map(|ms| ms / 1000.0),
         start: start.map_or_else(Vec::new, |Places(places)| places),
@@ -238,6 +239,11 @@ impl PyContour {
     /// The picture of the path with its magnified deviation, as ``frictcomp contour --svg`` draws it.
     fn svg(&self) -> &str {
         &self.svg
+    }
+
+    /// Its picture, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        notebook::pictured(py, &self.remarks.join("; "), &[&self.svg])
     }
 
     fn __repr__(&self) -> String {

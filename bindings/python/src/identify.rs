@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::exceptions::refused;
 use crate::failure::Failure;
 use crate::json;
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::several::Several;
 use crate::words::meant_if_given;
@@ -117,7 +118,7 @@ pub(crate) fn identify(
         selection,
         cycle_s: cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?,
         said: TorqueStatement {
-            kind: meant_if_given(torque_kind)?,
+            kind: meant_if_given("torque_kind", torque_kind)?,
             compensation: compensation.map(switched).transpose()?,
         },
     };
@@ -279,7 +280,7 @@ impl PyIdentified {
         Ok(render_identified(
             &self.list,
             made,
-            meant_if_given(cnc_build)?,
+            meant_if_given("cnc_build", cnc_build)?,
         ))
     }
 
@@ -289,6 +290,12 @@ impl PyIdentified {
     fn svg(&self, py: Python<'_>) -> PyResult<&str> {
         let svg = self.svg.as_deref();
         svg.ok_or_else(|| Failure::new("there is no picture of friction on circles").into_error(py))
+    }
+
+    /// Its picture, if it has one, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let words = format!("Friction identified from {}", self.from);
+        notebook::pictured(py, &words, self.svg.as_slice())
     }
 
     fn __repr__(&self) -> String {

@@ -2,18 +2,33 @@
 
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::UnknownName;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::exceptions::refused;
 use crate::several::Several;
 
 /// `"FRICT"`, `"all"`, or several kinds.
-#[derive(FromPyObject)]
 pub(crate) enum Kinds {
     /// One word.
     One(String),
     /// Several.
     Several(Several<String>),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Kinds {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let one = given.extract().map(Self::One);
+        one.or_else(|_| given.extract().map(Self::Several))
+            .map_err(|_| {
+                let kinds = Kind::ALL.map(Kind::as_str).join(", ");
+                PyTypeError::new_err(format!(
+                    "`kinds` is one kind, several, or \"all\"; kinds are {kinds}"
+                ))
+            })
+    }
 }
 
 impl Kinds {

@@ -8,6 +8,7 @@ mod command;
 mod contour;
 mod current;
 mod exceptions;
+mod explain;
 mod failure;
 mod identify;
 mod json;
@@ -15,6 +16,7 @@ mod kinds;
 mod limits;
 mod machine;
 mod messages;
+mod notebook;
 mod pickled;
 mod planner;
 mod program;
@@ -50,6 +52,8 @@ mod _engine {
     use super::contour::{PyContour, contour};
     #[pymodule_export]
     use super::current::{PyAxisCurrent, PyCurrents, current, current_of_recording};
+    #[pymodule_export]
+    use super::explain::explain;
     #[pymodule_export]
     use super::identify::{PyIdentified, identify};
     #[pymodule_export]

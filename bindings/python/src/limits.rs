@@ -43,18 +43,29 @@ impl PyLimits {
         limits.calls = calls.unwrap_or(limits.calls);
         limits.nesting = nesting.unwrap_or(limits.nesting);
         limits.macros = macros.unwrap_or(limits.macros);
-        if limits.blocks == 0 || [limits.values, limits.calls, limits.nesting].contains(&0) {
-            return Err(refused("a limit of 0 lets nothing run"));
+        for (name, limit) in [
+            ("blocks", limits.blocks),
+            ("values", limits.values.into()),
+            ("calls", limits.calls.into()),
+            ("nesting", limits.nesting.into()),
+        ] {
+            if limit == 0 {
+                return Err(refused(format!("`{name}` of 0 lets nothing run")));
+            }
         }
         if !(1..=MACROS).contains(&limits.macros) {
             return Err(refused(format!(
-                "macros can be nested from 1 to {MACROS} deep"
+                "`macros`: they can be nested from 1 to {MACROS} deep"
             )));
         }
         let levels = skip.map(|Several(levels)| {
             levels.iter().try_fold(SkipLevels::NONE, |on, level| {
                 let highest = SkipLevels::HIGHEST;
-                let refuse = || refused(format!("{level} is not a level from 1 to {highest}"));
+                let refuse = || {
+                    refused(format!(
+                        "`skip`: {level} is not a level from 1 to {highest}"
+                    ))
+                };
                 on.with(*level).ok_or_else(refuse)
             })
         });

@@ -31,10 +31,20 @@ use crate::several::Several;
 pub(crate) struct PyMachine(MachineOptions);
 
 /// The value of a variable.
-#[derive(FromPyObject)]
 enum VariableValue {
     Number(f64),
     Text(String),
+}
+
+impl<'py> FromPyObject<'_, 'py> for VariableValue {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let number = given.extract().map(Self::Number);
+        number
+            .or_else(|_| given.extract().map(Self::Text))
+            .map_err(|_| PyTypeError::new_err("a value of `variables` is a number or a text"))
+    }
 }
 
 #[pymethods]
@@ -72,6 +82,11 @@ impl PyMachine {
             options.outside_policy = OutsidePolicy::Allowed;
         }
         for (name, value) in variables.unwrap_or_default() {
+            if !Setting::is_for(&name) {
+                return Err(refused(format!(
+                    "`variables`: `{name}` is not a variable; variables are, for example, `V.E.PART`, `P5` and `@P5`"
+                )));
+            }
             let value = match value {
                 VariableValue::Number(number) if !number.is_finite() => {
                     return Err(refused(format!(

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::arrow::{ArrowColumn, ArrowTable};
 use crate::exceptions::error;
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 
 /// A word of a table of frictcomp, or one that was pickled.
@@ -26,21 +27,29 @@ pub(crate) type PickledWord = Cow<'static, str>;
 /// A change to the text that does what a message advises.
 ///
 /// The text from ``line``, ``column`` up to ``end_line``, ``end_column`` is replaced.
-#[pyclass(frozen, get_all, eq, name = "Fix", module = "frictcomp")]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[pyclass(frozen, eq, hash, name = "Fix", module = "frictcomp")]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub(crate) struct PyFix {
+    #[pyo3(get)]
     file: String,
+    #[pyo3(get)]
     line: u32,
+    #[pyo3(get)]
     column: u32,
+    #[pyo3(get)]
     end_line: u32,
+    #[pyo3(get)]
     end_column: u32,
+    #[pyo3(get)]
     text: String,
+    #[pyo3(get)]
     safety: PickledWord,
+    also: Option<Box<PyFix>>,
 }
 
 /// An end of the program that a message about program end refers to.
-#[pyclass(frozen, get_all, eq, name = "End", module = "frictcomp")]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[pyclass(frozen, get_all, eq, hash, name = "End", module = "frictcomp")]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub(crate) struct PyEnd {
     file: String,
     /// From 1.
@@ -50,8 +59,8 @@ pub(crate) struct PyEnd {
 /// One message about a program or a list, with the fields of a record of ``--format ndjson``.
 ///
 /// ``str(message)`` is ``file:line:column: severity[CODE] message``.
-#[pyclass(frozen, get_all, eq, name = "Message", module = "frictcomp")]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[pyclass(frozen, get_all, eq, hash, name = "Message", module = "frictcomp")]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub(crate) struct PyMessage {
     /// The program of the session, from 1; None if the message is about a list.
     program: Option<u32>,
@@ -149,6 +158,7 @@ impl PyFix {
             end_column: end.column,
             text: fix.text.clone(),
             safety: fix.safety.as_str().into(),
+            also: fix.also.as_deref().map(|also| Box::new(Self::of(also))),
         }
     }
 }
@@ -162,6 +172,12 @@ impl PyFix {
 
     fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
         pickled::reduced(slf, (pickled::written(slf.get())?,))
+    }
+
+    /// A further change of the file that is made with it.
+    #[getter]
+    fn also(&self) -> Option<Self> {
+        self.also.as_deref().cloned()
     }
 
     fn __repr__(&self) -> String {
@@ -459,6 +475,14 @@ impl PyMessages {
         let given = PyDict::new(py);
         given.set_item("messages", errors)?;
         Err(error(py, &message, &given)?)
+    }
+
+    /// The messages with their places, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let words = self.0.remark.iter().cloned().chain([self.counted()]);
+        let words = words.collect::<Vec<_>>().join("; ");
+        let columns = ["severity", "code", "file", "line", "message"];
+        notebook::tabular(py, &words, (&self.table(), &columns))
     }
 
     fn __repr__(&self) -> String {

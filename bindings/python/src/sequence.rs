@@ -18,6 +18,7 @@ use crate::kinds::Kinds;
 use crate::limits::{self, PyLimits};
 use crate::machine::machine_options;
 use crate::messages::{GivenMessages, PyMessages};
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::program::GivenPrograms;
 use crate::work::{Stop, interruptible};
@@ -217,6 +218,15 @@ impl PyAuditSequence {
 
     fn __str__(&self) -> &str {
         &self.text
+    }
+
+    /// The states at the start and the end of each program, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let words = format!("{} programs", self.text.lines().count());
+        let columns = [
+            "position", "file", "axis", "kind", "start", "end", "left_by",
+        ];
+        notebook::tabular(py, &words, (&self.table, &columns))
     }
 
     fn __repr__(&self) -> String {

@@ -32,6 +32,7 @@ use serde::{Deserialize, Serialize};
 use crate::exceptions::refused;
 use crate::failure::Failure;
 use crate::json;
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::several::Several;
 use crate::words::{meant, meant_if_given};
@@ -89,7 +90,7 @@ pub(crate) fn circle(
     traces: Option<Several<PathBuf>>,
     centre: Option<&str>,
 ) -> PyResult<PyCircle> {
-    let centre: PathCentre = meant(centre)?;
+    let centre: PathCentre = meant("centre", centre)?;
     if let Some(Several(traces)) = traces {
         let commanded = CommandedCircle {
             radius_mm,
@@ -110,7 +111,7 @@ pub(crate) fn circle(
             feed_mm_per_min: feed_mm_per_min.unwrap_or(usual.feed_mm_per_min),
             cycle_time_s: seconds(py, cycle_time_ms)?.unwrap_or(usual.cycle_time_s),
         };
-        let (model, reading) = (meant(model)?, meant(reading)?);
+        let (model, reading) = (meant("model", model)?, meant("reading", reading)?);
         let plant = plant.to_owned();
         interruptible(py, move |stop| {
             let simulated = Simulated {
@@ -253,8 +254,9 @@ pub(crate) fn tune(
             "give from 1 to {MAX_CIRCLES} pairs of feed and radius"
         )));
     }
-    let build: Option<CncBuild> = meant_if_given(cnc_build)?;
-    let (model, reading): (FrictionModel, Reading) = (meant(model)?, meant(reading)?);
+    let build: Option<CncBuild> = meant_if_given("cnc_build", cnc_build)?;
+    let (model, reading): (FrictionModel, Reading) =
+        (meant("model", model)?, meant("reading", reading)?);
     let ranges = ranges(free.map_or_else(Vec::new, |Several(names)| names))?;
     let plant = plant.to_owned();
     interruptible(py, move |stop| {
@@ -329,6 +331,11 @@ impl PyCircle {
         &self.svg
     }
 
+    /// Its picture, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        notebook::pictured(py, "Circular test", &[&self.svg])
+    }
+
     fn __repr__(&self) -> &'static str {
         "<frictcomp.Circle>"
     }
@@ -367,15 +374,26 @@ impl PyTuned {
         let mut lists = PlaneAxis::ALL.into_iter().zip(lists);
         let found = lists.find(|(plane, _)| plane.as_str() == axis);
         let (_, [whole, fractions]) = found.ok_or_else(|| refused("the axes are `X` and `Y`"))?;
-        Ok(match Points::of_build(meant_if_given(cnc_build)?) {
-            Points::Real => fractions.clone(),
-            _ => whole.clone(),
-        })
+        Ok(
+            match Points::of_build(meant_if_given("cnc_build", cnc_build)?) {
+                Points::Real => fractions.clone(),
+                _ => whole.clone(),
+            },
+        )
     }
 
     /// The picture of the glitch before and after tuning, as ``frictcomp tune --svg`` draws it.
     fn svg(&self) -> &str {
         &self.svg
+    }
+
+    /// Its picture, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        notebook::pictured(
+            py,
+            &format!("Value list for the plant {}", self.plant),
+            &[&self.svg],
+        )
     }
 
     fn __repr__(&self) -> String {

@@ -7,19 +7,19 @@ use pyo3::PyResult;
 
 use crate::exceptions::refused;
 
-/// The meaning of a word; the usual one if there is none.
-pub(crate) fn meant<T: FromStr<Err: Display> + Default>(word: Option<&str>) -> PyResult<T> {
-    word.map_or_else(
-        || Ok(T::default()),
-        |word| {
-            word.parse()
-                .map_err(|error: T::Err| refused(error.to_string()))
-        },
-    )
+/// The meaning of a word for an argument; the usual one if there is none.
+pub(crate) fn meant<T: FromStr<Err: Display> + Default>(
+    argument: &str,
+    word: Option<&str>,
+) -> PyResult<T> {
+    meant_if_given(argument, word).map(Option::unwrap_or_default)
 }
 
-/// The meaning of a word, if there is one.
-pub(crate) fn meant_if_given<T: FromStr<Err: Display>>(word: Option<&str>) -> PyResult<Option<T>> {
+/// The meaning of a word for an argument, if there is one.
+pub(crate) fn meant_if_given<T: FromStr<Err: Display>>(
+    argument: &str,
+    word: Option<&str>,
+) -> PyResult<Option<T>> {
     let meant = word.map(str::parse).transpose();
-    meant.map_err(|error: T::Err| refused(error.to_string()))
+    meant.map_err(|error: T::Err| refused(format!("`{argument}`: {error}")))
 }

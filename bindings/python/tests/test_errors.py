@@ -83,6 +83,8 @@ def test_wrong_arguments_are_refused() -> None:
     for arguments in wrong:
         with pytest.raises(TypeError):
             frictcomp.run(text, **arguments)
+    with pytest.raises(TypeError, match="kinds are BACKLASH, CROSS"):
+        frictcomp.run(text, kinds=5)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="did you mean `FRICT`"):
         frictcomp.run(text, kinds="FRIKT")
     with pytest.raises(ValueError):
@@ -159,6 +161,50 @@ def test_messages_that_are_left_out_are_counted() -> None:
 
 def test_axes_that_no_program_has_are_no_error() -> None:
     text = frictcomp.Text("N10 X[COMP OFF FRICT]\nN20 M30\n")
+    # R13.17: one machine serves every program.
     machine = frictcomp.Machine(isolated=True, enable=["X", "Y", "Q"])
+    for program in ("M30\n", "G1 Z5 F100\nM30\n", "B5\nM30\n", ""):
+        for call in (frictcomp.run, frictcomp.check, frictcomp.audit, frictcomp.audit_sequence):
+            call(frictcomp.Text(program), machine=machine)
     assert list(frictcomp.run(text, machine=machine).programs[0].start) == ["X"]
     frictcomp.run(text, machine=frictcomp.Machine(isolated=True, enable=["Z"]))
+
+
+def test_what_is_no_variable_is_refused() -> None:
+    # R13.17
+    for name in ("nonsense", "X", "", "V.", "P"):
+        with pytest.raises(ValueError, match="`variables`: .*is not a variable"):
+            frictcomp.Machine(variables={name: 3})
+    wrong: Any = [1]
+    with pytest.raises(TypeError, match="a number or a text"):
+        frictcomp.Machine(variables={"V.E.A": wrong})
+    frictcomp.Machine(variables={"V.E.A": 1, "P5": 2, "@P5": 3, "v.e.b": "text"})
+
+
+def test_an_error_names_its_argument_and_the_choices() -> None:
+    # R13.17
+    calls: list[tuple[Callable[[], object], str]] = [
+        (lambda: frictcomp.Limits(calls=0), "`calls` of 0"),
+        (lambda: frictcomp.Limits(skip=[11]), "`skip`: 11"),
+        (lambda: frictcomp.circle(model="x"), "`model`: .*stribeck, lugre, gms"),
+        (lambda: frictcomp.circle(reading="x"), "`reading`: .*standstill=hold"),
+        (lambda: frictcomp.explain("FC40l"), "did you mean `FC401`"),
+    ]
+    for call, words in calls:
+        with pytest.raises(ValueError, match=words):
+            call()
+    with pytest.raises(frictcomp.Error, match="stiff, mid, soft"):
+        frictcomp.circle(plant="nope")
+
+
+def test_messages_are_hashable_and_explained() -> None:
+    # R13.17
+    text = frictcomp.Text("N10 G0 X1\nN20 X[COMP OFF FRICT]\nN30 M30\n")
+    machine = frictcomp.Machine(isolated=True, enable=["X"])
+    [message] = [it for it in frictcomp.check(text, machine=machine) if it.code == "FC407"]
+    assert len({message, pickle.loads(pickle.dumps(message))}) == 1
+    [fix] = message.fixes
+    assert fix.also and (fix.line, fix.also.line) == (1, 3)
+    assert len({fix, fix.also, *message.ends}) == 3
+    assert frictcomp.explain(message.code).startswith("# FC407")
+    assert "P-AXIS-00522" in frictcomp.explain("lr_param.frict_comp")

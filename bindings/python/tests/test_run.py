@@ -20,6 +20,13 @@ import frictcomp
 FRICTION = "programs/demo/friction.nc"
 
 
+def changed(fix: frictcomp.Fix) -> dict[str, Any]:
+    """The record of a fix."""
+    names = ["file", "line", "column", "end_line", "end_column", "text", "safety"]
+    record = {name: getattr(fix, name) for name in names}
+    return record | ({"also": changed(fix.also)} if fix.also else {})
+
+
 def test_a_timeline_is_a_table_of_blocks() -> None:
     timeline = frictcomp.run(FRICTION)
     assert len(timeline) == 5
@@ -49,8 +56,7 @@ def of_messages(messages: frictcomp.Messages) -> list[dict[str, Any]]:
         if it.ends:
             record["ends"] = [{"file": end.file, "line": end.line} for end in it.ends]
         if it.fixes:
-            names = ["file", "line", "column", "end_line", "end_column", "text", "safety"]
-            record["fixes"] = [{name: getattr(fix, name) for name in names} for fix in it.fixes]
+            record["fixes"] = [changed(fix) for fix in it.fixes]
         if it.reached_from:
             record["reached_from"] = it.reached_from
         if it.reached_from_count > len(it.reached_from):

@@ -14,6 +14,8 @@ export interface Fix {
   end_column: number;
   text: string;
   safety: string;
+  /** A change further down that is made with it; left out where there is none. */
+  also?: Fix;
 }
 
 export interface Diagnostic {

@@ -90,7 +90,8 @@ function isUtf8(file: Uint8Array): boolean {
 }
 
 /** A text with a fix applied. Columns count letters from 1. */
-export function fixed(text: string, fix: Fix): string {
+export function fixed(original: string, fix: Fix): string {
+  const text = fix.also === undefined ? original : fixed(original, fix.also);
   const lines = text.split("\n");
   const offset = (line: number, column: number): number => {
     const above = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);

@@ -58,7 +58,7 @@ function about(code: string, explain: Explain): HTMLElement {
 export function inWords(fix: Fix): string {
   const isInsertion = fix.line === fix.end_line && fix.column === fix.end_column;
   const text = fix.text.trim();
-  const place = `line ${grouped(fix.line)}`;
+  const place = `line ${grouped(fix.line)}${fix.also === undefined ? "" : ` and line ${grouped(fix.also.line)}`}`;
   if (text === "") {
     return `remove a part of ${place}`;
   }

@@ -34,6 +34,9 @@ describe("a changed program", () => {
     expect(fixed("N10 X1\nM30\n", fix(2, 1, 2, 1, "X[COMP ON FRICT]\n"))).toBe("N10 X1\nX[COMP ON FRICT]\nM30\n");
     expect(fixed("(😀) X[COMP ON FRIKT]", fix(1, 15, 1, 20, "FRICT"))).toBe("(😀) X[COMP ON FRICT]");
     expect(fixed("M30", fix(2, 1, 2, 1, "X1"))).toBe("M30X1");
+    // R12.20
+    const both = { ...fix(1, 1, 1, 1, "A\n"), also: fix(2, 1, 2, 1, "B\n") };
+    expect(fixed("N10 X1\nM30\n", both)).toBe("A\nN10 X1\nB\nM30\n");
   });
 });
 

@@ -8,6 +8,7 @@ use clap::ValueEnum;
 use super::code_page::{CodePage, Encoded};
 use super::failure::Failure;
 use super::painted::painted;
+use super::piped::Piped;
 use super::progress::{OverProgress, clear};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp_host::Replaces;
@@ -164,10 +165,10 @@ impl Console {
             },
             // Old Windows consoles need their own calls; elsewhere nothing is in between.
             writer: match (self.code_page(&stdout), paint(choice)) {
-                (Some(page), _) => Box::new(Encoded::new(stdout, page)),
+                (Some(page), _) => Box::new(Encoded::new(Piped(stdout), page)),
                 (None, Paint::Styled) => Box::new(OverProgress(AutoStream::new(stdout, choice))),
                 (None, Paint::Plain) if stdout.is_terminal() => Box::new(OverProgress(stdout)),
-                (None, Paint::Plain) => Box::new(stdout),
+                (None, Paint::Plain) => Box::new(Piped(stdout)),
             },
         }
     }

@@ -52,6 +52,7 @@ mod named_lists;
 mod notes;
 mod outputs;
 mod painted;
+mod piped;
 mod progress;
 mod quiet;
 mod recorded_files;
@@ -236,7 +237,8 @@ fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
         }
         None => error.print(),
     };
-    match printed.and_then(|()| std::io::stdout().flush()) {
+    let flushed = printed.and_then(|()| std::io::stdout().flush());
+    match flushed.map_err(piped::broken_pipe) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Console::new(Color::Auto, None).explain(&Failure::output(error));
             exit::FAILED

@@ -18,7 +18,7 @@ pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
         return Err("write it as NAME=VALUE, such as V.E.PART=3".to_owned());
     };
     let (name, value) = (name.trim(), value.trim());
-    if !is_variable(name) {
+    if !Setting::is_for(name) {
         return Err(format!(
             "`{name}` is not a variable; variables are, for example, `V.E.PART`, `P5` and `@P5`"
         ));
@@ -40,18 +40,6 @@ pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
         name: name.to_owned(),
         value: number.map_or_else(|| Setting::Text(unquoted.to_owned()), Setting::Number),
     })
-}
-
-/// Whether a name is that of a variable or a parameter (R2.33, R2.34).
-fn is_variable(name: &str) -> bool {
-    let number = name.strip_prefix('@').unwrap_or(name);
-    let number = number.strip_prefix(['P', 'p']);
-    if let Some(number) = number {
-        return number.starts_with(|it: char| it.is_ascii_digit());
-    }
-    name.strip_prefix("V.")
-        .or_else(|| name.strip_prefix("v."))
-        .is_some_and(|rest| rest.starts_with(|it: char| it.is_ascii_alphabetic()))
 }
 
 /// Parses a width in columns.

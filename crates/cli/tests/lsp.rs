@@ -7,6 +7,8 @@ mod contour;
 #[path = "lsp/fixes.rs"]
 mod fixes;
 mod folder;
+#[path = "lsp/healing.rs"]
+mod healing;
 #[path = "lsp/lifecycle.rs"]
 mod lifecycle;
 #[path = "lsp/client.rs"]

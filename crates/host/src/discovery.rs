@@ -19,7 +19,7 @@ use super::watch::{Watch, Watcher};
 use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
 use frictcomp::lists::Parameter;
 use frictcomp::machine::{AxisReport, AxisSet, Configuration, Machine, Setting};
-use frictcomp::text::shown_path;
+use frictcomp::text::{SourceFile, shown_path};
 
 /// Selection of the configuration.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -92,10 +92,6 @@ pub struct LoadedMachine {
 
 impl LoadedMachine {
     fn new(configuration: Configuration, path: &Path, registry: &FileRegistry) -> Self {
-        registry.reads("configuration", path);
-        for file in &configuration.files {
-            registry.reads("list", Path::new(&**file));
-        }
         let folder = path.parent().unwrap_or(Path::new(""));
         let folders = configuration.program_dirs.iter();
         Self {
@@ -355,10 +351,17 @@ impl Machines {
         Ok(loaded)
     }
 
+    /// Reads a file that describes a machine; the registry has it and its lists even if it has mistakes.
+    fn read(&self, path: &Path) -> Result<(SourceFile, ListsOnDisk), HostError> {
+        self.registry.reads("configuration", path);
+        let lists = ListsOnDisk::new(&self.disk).noting(&self.registry);
+        Ok((read_list(path, &self.disk)?, lists))
+    }
+
     /// Reads a `frictcomp.toml` and the lists that it names.
     fn read_config(&self, path: &Path) -> Result<LoadedMachine, HostError> {
-        let text = read_list(path, &self.disk)?;
-        match Configuration::from_toml(text, &mut ListsOnDisk::new(&self.disk)) {
+        let (text, mut lists) = self.read(path)?;
+        match Configuration::from_toml(text, &mut lists) {
             Ok(configuration) => {
                 let mut loaded = LoadedMachine::new(configuration, path, &self.registry);
                 let allowed_roots =
@@ -385,8 +388,7 @@ impl Machines {
 
     /// Reads a start-up list and the lists that it names.
     fn read_startup(&self, path: &Path) -> Result<LoadedMachine, HostError> {
-        let text = read_list(path, &self.disk)?;
-        let mut lists = ListsOnDisk::new(&self.disk);
+        let (text, mut lists) = self.read(path)?;
         let configuration = Configuration::from_startup(text, &mut lists);
         let wrong = configuration.diagnostics.iter().find(|said| {
             let whole_file = *said.place.file == *shown_path(path);

@@ -9,7 +9,7 @@ use super::in_use::{device, told};
 use super::trace_error::TraceError;
 use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp::text::shown_path;
-use frictcomp_physics::simulation::UnknownPreset;
+use frictcomp_physics::simulation::{Preset, UnknownPreset};
 
 /// Why work with files failed: one sentence in lower case.
 #[derive(Debug, Error)]
@@ -308,7 +308,15 @@ impl HostError {
             Self::State { .. } => {
                 "name another file, or remove this one to begin from a start of the control"
             }
-            Self::NoPlant(unknown) => return Some(format!("did you mean `{}`?", unknown.near()?)),
+            Self::NoPlant(unknown) => {
+                return Some(match unknown.near() {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!(
+                        "the presets are {}; a plant may also be a TOML file",
+                        Preset::names()
+                    ),
+                });
+            }
             Self::Trace(error) => return error.help(),
             Self::Memory { .. } => {
                 "close other programs, or raise the limit of the shell (`ulimit -v`)"

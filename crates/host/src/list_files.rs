@@ -6,27 +6,43 @@ use std::path::{Component, Path, PathBuf};
 use super::disk::Disk;
 use super::error::HostError;
 use super::paths::spelt_as;
+use super::registry::FileRegistry;
 use frictcomp::machine::{ListFiles, NoList};
 use frictcomp::text::{SourceFile, shown_path};
 
 /// The lists on a disk.
 #[derive(Debug, Clone, Default)]
-pub struct ListsOnDisk(Disk);
+pub struct ListsOnDisk {
+    disk: Disk,
+    registry: FileRegistry,
+}
 
 impl ListsOnDisk {
     /// Creates the lists on this disk.
     pub fn new(disk: &Disk) -> Self {
-        Self(disk.clone())
+        Self {
+            disk: disk.clone(),
+            registry: FileRegistry::default(),
+        }
+    }
+
+    /// Notes the lists that are read in this registry.
+    pub fn noting(self, registry: &FileRegistry) -> Self {
+        let registry = registry.clone();
+        Self { registry, ..self }
     }
 }
 
 impl ListFiles for ListsOnDisk {
     fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
         let path = Path::new(path);
-        let spelt = as_spelt(path, &self.0);
+        let spelt = as_spelt(path, &self.disk);
         let found = spelt.as_deref().unwrap_or(path);
-        match self.0.read_list(found) {
-            Ok(text) => Ok(SourceFile::new(shown_path(found), text)),
+        match self.disk.read_list(found) {
+            Ok(text) => {
+                self.registry.reads("list", found);
+                Ok(SourceFile::new(shown_path(found), text))
+            }
             Err(error) if error.kind() == io::ErrorKind::NotFound => Err(NoList::Missing),
             Err(error) => Err(NoList::Unreadable(error.to_string())),
         }
@@ -39,7 +55,7 @@ impl ListFiles for ListsOnDisk {
             Some(Component::Normal(_)) => Some(shown_path(path.parent()?)),
             None | Some(Component::CurDir | Component::ParentDir) => {
                 let above = path.join("..");
-                let (here, there) = (self.0.real(path).ok()?, self.0.real(&above).ok()?);
+                let (here, there) = (self.disk.real(path).ok()?, self.disk.real(&above).ok()?);
                 (here != there).then(|| shown_path(&above))
             }
             Some(Component::RootDir | Component::Prefix(_)) => None,

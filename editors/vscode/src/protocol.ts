@@ -39,6 +39,8 @@ export interface Stretch {
   /** Its line, from 0. */
   line: number;
   points: [number, number][];
+  /** The machine time at its end in s. */
+  end: number;
 }
 
 /** The answer of `frictcomp/contour`: the picture of the path, and the places in it. */

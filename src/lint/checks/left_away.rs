@@ -65,9 +65,11 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
                     _ if end == State::Unknown => subject.may_be_left(site, &ending),
                     _ => subject.left_changed(site, &ending),
                 };
+                let mut diagnostic = subject.with_ends(diagnostic);
+                diagnostic.fixes.extend(subject.fix(diagnostic.code));
                 let note = EndNote {
                     seq: site.seq,
-                    diagnostic: subject.with_ends(diagnostic),
+                    diagnostic,
                 };
                 found.push(LeftAway { axis, kind, note });
             }
@@ -256,8 +258,7 @@ impl LeftAwayKind<'_> {
         }
     }
 
-    /// Adds the ends to the diagnostic, and a fix with the command in a block before the end, if one place is right on
-    /// every way (R1.58).
+    /// Adds the ends to the diagnostic.
     fn with_ends(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         diagnostic.ends = self.ends().map(|end| end.place.clone()).collect();
         let has_others = has_other_ends(self.ended);
@@ -275,19 +276,30 @@ impl LeftAwayKind<'_> {
             };
             diagnostic = diagnostic.with_label(end.place.clone(), text);
         }
+        diagnostic
+    }
+
+    /// Returns the fix: the command in a block before the end, if one place is right on every way (R1.58); for FC407
+    /// also before the first block.
+    fn fix(&self, code: Code) -> Option<Fix> {
         let mut ends = self.ends();
-        match (ends.next(), ends.next()) {
-            // Where an error ends every way, what follows it is no place to restore anything.
-            (Some(only), None)
-                if only.is_passed_into
-                    && self.ended.by != EndedBy::Error
-                    && is_lone_end(&only.place.text) =>
-            {
-                let block = format!("{}\n", self.way_home());
-                diagnostic.with_fix(Fix::guess(start_of(&only.place), block))
-            }
-            _ => diagnostic,
+        let (only, None) = (ends.next()?, ends.next()) else {
+            return None;
+        };
+        // Where an error ends every way, what follows it is no place to restore anything.
+        let is_place =
+            only.is_passed_into && self.ended.by != EndedBy::Error && is_lone_end(&only.place.text);
+        if !is_place {
+            return None;
         }
+        let command = self.way_home();
+        let restored = Fix::block(start_of(&only.place), &command);
+        if code != Code::Fc407 {
+            return Some(restored);
+        }
+        let begin = self.linter.begin.clone()?;
+        let is_one_file = begin.file == only.place.file;
+        is_one_file.then(|| Fix::block(begin, &command).with(restored))
     }
 }
 

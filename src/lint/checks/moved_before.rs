@@ -120,7 +120,7 @@ fn said(
     .with_axis(name)
     .with_help(format!("set it at program start, `{on}` or `{off}`"));
     if let Some(begin) = &linter.begin {
-        let fix = |command: &String| Fix::guess(begin.clone(), format!("{command}\n"));
+        let fix = |command: &String| Fix::block(begin.clone(), command);
         diagnostic.fixes.extend(commands.iter().map(fix));
     }
     diagnostic

@@ -28,6 +28,7 @@ __all__ = [
     "run",
     "AuditSequence",
     "audit_sequence",
+    "explain",
     "Circle",
     "Tuned",
     "circle",
@@ -94,6 +95,7 @@ class End:
         """From 1."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
 
 @final
 class Fix:
@@ -115,9 +117,13 @@ class Fix:
     @property
     def text(self) -> str: ...
     @property
-    def safety(self) -> Literal["safe", "guess"]: ...
+    def safety(self) -> Literal["safe", "unsafe"]: ...
+    @property
+    def also(self) -> Fix | None:
+        """A further change of the file that is made with it."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
 
 @final
 class Message:
@@ -170,6 +176,7 @@ class Message:
         """How many main programs reach it."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
 
 @final
 class Messages:
@@ -192,6 +199,8 @@ class Messages:
         """A remark that no machine is described, where that matters."""
     def raise_for_errors(self) -> None:
         """Raises ``Error`` if there is a message of severity error."""
+    def _repr_html_(self) -> str:
+        """The messages with their places, for notebooks."""
     def __len__(self) -> int: ...
     @overload
     def __getitem__(self, index: int, /) -> Message: ...
@@ -361,6 +370,8 @@ class Audit:
     @property
     def has_warnings(self) -> bool:
         """Whether something needs to be corrected, or is not known."""
+    def _repr_html_(self) -> str:
+        """The effect of each program on each axis, for notebooks."""
     def __len__(self) -> int: ...
     def __bool__(self) -> Literal[True]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
@@ -383,6 +394,8 @@ class AuditSequence:
     @property
     def has_warnings(self) -> bool:
         """Whether a program moves an axis in a state that another one left."""
+    def _repr_html_(self) -> str:
+        """The states at the start and the end of each program, for notebooks."""
     def __len__(self) -> int: ...
     def __bool__(self) -> Literal[True]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
@@ -409,6 +422,8 @@ class Currents:
         """The picture of currents, velocities, weights and states over time, as ``frictcomp current --svg``
         draws it.
         """
+    def _repr_html_(self) -> str:
+        """Its picture, for notebooks."""
     def __getitem__(self, key: str, /) -> AxisCurrent: ...
     def __len__(self) -> int:
         """How many cycles there are."""
@@ -461,6 +476,8 @@ class AxisCurrent:
         """The steps that converted the rows of a recording to cycles, a sentence each."""
     def svg(self) -> str:
         """The picture of current, velocity, weights and states over time."""
+    def _repr_html_(self) -> str:
+        """Its picture, for notebooks."""
     def __len__(self) -> int: ...
     def __bool__(self) -> Literal[True]: ...
 
@@ -479,6 +496,8 @@ class Contour:
         """What stopped the program or the trace, and what the trace simplifies."""
     def svg(self) -> str:
         """The picture of the path with its magnified deviation, as ``frictcomp contour --svg`` draws it."""
+    def _repr_html_(self) -> str:
+        """Its picture, for notebooks."""
 
 @final
 class Circle:
@@ -489,6 +508,8 @@ class Circle:
         """The document of ``frictcomp circle --format json``."""
     def svg(self) -> str:
         """The picture of the circle with its magnified deviation, as ``frictcomp circle --svg`` draws it."""
+    def _repr_html_(self) -> str:
+        """Its picture, for notebooks."""
 
 @final
 class Tuned:
@@ -504,6 +525,8 @@ class Tuned:
         """
     def svg(self) -> str:
         """The picture of the glitch before and after tuning, as ``frictcomp tune --svg`` draws it."""
+    def _repr_html_(self) -> str:
+        """Its picture, for notebooks."""
 
 @final
 class Identified:
@@ -519,6 +542,8 @@ class Identified:
 
         ``Error`` if friction was found on circles, for which there is no picture.
         """
+    def _repr_html_(self) -> str:
+        """Its picture, if it has one, for notebooks."""
 
 def run(
     program: _Program | Iterable[_Program],
@@ -671,6 +696,11 @@ def tune(
 
     With ``robust`` the list is also good if the contact is half or twice as stiff, or friction
     differs by 10 % between the directions.
+    """
+
+def explain(word: str) -> str:
+    """The page about the code of a message, such as ``"FC401"``, or about a parameter, by its number or its key in the
+    lists, such as ``"P-AXIS-00522"``; as Markdown.
     """
 
 def identify(

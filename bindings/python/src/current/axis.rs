@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 use super::picture::{DrawnColumns, Marks, drawn};
 use crate::failure::Failure;
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::states;
 
@@ -276,6 +277,15 @@ impl PyAxisCurrent {
     /// The picture of current, velocity, weights and states over time.
     fn svg(slf: &Bound<'_, Self>) -> PyResult<String> {
         drawn(vec![slf.get().plot(slf.py())?], &Marks::default())
+    }
+
+    /// Its picture, for notebooks.
+    fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let words = match slf.get().axis.name.as_str() {
+            "" => "Current of a recording".to_owned(),
+            name => format!("Current of {name}"),
+        };
+        notebook::pictured(slf.py(), &words, &[Self::svg(slf)?])
     }
 
     fn __len__(&self, py: Python<'_>) -> usize {

@@ -8,6 +8,7 @@ use super::ProgramsCurrents;
 use super::axis::{Counted, PyAxisCurrent, array};
 use super::picture::{Marks, drawn};
 use crate::messages::PyMessages;
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 
 /// The additive currents of axes over the path of a program, cycle by cycle.
@@ -128,6 +129,12 @@ impl PyCurrents {
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
         let axes = self.axes.iter().map(|axis| axis.get().plot(py));
         drawn(axes.collect::<PyResult<_>>()?, &self.marks)
+    }
+
+    /// Its picture, for notebooks.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let words = format!("Current of {}", self.axes().join(", "));
+        notebook::pictured(py, &words, &[self.svg(py)?])
     }
 
     fn __len__(&self, py: Python<'_>) -> usize {

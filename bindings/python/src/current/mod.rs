@@ -99,7 +99,7 @@ pub(crate) fn current(
         axes: axes.0,
         value_list,
         cycle_s: cycle_time_ms.map(|ms| ms / 1000.0),
-        reading: meant(reading)?,
+        reading: meant("reading", reading)?,
         start: start.map_or_else(Vec::new, |Places(places)| places),
         max_cycles: max_cycles.max(1),
         run: limits::options(limits),

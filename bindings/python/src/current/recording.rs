@@ -83,7 +83,7 @@ pub(crate) fn current_of_recording(
             .with_cycle_s(cycle)
             .with_resampling(resampling)
             .with_dead_band(standstill_up_to(dead_band)?),
-        reading: meant(reading)?,
+        reading: meant("reading", reading)?,
     };
     let computed = interruptible(py, move |_| job.done())?;
     let axis = (NamedAxis::new("", None), computed.counted);

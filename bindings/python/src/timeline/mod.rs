@@ -5,6 +5,7 @@ mod recorder;
 mod rows;
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use frictcomp_report::svg::Frame;
 use pyo3::prelude::*;
@@ -15,6 +16,7 @@ use crate::arrow::ArrowTable;
 use crate::exceptions::refused;
 use crate::json::JsonText;
 use crate::messages::{GivenMessages, PickledWord, PyMessages};
+use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::state::PyState;
 
@@ -216,16 +218,16 @@ impl PyTimeline {
     }
 
     /// The state bars of its first programs, for notebooks.
-    fn _repr_html_(&self) -> String {
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
         let programs = &self.recorded.programs;
         let shown = programs.iter().take(SHOWN);
         let pictures: Vec<String> = shown.map(|run| self.drawn(run)).collect();
-        let counted = self.counted();
-        let more = match programs.len().saturating_sub(SHOWN) {
-            0 => String::new(),
-            more => format!("<p>{more} more programs: <code>svg(program)</code> draws one</p>"),
-        };
-        format!("<p>{counted}</p>{}{more}", pictures.concat())
+        let mut html = notebook::pictured(py, &self.counted(), &pictures)?;
+        if let more @ 1.. = programs.len().saturating_sub(SHOWN) {
+            let words = "more programs: <code>svg(program)</code> draws one";
+            let _ = write!(html, "<p>{more} {words}</p>");
+        }
+        Ok(html)
     }
 
     #[pyo3(signature = (requested_schema=None))]

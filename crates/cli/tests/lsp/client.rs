@@ -1,7 +1,7 @@
 //! A client in memory. It expects every message that the server sends: an unexpected one fails the
 //! test at the end.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -196,22 +196,26 @@ impl Client {
     /// The last messages about a text, once it is checked; `None` if there are no new ones.
     pub(crate) fn settled(&mut self, uri: &str) -> Option<Value> {
         self.settle(uri);
-        while let Ok(message) = self.connection.receiver.try_recv() {
-            self.kept.push_back(message);
-        }
-        let is_it = |message: &Message| match message {
-            Message::Notification(it) => {
-                it.method == "textDocument/publishDiagnostics" && it.params["uri"] == uri
+        self.published(|it| it == uri).remove(uri)
+    }
+
+    /// Takes the messages about texts that have arrived so far, the last ones of each text.
+    pub(crate) fn published(&mut self, of: impl Fn(&str) -> bool) -> BTreeMap<String, Value> {
+        self.kept.extend(self.connection.receiver.try_iter());
+        let mut published = BTreeMap::new();
+        for message in std::mem::take(&mut self.kept) {
+            match message {
+                Message::Notification(Notification { method, mut params })
+                    if method == "textDocument/publishDiagnostics"
+                        && params["uri"].as_str().is_some_and(&of) =>
+                {
+                    let uri = params["uri"].as_str().expect("a URI").to_owned();
+                    published.insert(uri, params["diagnostics"].take());
+                }
+                other => self.kept.push_back(other),
             }
-            _ => false,
-        };
-        let mut last = None;
-        while let Some(at) = self.kept.iter().position(is_it) {
-            if let Some(Message::Notification(it)) = self.kept.remove(at) {
-                last = Some(it.params["diagnostics"].clone());
-            }
         }
-        last
+        published
     }
 
     /// Shuts down. No unexpected message may be left.

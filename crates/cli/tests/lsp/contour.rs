@@ -64,6 +64,12 @@ fn each_block_has_its_place_in_the_picture() {
     let svg = contour["svg"].as_str().expect("a picture");
     assert!(svg.starts_with("<svg ") && svg.contains("Contour of a.nc"));
     let stretches = contour["stretches"].as_array().expect("a list");
+    // R12.18: the machine time up to each of them.
+    let ends: Vec<f64> = stretches
+        .iter()
+        .map(|it| it["end"].as_f64().expect("a time"))
+        .collect();
+    assert!(ends.is_sorted() && ends[0] > 0.0, "{ends:?}");
     let points = |at: usize| stretches[at]["points"].as_array().expect("points");
     for at in 1..stretches.len() {
         // The path continues where it was.

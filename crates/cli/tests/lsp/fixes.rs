@@ -190,3 +190,35 @@ fn a_message_is_allowed_where_it_is_said() {
     assert_eq!(client.diagnostics(&uri), json!([]));
     client.leave();
 }
+
+#[test]
+fn a_comment_is_offered_only_where_it_can_be_written() {
+    // R12.20: lists and configurations have no comments to this tool.
+    let bench = Bench::new(&[]);
+    let of = |name: &str| uri(&bench.folder().join(name));
+    let mut client = Client::new();
+    let is_allow = |it: &Value| {
+        it["title"]
+            .as_str()
+            .is_some_and(|it| it.starts_with("allow "))
+    };
+    for (name, text, offered) in [
+        ("a.nc", "X[COMP OFF FRICT]\nM30\n", true),
+        (
+            "frictcomp.toml",
+            "[[axis]]\nname = \"X\"\nfrict_com = true\n",
+            false,
+        ),
+        (
+            "x.lis",
+            "kopf.achs_nr 1\nlr_param.frict_comp 7\nEnde\n",
+            false,
+        ),
+    ] {
+        let said = client.open(&of(name), text);
+        assert!(!codes(&said).is_empty(), "{name}");
+        let actions = actions(&mut client, &of(name), &["quickfix"]);
+        assert_eq!(actions.iter().any(is_allow), offered, "{name}: {actions:?}");
+    }
+    client.drop_all();
+}

@@ -112,10 +112,6 @@ fn the_open_text_counts_and_not_the_file() {
     assert_eq!(codes(&said), [("FC401".to_owned(), 0)]);
     assert_eq!(said[0]["severity"], 2);
     assert_eq!(said[0]["source"], "frictcomp");
-    assert_eq!(
-        said[0]["codeDescription"]["href"],
-        "frictcomp:/codes/FC401.md"
-    );
     let range =
         json!({ "start": { "line": 0, "character": 4 }, "end": { "line": 0, "character": 21 } });
     assert_eq!(said[0]["range"], range);
@@ -149,7 +145,12 @@ fn the_open_text_counts_and_not_the_file() {
 #[test]
 fn pages_of_codes_are_texts_of_the_server() {
     // R12.2
-    let mut client = Client::new();
+    let mut client = Client::with(&json!({
+        "capabilities": { "workspace": { "textDocumentContent": {} } },
+    }));
+    let said = client.open("untitled:a", "X[COMP ON FRIKT]\nM30\n");
+    let href = "frictcomp:/codes/FC202.md";
+    assert_eq!(said[0]["codeDescription"]["href"], href);
     let page = |client: &mut Client, uri: &str| {
         client.ask("workspace/textDocumentContent", &json!({ "uri": uri }))["text"].take()
     };
@@ -169,6 +170,19 @@ fn pages_of_codes_are_texts_of_the_server() {
         said[0]["codeDescription"]["href"],
         "file:///ext/codes/FC202.md"
     );
+    client.leave();
+}
+
+#[test]
+fn a_client_that_opens_only_files_gets_links_to_files() {
+    // R12.21
+    let mut client = Client::new();
+    let said = client.open("untitled:a", "X[COMP ON FRIKT]\nM30\n");
+    let href = said[0]["codeDescription"]["href"].as_str().expect("a link");
+    let path = href.strip_prefix("file://").expect("a file");
+    let path = path.trim_start_matches(if cfg!(windows) { "/" } else { "" });
+    let text = fs::read_to_string(path).expect("a page");
+    assert!(text.starts_with("# FC202"), "{text}");
     client.leave();
 }
 

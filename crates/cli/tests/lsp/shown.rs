@@ -326,6 +326,39 @@ fn a_timeline_view_asks_for_the_states_over_the_lines() {
 }
 
 #[test]
+fn a_motion_in_an_unknown_state_says_so() {
+    // R12.20: in the words of the table.
+    let text = "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nG1 X5 F100\nM30\n";
+    let (_bench, mut client, uri) = opened(text);
+    let text = hover(&mut client, &uri, 3);
+    let row = text.lines().find(|line| line.starts_with("| X |"));
+    let state = row
+        .and_then(|row| row.split(" | ").nth(2))
+        .expect("a state");
+    let state = state.trim_end_matches(" |");
+    assert!(state.starts_with("unknown "), "{text}");
+    let moves = format!("X moves with friction compensation {state}; ");
+    assert!(text.contains(&moves), "{text}");
+    client.drop_all();
+}
+
+#[test]
+fn the_end_of_a_program_that_is_not_checked_to_its_end_is_not_known() {
+    // R12.20
+    let mut client = Client::with(&json!({
+        "capabilities": {},
+        "initializationOptions": { "maxBlocks": 200 },
+    }));
+    let blocks = "G1 X1 F100\n".repeat(500);
+    client.open("untitled:a", &format!("X[COMP OFF FRICT]\n{blocks}M30\n"));
+    let text = json!({ "textDocument": { "uri": "untitled:a" } });
+    let lenses = client.ask("textDocument/codeLens", &text).to_string();
+    assert!(lenses.contains("what it leaves is not known"), "{lenses}");
+    assert!(!lenses.contains("leaves X"), "{lenses}");
+    client.drop_all();
+}
+
+#[test]
 fn a_block_shows_what_it_switches_and_how_it_moves() {
     // R12.3
     let text = "\
@@ -341,22 +374,22 @@ N80 M30
     let (_bench, mut client, uri) = opened(text);
     let text = hover(&mut client, &uri, 2);
     assert!(
-        text.contains("X moves with friction compensation; does not reverse"),
+        text.contains("X moves with friction compensation active; does not reverse"),
         "{text}"
     );
     let text = hover(&mut client, &uri, 4);
     assert!(
-        text.contains("X moves without friction compensation; reverses"),
+        text.contains("X moves with friction compensation inactive; reverses"),
         "{text}"
     );
     assert!(!text.contains("Y moves"), "{text}");
     let text = hover(&mut client, &uri, 5);
     assert!(
-        text.contains("X moves without friction compensation; reverses"),
+        text.contains("X moves with friction compensation inactive; reverses"),
         "{text}"
     );
     assert!(
-        text.contains("Y moves with friction compensation; reverses"),
+        text.contains("Y moves with friction compensation active; reverses"),
         "{text}"
     );
     let on_command =

@@ -70,6 +70,40 @@ fn what_may_be_written_next_is_offered() {
 }
 
 #[test]
+fn keys_are_offered_on_an_empty_line_when_asked_for() {
+    // R12.21
+    let (bench, mut client, _) = bench();
+    let of = |name: &str| uri(&bench.folder().join(name));
+    let mut asked = |name: &str, language: &str, text: &str, line: u32| {
+        client.open_as(&of(name), language, text);
+        let at = json!({
+            "textDocument": { "uri": of(name) },
+            "position": { "line": line, "character": 0 },
+            "context": { "triggerKind": 1 },
+        });
+        client.ask("textDocument/completion", &at)
+    };
+    let keys = asked("frictcomp.toml", "toml", "[[axis]]\nname = \"X\"\n\n", 2);
+    let named = |label: &str| {
+        let items = keys.as_array().expect("items").iter();
+        items
+            .clone()
+            .find(|it| it["label"] == label)
+            .cloned()
+            .expect("a key")
+    };
+    let page = named("frict_comp")["documentation"]["value"].take();
+    assert!(
+        page.as_str().expect("text").contains("P-AXIS-00522"),
+        "{page}"
+    );
+    let keys = asked("x.lis", "isg-list", "kopf.achs_nr 1\n\n", 1).to_string();
+    assert!(keys.contains("frict_comp.table[0].in") && keys.contains("P-COMP-00046"));
+    assert_eq!(asked("a.nc", "isg-cnc", "N10 X1\n\nM30\n", 1), json!([]));
+    client.drop_all();
+}
+
+#[test]
 fn an_item_says_what_it_replaces_and_where_it_stands() {
     // R12.11
     let (_bench, mut client, uri) = bench();

@@ -331,7 +331,7 @@ impl<W: Write> DapServer<W> {
         match halt {
             Halt::Ended(by) => self.end(by),
             halt => {
-                let (_, what) = reason(&halt);
+                let (_, what) = self.reason(&halt);
                 let first = "before the first block".to_owned();
                 self.stopped("entry", &what.filter(|it| !it.is_empty()).unwrap_or(first))
             }
@@ -355,7 +355,7 @@ impl<W: Write> DapServer<W> {
                 return self.end(by);
             }
             if halt != Halt::Interrupted {
-                let (reason, what) = reason(&halt);
+                let (reason, what) = self.reason(&halt);
                 return self.stopped(reason, &what.unwrap_or_default());
             }
             while let Some(request) = self.client.take_at_once() {
@@ -443,26 +443,34 @@ impl<W: Write> DapServer<W> {
         self.outgoing.event("output", &body)
     }
 
+    /// The reason for a stop in the words of the protocol, and its description.
+    fn reason(&self, halt: &Halt) -> (&'static str, Option<String>) {
+        match halt {
+            Halt::Arrived | Halt::Ended(_) => ("step", None),
+            Halt::Interrupted => ("pause", None),
+            Halt::Breakpoint(what) => ("breakpoint", Some(what.clone())),
+            Halt::Changed(what) => ("data breakpoint", Some(what.clone())),
+            Halt::Error(what) => ("exception", Some(what.clone())),
+            Halt::Unknown(names) => {
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                let names = names.join(", ");
+                let sides = self.stepper.iter().flat_map(Stepper::answers);
+                let sides: Vec<String> = sides.map(|side| format!("`{side}`")).collect();
+                let choice = match sides.as_slice() {
+                    [] => String::new(),
+                    sides => format!(", or take a side: {}", sides.join(", ")),
+                };
+                let what = format!(
+                    "the block reads {names}, which only the machine knows: set a value in the scope of that name{choice}"
+                );
+                ("exception", Some(what))
+            }
+        }
+    }
+
     fn print(&mut self, category: &str, text: &str) -> io::Result<()> {
         let body = json!({ "category": category, "output": format!("{text}\n") });
         self.outgoing.event("output", &body)
-    }
-}
-
-/// The reason for a stop in the words of the protocol, and its description.
-fn reason(halt: &Halt) -> (&'static str, Option<String>) {
-    match halt {
-        Halt::Arrived | Halt::Ended(_) => ("step", None),
-        Halt::Interrupted => ("pause", None),
-        Halt::Breakpoint(what) => ("breakpoint", Some(what.clone())),
-        Halt::Changed(what) => ("data breakpoint", Some(what.clone())),
-        Halt::Error(what) => ("exception", Some(what.clone())),
-        Halt::Unknown(names) => {
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            let names = names.join(", ");
-            let what = format!("the block reads {names}, which only the machine knows");
-            ("exception", Some(what))
-        }
     }
 }
 

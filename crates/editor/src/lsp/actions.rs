@@ -9,7 +9,7 @@ use gen_lsp_types::{
     TextEdit, WorkspaceEdit,
 };
 
-use super::documents::{Document, Documents};
+use super::documents::{Document, Documents, Kind};
 use super::view::RequestView;
 use frictcomp::diagnostic::{Code, Diagnostic, Fix, Safety, edits};
 use frictcomp::session::allow_here;
@@ -90,7 +90,9 @@ fn quick_fixes(
         });
     }
     let source = SourceFile::new(said.place.file.clone(), document.text());
-    let allow = allow_here(said, &source);
+    // Lists and configurations have no comments to this tool.
+    let is_program = document.kind == Kind::Program;
+    let allow = is_program.then(|| allow_here(said, &source)).flatten();
     if let Some(edit) = allow.and_then(|allow| workspace_edit(view, [&allow])) {
         actions.push(CodeAction {
             title: format!("allow {} here", said.code),
@@ -107,10 +109,14 @@ fn quick_fixes(
 fn title(document: &Document, fix: &Fix) -> String {
     let old = short(fix.place.span.of(&fix.place.text));
     let new = short(&fix.text);
-    let what = match (old.as_str(), new.as_str()) {
-        (old, "") => format!("remove `{old}`"),
-        ("", new) => format!("insert `{new}`"),
-        (old, new) => format!("replace `{old}` with `{new}`"),
+    let what = match (old.as_str(), new.as_str(), &fix.also) {
+        (old, "", _) => format!("remove `{old}`"),
+        ("", new, None) => format!("insert `{new}`"),
+        ("", new, Some(also)) => {
+            let lines = [&fix.place, &also.place].map(|place| place.start().line);
+            format!("insert `{new}` above lines {} and {}", lines[0], lines[1])
+        }
+        (old, new, _) => format!("replace `{old}` with `{new}`"),
     };
     let path = Documents::path(&fix.place.file);
     if path == document.path {

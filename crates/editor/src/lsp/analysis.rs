@@ -9,7 +9,7 @@ use super::settings::MAX_BLOCKS;
 use super::states::StateBook;
 use super::wording::editor;
 use super::worker::Cancel;
-use frictcomp::comp::State;
+use frictcomp::comp::{CncBuild, State};
 use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::session::{Findings, Limits, Options, SessionOptions, StopPolicy};
 use frictcomp::timeline::{EndedBy, Record, Sink};
@@ -153,7 +153,7 @@ impl AnalysisJob {
         let path = &self.document.path;
         registry.reads("list", path);
         let build = match self.document.kind {
-            Kind::List => self.build(disk),
+            Kind::List => self.build(disk, registry),
             Kind::Program | Kind::Configuration | Kind::Other => None,
         };
         let mut report = match check_list_file(path, build, disk) {
@@ -178,10 +178,9 @@ impl AnalysisJob {
     }
 
     /// The build of the machine that a list belongs to, if a configuration names it.
-    fn build(&self, disk: &Disk) -> Option<frictcomp::comp::CncBuild> {
+    fn build(&self, disk: &Disk, registry: &FileRegistry) -> Option<CncBuild> {
         let folder = self.document.path.parent()?;
-        let unheard = FileRegistry::default();
-        let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(disk);
+        let mut machines = Machines::new(MachineOptions::default(), registry).on_disk(disk);
         machines.for_folder(folder).ok()?.machine.build
     }
 }

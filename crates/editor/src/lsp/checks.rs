@@ -115,6 +115,11 @@ impl Checks {
         self.running.take().map(|(uri, _)| uri)
     }
 
+    /// Returns the text whose check is running.
+    pub(super) fn running(&self) -> Option<&str> {
+        self.running.as_ref().map(|(uri, _)| uri.as_str())
+    }
+
     /// Whether no check is running or due.
     pub(super) fn are_done(&self) -> bool {
         self.running.is_none() && self.due.is_empty()
@@ -122,11 +127,7 @@ impl Checks {
 
     /// Whether a check of a text is still to come.
     pub(super) fn is_awaited(&self, uri: &str) -> bool {
-        let is_running = self
-            .running
-            .as_ref()
-            .is_some_and(|(running, _)| running == uri);
-        is_running || self.due.contains_key(uri)
+        self.running() == Some(uri) || self.due.contains_key(uri)
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use gen_lsp_types::{ClientCapabilities, InitializeParams, WorkspaceFolders};
 
 use super::encoding::Encoding;
+use super::pages::written_pages;
 use super::settings::Settings;
 use super::uri::path_of;
 
@@ -25,6 +26,11 @@ impl LspClient {
         let mut settings = Settings::default();
         let given = params.initialization_options.as_ref();
         let wrong = given.map(|given| settings.take(given)).unwrap_or_default();
+        let workspace = params.capabilities.workspace.as_ref();
+        let opens_texts = workspace.is_some_and(|it| it.text_document_content.is_some());
+        if settings.pages.is_none() && !opens_texts {
+            settings.pages = written_pages();
+        }
         let client = Self {
             encoding: Encoding::negotiated(&params.capabilities),
             settings,

@@ -2,11 +2,11 @@
 //!
 //! An editor may accept the first completion on Enter. So only words are offered that begin as the typed
 //! one and are longer, each with the range that it replaces; only inside a COMP bracket a blank is
-//! enough.
+//! enough, and on an empty line of a list or a configuration a request (R12.21).
 
 use gen_lsp_types::{
-    CompletionItem, CompletionItemKind, CompletionParams, Documentation, MarkupContent, MarkupKind,
-    Position, Range, TextEdit,
+    CompletionItem, CompletionItemKind, CompletionParams, CompletionTriggerKind, Documentation,
+    MarkupContent, MarkupKind, Position, Range, TextEdit,
 };
 
 use super::documents::{Document, Kind as TextKind};
@@ -24,10 +24,13 @@ pub(super) fn completion(
     let document = view.document(&at.text_document.uri)?;
     let line = document.line(at.position.line);
     let before = &line[..view.client.encoding.offset(line, at.position.character)];
+    let trigger = params.context.as_ref().map(|context| context.trigger_kind);
+    let is_asked = trigger == Some(CompletionTriggerKind::Invoked);
     let offer = match document.kind {
         // Nothing is offered in comments and strings.
         TextKind::Program if kind_at(line, before.len()) != PieceKind::Code => None,
         TextKind::Program => comp_words(before).or_else(|| axes(view, document, before)),
+        TextKind::List | TextKind::Configuration if line.trim().is_empty() && !is_asked => None,
         TextKind::List => list_keys(document, before),
         TextKind::Configuration => toml_keys(document, at.position.line, before),
         TextKind::Other => None,
@@ -190,7 +193,7 @@ fn calls(above: &str) -> bool {
 /// The parameters that a line of a list may give.
 fn list_keys<'t>(document: &Document, before: &'t str) -> Option<Offer<'t>> {
     let typed = before.trim_start();
-    if typed.is_empty() || typed.contains([' ', '\t', '(', '#']) {
+    if typed.contains([' ', '\t', '(', '#']) {
         return None;
     }
     let items = pages_for(typed, document.text()).into_iter();
@@ -203,15 +206,20 @@ fn list_keys<'t>(document: &Document, before: &'t str) -> Option<Offer<'t>> {
 /// The keys of the table of `frictcomp.toml` that a line belongs to.
 fn toml_keys<'t>(document: &Document, line: u32, before: &'t str) -> Option<Offer<'t>> {
     let (above, typed) = split_word(before);
-    if typed.is_empty() || !above.trim().is_empty() {
+    if !above.trim().is_empty() {
         return None;
     }
+    let keys = keys_of(toml_header(document, line)).into_iter();
+    let items = keys.map(documented).collect();
+    Some(Offer { typed, items })
+}
+
+/// Returns the header of the table that a line of a `frictcomp.toml` belongs to; empty above the first one.
+pub(super) fn toml_header(document: &Document, line: u32) -> &str {
     let above = (0..line).rev().map(|line| document.line(line).trim());
     let mut headers = above.filter(|line| line.starts_with('['));
     let header = headers.next().unwrap_or_default();
-    let header = header.split('#').next().unwrap_or_default().trim();
-    let items = keys_of(header).into_iter().map(documented).collect();
-    Some(Offer { typed, items })
+    header.split('#').next().unwrap_or_default().trim()
 }
 
 fn documented(page: Page) -> CompletionItem {

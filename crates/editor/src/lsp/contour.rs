@@ -1,5 +1,5 @@
 //! `frictcomp/contour`: the path of a program with its deviation. The picture follows the cursor, and a
-//! place in it leads to its block (R12.17).
+//! place in it leads to its block (R12.17, R12.18).
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -74,6 +74,9 @@ struct BlockPath {
     line: u32,
     /// A line through points of the picture, in its units.
     points: Vec<[f64; 2]>,
+    /// Machine time at its end in s.
+    #[serde(rename = "end")]
+    end_s: f64,
 }
 
 /// A reversal with its description.
@@ -244,6 +247,7 @@ impl Contour {
             file: number(it.file),
             line: it.line.saturating_sub(1),
             points: it.points.into_iter().map(|it| it.map(tenths)).collect(),
+            end_s: it.end_s,
         });
         contour.stretches = stretches.collect();
         let worst = shown.worst.into_iter().map(|it| Worst {

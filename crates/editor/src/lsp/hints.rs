@@ -87,8 +87,11 @@ fn changes_of(run: &ProgramRun, passes: &[Pass<'_>], file: &str) -> String {
 }
 
 /// Returns the states of axes at the end that differ from those at the start of the control, with names
-/// as seen from a file: `leaves X inactive`.
+/// as seen from a file: `leaves X inactive`. The end of a program that is not checked to its end is not known.
 pub(super) fn left(run: &ProgramRun, file: &str) -> Option<String> {
+    if run.is_cut {
+        return Some("what it leaves is not known: it is not checked to its end".to_owned());
+    }
     let away = run.ends.iter().filter(|axis| axis.end != axis.start_up);
     let left = run.states.at_end();
     let away: Vec<String> = away

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind, Position};
 
-use super::completion::about;
+use super::completion::{about, toml_header};
 use super::documents::{Document, Kind};
 use super::markdown::{code, plain};
 use super::moving::{AxisMoves, moves};
-use super::parameters::page_of;
+use super::parameters::{page_of, page_of_toml};
 use super::states::{Pass, StateBook};
 use super::view::RequestView;
 use frictcomp::comp::{CompCommand, Selection};
@@ -23,7 +23,13 @@ pub(super) fn hover(view: &RequestView, params: &HoverParams) -> Option<Hover> {
     let text = match document.kind {
         Kind::Program => program(view, document, at.position),
         Kind::List => page_of(document.line(at.position.line)).map(|page| page.text),
-        Kind::Configuration | Kind::Other => None,
+        Kind::Configuration => {
+            let line = document.line(at.position.line);
+            let offset = view.client.encoding.offset(line, at.position.character);
+            let header = toml_header(document, at.position.line);
+            page_of_toml(line, offset, header).map(|page| page.text)
+        }
+        Kind::Other => None,
     };
     Some(Hover {
         contents: MarkupContent {
@@ -48,10 +54,12 @@ fn program(view: &RequestView, document: &Document, position: Position) -> Optio
             let caller = code(&shown_path(&main.path));
             let _ = writeln!(text, "\nCalled from {caller}:\n");
         }
-        text += &table(&run.states, &passes, &name);
+        let rows = rows(&run.states, &passes, &name);
+        text += &table(&rows, &passes);
         if main.uri == document.uri {
             for moves in moves(view, document, line) {
-                let _ = writeln!(text, "\n{}", moving(&moves));
+                let row = rows.iter().find(|row| row.axis == moves.axis);
+                let _ = writeln!(text, "\n{}", moving(&moves, row));
             }
         }
     }
@@ -101,42 +109,58 @@ fn meaning(command: &CompCommand) -> String {
     text
 }
 
-/// Returns the motion of an axis in the block.
-fn moving(moves: &AxisMoves) -> String {
+/// Returns the motion of an axis in the block, in the state that its row shows.
+fn moving(moves: &AxisMoves, row: Option<&HoverRow<'_>>) -> String {
     let AxisMoves {
         axis,
         times,
-        compensated,
         reversals,
         is_unsure,
     } = moves;
-    let compensation = match *compensated {
-        0 => "without friction compensation".to_owned(),
-        all if all == *times => "with friction compensation".to_owned(),
-        some => format!("with friction compensation {some} of {times} times"),
-    };
+    let state = row.map(|row| format!(" with friction compensation {}", row.after));
     let reversal = match (*reversals, is_unsure) {
         (0, false) => "does not reverse".to_owned(),
         (0, true) => "whether it reverses is not known".to_owned(),
         (1, _) if *times == 1 => "reverses".to_owned(),
         (count, _) => format!("reverses {count} times"),
     };
-    format!("{} moves {compensation}; {reversal}", plain(axis))
+    format!(
+        "{} moves{}; {reversal}",
+        plain(axis),
+        state.unwrap_or_default()
+    )
 }
 
-/// The states of each axis before and after a block, in all passes.
-fn table(states: &StateBook, passes: &[Pass<'_>], file: &str) -> String {
-    let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
+/// Friction compensation of an axis in a block, in words.
+struct HoverRow<'a> {
+    axis: &'a str,
+    before: String,
+    after: String,
+}
+
+/// Returns the states of each axis before and after a block, in all passes.
+fn rows<'a>(states: &'a StateBook, passes: &[Pass<'_>], file: &str) -> Vec<HoverRow<'a>> {
+    let total = passes.iter().map(|pass| u64::from(pass.times)).sum();
+    let axes = states.axes().iter().enumerate();
+    let rows = axes.map(|(at, axis)| HoverRow {
+        axis,
+        before: words(&of_all(passes, |pass| pass.before.told(at, file)), total),
+        after: words(&of_all(passes, |pass| pass.after.told(at, file)), total),
+    });
+    rows.filter(|row| !row.after.is_empty()).collect()
+}
+
+fn table(rows: &[HoverRow<'_>], passes: &[Pass<'_>]) -> String {
     let mut text = String::from("| axis | before | after |\n|---|---|---|\n");
-    for (at, axis) in states.axes().iter().enumerate() {
-        let before = of_all(passes, |pass| pass.before.told(at, file));
-        let after = of_all(passes, |pass| pass.after.told(at, file));
-        if after.is_empty() {
-            continue;
-        }
-        let (before, after) = (words(&before, total), words(&after, total));
+    for HoverRow {
+        axis,
+        before,
+        after,
+    } in rows
+    {
         let _ = writeln!(text, "| {} | {before} | {after} |", plain(axis));
     }
+    let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
     if total > 1 {
         let _ = writeln!(text, "\nexecuted {total} times");
     }

@@ -1,5 +1,4 @@
-//! The motion of the axes of a block: the compensation under which they move, and their reversals
-//! (R12.3).
+//! The motion of the axes of a block and their reversals (R12.3).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
@@ -7,7 +6,6 @@ use std::ops::ControlFlow;
 use super::analysis::options;
 use super::documents::Document;
 use super::view::RequestView;
-use frictcomp::comp::{Kind, State};
 use frictcomp::interpreter::{CircularArc, Motion, Motions, PathForm, SAME_PLACE, Travel};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::{Record, Row, Sink};
@@ -25,8 +23,6 @@ pub(super) struct AxisMoves {
     pub(super) axis: String,
     /// Number of motions.
     pub(super) times: u64,
-    /// Number of motions with friction compensation active.
-    pub(super) compensated: u64,
     /// Number of reversals at the beginning of the block or in it.
     pub(super) reversals: u64,
     /// Whether a target of it is not known.
@@ -126,20 +122,18 @@ impl Moves<'_> {
             }
             if is_here && !directions.is_empty() {
                 let name = row.state.name(*axis);
-                let state = row.state.state(*axis, Kind::Frict);
                 let is_unsure = directions.contains(&Direction::Unknown);
-                self.note(name, (state, turns), is_unsure.then_some(()));
+                self.note(name, turns, is_unsure.then_some(()));
             }
         }
     }
 
-    fn note(&mut self, axis: &str, (state, turns): (State, u64), unsure: Option<()>) {
+    fn note(&mut self, axis: &str, turns: u64, unsure: Option<()>) {
         let at = self.found.iter().position(|known| known.axis == axis);
         let at = at.unwrap_or_else(|| {
             self.found.push(AxisMoves {
                 axis: axis.to_owned(),
                 times: 0,
-                compensated: 0,
                 reversals: 0,
                 is_unsure: false,
             });
@@ -147,7 +141,6 @@ impl Moves<'_> {
         });
         let moves = &mut self.found[at];
         moves.times += 1;
-        moves.compensated += u64::from(state == State::Active);
         moves.reversals += turns;
         moves.is_unsure |= unsure.is_some();
     }

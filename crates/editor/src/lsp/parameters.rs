@@ -1,9 +1,14 @@
 //! Parameters of lists and keys of `frictcomp.toml`, each with a description for the user
 //! (R12.3, R12.6).
 
+use std::fmt::Write as _;
+
 use frictcomp::comp::Kind;
-use frictcomp::config;
+use frictcomp::config::{self, CONFIG_FORMS, Form, KeyForm};
 use frictcomp::lists::{AxisType, Field};
+
+/// Head of the table of a parameter.
+const TABLE_HEAD: &str = "| unit | range | default |\n|---|---|---|\n";
 
 /// A parameter of a list.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,7 +52,7 @@ pub(super) fn pages() -> Vec<Page> {
         Page {
             key: format!("frict_comp.{}", field.name()),
             text: format!(
-                "**{}** {}\n\n| unit | range | default |\n|---|---|---|\n| {unit} | {range} | {} |\n",
+                "**{}** {}\n\n{TABLE_HEAD}| {unit} | {range} | {} |\n",
                 field.number(),
                 meaning(field),
                 field.default()
@@ -55,26 +60,34 @@ pub(super) fn pages() -> Vec<Page> {
         }
     });
     let points = [
-        ("in", "a velocity, in \u{b5}m/s or 0.001\u{b0}/s"),
-        ("out", "the additive current at this velocity"),
+        (
+            "in",
+            "**P-COMP-00046** the velocity of a point of the friction curve",
+            "\u{b5}m/s, on rotary axes 0.001\u{b0}/s | from 0, each greater than the one before",
+        ),
+        (
+            "out",
+            "**P-COMP-00047** the additive current at the velocity of the point",
+            "that of the drive | that of the type, without its ends",
+        ),
     ];
-    let points = points.map(|(end, meaning)| Page {
+    let points = points.map(|(end, meaning, facts)| Page {
         key: format!("frict_comp.table[i].{end}"),
-        text: format!("a point of the friction curve: {meaning}\n"),
+        text: format!("{meaning}\n\n{TABLE_HEAD}| {facts} | 0 |\n"),
     });
     let selectors = Kind::ALL.into_iter().flat_map(|kind| {
         let facts = kind.facts();
         let selector = Page {
             key: facts.selector.to_owned(),
             text: format!(
-                "**{}** 1 configures the compensation `{kind}` of the axis, 0 does not; the control reads it at its start\n\n| unit | range | default |\n|---|---|---|\n| none | 0 or 1 | 0 |\n",
+                "**{}** 1 configures the compensation `{kind}` of the axis, 0 does not; the control reads it at its start\n\n{TABLE_HEAD}| none | 0 or 1 | 0 |\n",
                 facts.parameter
             ),
         };
         let manual = facts.manual_activation.map(|key| Page {
             key: key.to_owned(),
             text: format!(
-                "**{}** 1: `{kind}` is switched by the program only; it is off at the start of the control, at program end and after a reset\n",
+                "**{}** 1: `{kind}` is switched by the program only; it is off at the start of the control, at program end and after a reset\n\n{TABLE_HEAD}| none | 0 or 1 | 0 |\n",
                 facts.manual_parameter.unwrap_or("manual activation")
             ),
         });
@@ -133,15 +146,74 @@ fn without_index(key: &str) -> String {
     plain
 }
 
-/// The keys of a table of `frictcomp.toml`, each with an example; the tables themselves above the
-/// first one.
-pub(super) fn keys_of(table: &str) -> Vec<Page> {
-    let keys = config::keys(table).into_iter().flatten();
-    let pages = keys.map(|key| Page {
-        key: (*key).to_owned(),
-        text: config::example(key).unwrap_or_default().to_owned(),
+/// Returns the keys of a table of `frictcomp.toml`, by its header; an empty header is that of the file itself.
+pub(super) fn keys_of(header: &str) -> Vec<Page> {
+    let tables = CONFIG_FORMS.iter().enumerate();
+    let mut found = tables.filter(|(at, table)| match header {
+        "" => *at == 0,
+        header => table.header == header,
     });
-    pages.collect()
+    let keys = found.next().map_or(&[][..], |(_, table)| table.keys);
+    keys.iter().map(page_of_key).collect()
+}
+
+/// Returns the page of a key: its meaning, the form of its value, an example, and the parameter that it gives.
+fn page_of_key(key: &KeyForm) -> Page {
+    let mut text = format!("{}: {}\n", key.meaning, in_words(key.form));
+    if let Some(example) = config::example(key.key) {
+        let _ = writeln!(text, "\n{example}");
+    }
+    let is_it = |page: &Page| page.key.rsplit('.').next() == Some(key.key);
+    if let Some(parameter) = pages().into_iter().find(is_it) {
+        let _ = write!(text, "\n{}", parameter.text);
+    }
+    Page {
+        key: key.key.to_owned(),
+        text,
+    }
+}
+
+fn in_words(form: Form) -> String {
+    match form {
+        Form::Text => "a text".to_owned(),
+        Form::OneOf(words) => format!("one of `{}`", words.join("`, `")),
+        Form::Texts => "a list of texts".to_owned(),
+        Form::Kinds => format!("a list of {}", Kind::ALL.map(Kind::as_str).join(", ")),
+        Form::Truth => "`true` or `false`".to_owned(),
+        Form::TruthOrTexts => "`true`, `false` or a list of texts".to_owned(),
+        Form::WholeNumber => "a whole number from 0 to 65535".to_owned(),
+        Form::Positive => "a number above 0".to_owned(),
+        Form::Number => "a number".to_owned(),
+        Form::Within([from, to]) => format!("a number from {from} to {to}"),
+        Form::NumberOrText => "a number or a text".to_owned(),
+        Form::SkipLevels => "skip levels".to_owned(),
+        Form::Points(None) => "a list of pairs of numbers".to_owned(),
+        Form::Points(Some(most)) => format!("a list of at most {most} pairs of numbers"),
+        Form::Level => "a severity".to_owned(),
+        Form::Table(header) | Form::Tables(header) => format!("a table, `{header}`"),
+    }
+}
+
+/// Returns the page of the key of a `frictcomp.toml` around an offset of a line, in the table with a header.
+pub(super) fn page_of_toml(line: &str, offset: usize, header: &str) -> Option<Page> {
+    let is_key = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    let (before, after) = line.split_at_checked(offset)?;
+    let start = before.trim_end_matches(is_key);
+    let rest = after.trim_start_matches(is_key);
+    let word = &line[start.len()..line.len() - rest.len()];
+    let begins_a_key =
+        |text: &str| text.trim_end().is_empty() || text.trim_end().ends_with(['{', ',']);
+    let is_header = line.trim_start().starts_with('[');
+    let is_of_a_value = begins_a_key(start) && rest.trim_start().starts_with('=');
+    if !is_header && !is_of_a_value {
+        return None;
+    }
+    let inner = start.contains('{').then_some("[axis.value]");
+    let own = keys_of(inner.unwrap_or(header));
+    let own = own.into_iter().filter(|_| !is_header);
+    let tables = CONFIG_FORMS.iter().filter(|_| is_header);
+    let tables = tables.flat_map(|table| table.keys).map(page_of_key);
+    own.chain(tables).find(|page| page.key == word)
 }
 
 #[cfg(test)]
@@ -197,5 +269,34 @@ mod tests {
             .expect("a key");
         assert!(name.text.contains("lists/axis_x.lis"));
         assert!(keys_of("[nothing]").is_empty() && !keys_of("").is_empty());
+    }
+
+    #[test]
+    fn a_key_of_a_configuration_has_its_page_where_it_stands() {
+        // R12.21
+        let text = |line: &str, at: usize, header: &str| {
+            page_of_toml(line, at, header)
+                .map(|page| page.text)
+                .unwrap_or_default()
+        };
+        assert!(text("frict_comp = true", 3, "[[axis]]").contains("**P-AXIS-00522**"));
+        let value = "value = { mode = 3, position_delay = 4 }";
+        let delay = text(value, 24, "[[axis]]");
+        assert!(
+            delay.contains("**P-COMP-00043**") && delay.contains("| 0 to 10 | 0 |"),
+            "{delay}"
+        );
+        assert!(text("[axis.value]", 8, "[[axis]]").contains("[axis.value]"));
+        for (line, at) in [
+            ("frict_comp = true", 14),
+            ("# frict_comp", 5),
+            ("nothing = 1", 2),
+            ("", 0),
+            ("a", 9),
+        ] {
+            assert_eq!(text(line, at, "[[axis]]"), "", "{line}");
+        }
+        let page = page_of("frict_comp.table[3].in 5").expect("a page");
+        assert!(page.text.contains("**P-COMP-00046**") && page.text.contains("| 0 |"));
     }
 }

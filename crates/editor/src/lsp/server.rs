@@ -35,7 +35,7 @@ use super::project_calls::ProjectCalls;
 use super::refusal::Refusal;
 use super::requests::{Handler, Needs, handler};
 use super::uri::path_of;
-use super::users::Users;
+use super::users::{EditedText, Users};
 use super::view::RequestView;
 use super::worker::{Cancel, Worker};
 use frictcomp_host::SharedMap;
@@ -126,6 +126,8 @@ struct LspServer<'c> {
     calls: ProjectCalls,
     analyses: SharedMap<String, Arc<Analysis>>,
     users: Users,
+    /// Texts edited since the running check began, which it may have read as they were.
+    edited: Vec<EditedText>,
     delivery: Delivery,
     checks: Checks,
     checking: Worker<AnalysisJob>,
@@ -152,6 +154,7 @@ impl<'c> LspServer<'c> {
             calls,
             analyses: SharedMap::default(),
             users: Users::default(),
+            edited: Vec::new(),
             delivery: Delivery::default(),
             checks: Checks::default(),
             lanes: Lanes::new(&sender)?,
@@ -390,13 +393,15 @@ impl<'c> LspServer<'c> {
         let changed: Vec<_> = events.filter_map(|it| path_of(&it.uri.0)).collect();
         // A new file may be what was not found before.
         let has_new = !changed.iter().all(|path| self.users.are_of(path));
+        let running = self.checks.running().map(str::to_owned);
         let texts: BTreeSet<String> = if has_new {
             self.users.all().cloned().collect()
         } else {
             let users = changed.iter().flat_map(|path| self.users.of(path));
             users.cloned().collect()
         };
-        for uri in texts {
+        // A check that runs may have read the files as they were.
+        for uri in texts.into_iter().chain(running) {
             self.checks.expect(&uri, Outdated::ByOthers);
         }
     }
@@ -467,9 +472,13 @@ impl<'c> LspServer<'c> {
     }
 
     /// Schedules another check of the texts whose checks read a text, or may look for it.
-    fn expect_users(&mut self, changed: &Document) {
-        for uri in self.users.concerned(changed) {
+    fn expect_users(&mut self, document: &Document) {
+        let edited = EditedText::from(document);
+        for uri in self.users.concerned(&edited) {
             self.checks.expect(&uri, Outdated::ByOthers);
+        }
+        if self.checks.running().is_some() && !self.edited.contains(&edited) {
+            self.edited.push(edited);
         }
     }
 
@@ -477,6 +486,7 @@ impl<'c> LspServer<'c> {
         let Some(document) = self.documents.get(&Uri::from(uri)) else {
             return;
         };
+        self.edited.clear();
         let job = AnalysisJob {
             document: Arc::clone(document),
             disk: self.documents.disk(),
@@ -501,6 +511,10 @@ impl<'c> LspServer<'c> {
             CheckedFor::Itself
         };
         self.users.note(document, &analysis);
+        let is_outdated = |it: &EditedText| self.users.concerned(it).contains(&uri.0);
+        if self.edited.iter().any(is_outdated) {
+            self.checks.expect(&uri.0, Outdated::ByOthers);
+        }
         self.analyses.insert(uri.0.clone(), Arc::new(*analysis));
         let messages = self.delivery.checked(translator, (&uri.0, why), messages);
         self.publish(messages);

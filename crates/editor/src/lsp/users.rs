@@ -21,6 +21,24 @@ pub(super) struct Users {
     noted: BTreeMap<String, Noted>,
 }
 
+/// A text that was opened, changed or closed.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct EditedText {
+    uri: String,
+    path: PathBuf,
+    kind: Kind,
+}
+
+impl From<&Document> for EditedText {
+    fn from(document: &Document) -> Self {
+        Self {
+            uri: document.uri.0.clone(),
+            path: document.path.clone(),
+            kind: document.kind,
+        }
+    }
+}
+
 #[derive(Debug, Default)]
 struct Noted {
     files: Vec<PathBuf>,
@@ -76,19 +94,19 @@ impl Users {
 
     /// The other texts whose checks may change when a text is opened, changed or closed: those that read
     /// it, and if it has no file yet, those that may look for it.
-    pub(super) fn concerned(&self, document: &Document) -> Uris {
-        let mut concerned: Uris = self.of(&document.path).cloned().collect();
-        if !document.path.is_file() {
-            match document.kind {
+    pub(super) fn concerned(&self, edited: &EditedText) -> Uris {
+        let mut concerned: Uris = self.of(&edited.path).cloned().collect();
+        if !edited.path.is_file() {
+            match edited.kind {
                 Kind::Program | Kind::Other => {
-                    let callers = self.callers.get(&stem(&document.path));
+                    let callers = self.callers.get(&stem(&edited.path));
                     concerned.extend(callers.into_iter().flatten().cloned());
                 }
                 // They may be in any folder above a program.
                 Kind::List | Kind::Configuration => concerned.extend(self.all().cloned()),
             }
         }
-        concerned.remove(&document.uri.0);
+        concerned.remove(&edited.uri);
         concerned
     }
 }

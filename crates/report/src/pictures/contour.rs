@@ -56,6 +56,8 @@ pub struct BlockStretch {
     pub line: u32,
     /// A line through points of the picture, in its units.
     pub points: Vec<[f64; 2]>,
+    /// Machine time at its end in s.
+    pub end_s: f64,
 }
 
 /// A reversal with its description.
@@ -74,7 +76,8 @@ pub struct WorstReversal {
 #[derive(Debug, Clone)]
 pub struct ContourPicture {
     axes: [String; 2],
-    points: Vec<(PlanePoint, MarkedSpot)>,
+    /// Points of the path with their blocks, and the machine time of their last cycle in s.
+    points: Vec<(PlanePoint, MarkedSpot, f64)>,
     /// Cycles that are drawn as one point.
     every: u64,
     filled: u64,
@@ -135,7 +138,7 @@ impl ContourPicture {
             error: point.error_mm,
             stroke,
         };
-        self.keep(kept, spot);
+        self.keep((kept, spot, point.time_s));
         let names = &self.axes;
         for ((bands, state), name) in self.bands.iter_mut().zip(&*point.cause.friction).zip(names) {
             extend(bands, name, (point.time_s, *state));
@@ -143,27 +146,29 @@ impl ContourPicture {
     }
 
     /// Of the cycles that make a point, keeps the one with the largest deviation.
-    fn keep(&mut self, point: PlanePoint, spot: MarkedSpot) {
+    fn keep(&mut self, (point, spot, time_s): (PlanePoint, MarkedSpot, f64)) {
         let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
         let is_full = self.filled >= self.every;
         match self.points.last_mut() {
             Some(last) if !is_full && last.0.stroke == point.stroke => {
                 if size(&point) > size(&last.0) {
-                    *last = (point, spot);
+                    (last.0, last.1) = (point, spot);
                 }
+                last.2 = time_s;
                 self.filled += 1;
             }
             _ => {
-                self.points.push((point, spot));
+                self.points.push((point, spot, time_s));
                 self.filled = 1;
             }
         }
         if self.points.len() >= MOST_POINTS {
             let pairs = self.points.chunks(2);
             let joined = pairs.map(|pair| match pair {
-                [(one, _), (other, _)] if size(other) > size(one) || other.stroke != one.stroke => {
-                    pair[1].clone()
+                [one, other] if size(&other.0) > size(&one.0) || other.0.stroke != one.0.stroke => {
+                    other.clone()
                 }
+                [one, other] => (one.0, one.1.clone(), other.2),
                 _ => pair[0].clone(),
             });
             self.points = joined.collect();
@@ -214,7 +219,9 @@ impl ContourPicture {
 
     /// The path alone, in which an editor finds the block of a place and the place of a block.
     pub fn followed(mut self, program: &str) -> FollowedContour {
-        let spots: Vec<MarkedSpot> = self.points.iter().map(|(_, spot)| spot.clone()).collect();
+        let points = self.points.iter();
+        let spots: Vec<MarkedSpot> = points.clone().map(|(_, spot, _)| spot.clone()).collect();
+        let times: Vec<f64> = points.map(|(.., time_s)| *time_s).collect();
         self.rank();
         let worst = self
             .marks
@@ -237,6 +244,7 @@ impl ContourPicture {
             file: Arc::clone(&spots[end - 1].file),
             line: spots[end - 1].line,
             points,
+            end_s: times[end - 1],
         });
         FollowedContour {
             stretches: stretches.collect(),
@@ -283,7 +291,7 @@ impl ContourPicture {
             below: Some(self.strip()),
             title,
             description,
-            points: self.points.into_iter().map(|(point, _)| point).collect(),
+            points: self.points.into_iter().map(|(point, ..)| point).collect(),
             marks: self.marks.into_iter().map(|(mark, _)| mark).collect(),
             axes: self.axes,
         }

@@ -1,7 +1,7 @@
 /** The page of the contour: the picture, the block of the cursor on it, and the figures. */
 import type { Contour, Stretch } from "../protocol";
 import type { FromPage, ToPage } from "./messages";
-import { find, nearest, type Place } from "./places";
+import { find, machineTime, nearest, type Place } from "./places";
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
 
@@ -139,10 +139,10 @@ function follow(file: number, at: number): void {
   document.getElementById("cursor")?.replaceChildren(...own.map(line), ...ends.map(ring));
   if (own.length > 0) {
     const times = own.length > 1 ? `, ${own.length.toString()} times` : "";
-    here.textContent = `Line ${number} drives what is marked${times}.`;
+    here.textContent = `Line ${number} drives what is marked${times}, ${until(own)}.`;
   } else if (above) {
     const where = (above.line + 1).toString();
-    here.textContent = `Line ${number} has no stretch here; the ring marks the end of line ${where}.`;
+    here.textContent = `Line ${number} has no stretch here; the ring marks the end of line ${where}, ${until([above])}.`;
   } else {
     here.textContent = `Nothing up to line ${number} has a stretch here.`;
   }
@@ -150,6 +150,11 @@ function follow(file: number, at: number): void {
     const isHere = button.dataset.file === file.toString() && button.dataset.line === at.toString();
     button.toggleAttribute("aria-current", isHere);
   }
+}
+
+/** The machine time up to the last of some stretches. */
+function until(stretches: readonly Stretch[]): string {
+  return `${machineTime(Math.max(...stretches.map((stretch) => stretch.end)))} from the start`;
 }
 
 function end(stretch: Stretch): Place {

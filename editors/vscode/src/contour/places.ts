@@ -39,6 +39,15 @@ export function nearest(stretches: readonly Stretch[], place: Place, reach: numb
   return best;
 }
 
+/** A machine time in words: `8.3 s`, `4 min 5 s`. */
+export function machineTime(seconds: number): string {
+  if (seconds < 60) {
+    return `${seconds.toFixed(1)} s`;
+  }
+  const whole = Math.round(seconds);
+  return `${Math.floor(whole / 60).toString()} min ${(whole % 60).toString()} s`;
+}
+
 /** The distance of a place from a straight line between two points. */
 function distance([x, y]: Place, [fromX, fromY]: Place, [toX, toY]: Place): number {
   const along: Place = [toX - fromX, toY - fromY];

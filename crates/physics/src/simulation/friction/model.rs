@@ -28,7 +28,7 @@ frictcomp::words! {
 
 /// A word that is not the name of a friction model.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("there is no friction model `{0}`")]
+#[error("there is no friction model `{0}`; the models are {all}", all = FrictionModel::ALL.map(FrictionModel::as_str).join(", "))]
 pub struct UnknownFrictionModel(pub String);
 
 impl FrictionModel {

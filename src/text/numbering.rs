@@ -19,13 +19,13 @@ struct LineNumber<'a> {
 }
 
 /// The lines of a program and their numbers.
-pub(super) struct Numbering<'a> {
+pub(crate) struct Numbering<'a> {
     lines: Vec<&'a str>,
     taken: BTreeSet<u64>,
 }
 
 impl<'a> Numbering<'a> {
-    pub(super) fn of(text: &'a str) -> Self {
+    pub(crate) fn of(text: &'a str) -> Self {
         let lines: Vec<&str> = lines(text).collect();
         let numbers = lines.iter().filter_map(|line| number(line));
         Self {
@@ -35,18 +35,18 @@ impl<'a> Numbering<'a> {
     }
 
     /// The lines of the program, without their ends.
-    pub(super) fn lines(&self) -> &[&'a str] {
+    pub(crate) fn lines(&self) -> &[&'a str] {
         &self.lines
     }
 
     /// Marks the number of a block as taken.
-    pub(super) fn take(&mut self, block: &str) {
+    pub(crate) fn take(&mut self, block: &str) {
         self.taken.extend(number(block).map(|number| number.value));
     }
 
     /// Returns a command as a block before a line (from 1), with a number that is taken from then
     /// on.
-    pub(super) fn block(&mut self, line: u32, command: &str) -> String {
+    pub(crate) fn block(&mut self, line: u32, command: &str) -> String {
         let at = usize::try_from(line.saturating_sub(1)).unwrap_or(usize::MAX);
         let at = at.min(self.lines.len());
         let (before, after) = self.lines.split_at(at);
@@ -80,7 +80,9 @@ impl<'a> Numbering<'a> {
         } else {
             0
         };
-        format!("{}{free:0zeros$} {command}", pattern.before)
+        // A lower-case `n` is no word of the control (R1.8).
+        let before = pattern.before.to_ascii_uppercase();
+        format!("{before}{free:0zeros$} {command}")
     }
 
     /// Returns a free number between two others, or else above all of them.
@@ -151,10 +153,10 @@ mod tests {
 
     #[test]
     fn a_number_is_free_and_written_like_its_neighbours() {
-        // R10.3
+        // R10.3, R12.20
         for (text, line, wanted) in [
             ("N10 X1\nN20 M30\n", 2, "N15 "),
-            ("  n0010 X1\r\n  n0020 M30\r\n", 2, "  n0015 "),
+            ("  n0010 X1\r\n  n0020 M30\r\n", 2, "  N0015 "),
             ("N1 X1\nN2 M30\n", 2, "N3 "),
             ("N10 X1\nN20 M30\nN15 X2\n", 2, "N16 "),
             ("N10 X1\nN12 M30\nN11 X2\n", 2, "N14 "),

@@ -105,7 +105,7 @@ pub mod timeline;
 pub use comp::{CompCommand, Compensation, CompensationError};
 pub use diagnostic::{Code, Diagnostic, Severity};
 pub use facade::{check, run};
-pub use language::{Refusal, RefusalCheck};
+pub use language::{ControlError, ControlErrorCheck};
 pub use machine::Machine;
 pub use session::Session;
 pub use syntax::{NoSkipLevels, SkipLevels, parse_comp};

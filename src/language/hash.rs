@@ -47,6 +47,8 @@ pub(crate) struct HashCommand {
     pub(crate) path: PathFlow,
     /// Open question on which its effect rests.
     pub(crate) basis: Option<Question>,
+    /// Error of the control for a COMP command up to its end (R2.109).
+    pub(crate) refuses_comp: Option<u32>,
     /// Where it flushes the channel and the control refuses it (R2.111).
     pub(crate) flushes: Flushes,
     /// Name in the state and in messages, where that is another command's.
@@ -280,6 +282,7 @@ impl HashCommand {
             plc: Plc::Absent,
             path: PathFlow::MayRest,
             basis: None,
+            refuses_comp: None,
             flushes: Flushes::Never,
             known_as: None,
         }
@@ -298,6 +301,7 @@ impl HashCommand {
         plc(plc: Plc) = plc;
         path(path: PathFlow) = path;
         basis(question: Question) = Some(question);
+        refuses_comp(number: u32) = Some(number);
         flushes(under: Flushes) = under;
         known_as(name: &'static str) = Some(name);
     }
@@ -382,7 +386,7 @@ static COMMANDS: &[HashCommand] = {
         "#COMMENT" ("PM/205979659") path(GoesOn);
         "#COMMENT BEGIN" ("PM/205979659") action(Comment) until("#COMMENT END") path(GoesOn);
         "#COMMENT END" ("PM/205979659") action(EndComment) path(GoesOn);
-        "#CONTOUR BEGIN" (EDITOR) action(Describe) until("#CONTOUR END");
+        "#CONTOUR BEGIN" (EDITOR) action(Describe) until("#CONTOUR END") refuses_comp(22101);
         "#CONTOUR END" (EDITOR) action(EndDescription);
         "#CONTOUR MODE" ("tccncprogramming/15557317259") action(Round(ContouringCommand::Contour)) simplifies(Contouring);
         "#CONTROL AREA" ("tccncprogramming/15557317259");
@@ -521,7 +525,7 @@ static COMMANDS: &[HashCommand] = {
         "#START" (EDITOR);
         "#STOP REVERSIBLE" (EDITOR);
         "#STROKE DEF" (EDITOR);
-        "#STROKE DEF BEGIN" (EDITOR) action(Describe) until("#STROKE DEF END");
+        "#STROKE DEF BEGIN" (EDITOR) action(Describe) until("#STROKE DEF END") refuses_comp(120_716);
         "#STROKE DEF END" (EDITOR) action(EndDescription);
         "#SUPPRESS OFFSETS" (EDITOR) chain(Origin) sharing(WordsBefore);
         "#SURFACE" (EDITOR);

@@ -39,6 +39,6 @@ pub(crate) use hash::{
 };
 pub(crate) use motion::{AxisWords, MotionEffect, Moves};
 pub use motion::{Certainty, MotionKind};
-pub use refusal::{Refusal, RefusalCheck};
+pub use refusal::{ControlError, ControlErrorCheck};
 pub(crate) use simplification::Holds;
 pub use simplification::{Simplification, Simplifications};

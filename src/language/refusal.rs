@@ -7,7 +7,7 @@
 /// An error of the control that has its cause in a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Refusal {
+pub struct ControlError {
     /// The number, without `P-ERR-`.
     pub number: u32,
     /// What is refused.
@@ -15,7 +15,7 @@ pub struct Refusal {
     /// The page that describes it, by its number; empty where only the number or its title was found.
     pub page: &'static str,
     /// Result of a dry run.
-    pub check: RefusalCheck,
+    pub check: ControlErrorCheck,
     /// What to write instead.
     pub cure: &'static str,
 }
@@ -23,7 +23,7 @@ pub struct Refusal {
 /// Result of a dry run where the control refuses a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum RefusalCheck {
+pub enum ControlErrorCheck {
     /// An error with the number of the control.
     Error,
     /// A warning, and both ways: the page or a list leaves open whether the case is refused.
@@ -34,7 +34,7 @@ pub enum RefusalCheck {
     Open(&'static str),
 }
 
-impl RefusalCheck {
+impl ControlErrorCheck {
     /// What frictcomp does.
     pub fn words(self) -> String {
         match self {
@@ -48,21 +48,21 @@ impl RefusalCheck {
 
 macro_rules! refusals {
     ($($number:literal $page:literal $check:expr, $refused:literal, $cure:literal;)+) => {
-        &[$(Refusal { number: $number, refused: $refused, page: $page, check: $check, cure: $cure }),+]
+        &[$(ControlError { number: $number, refused: $refused, page: $page, check: $check, cure: $cure }),+]
     };
 }
 
 /// The rows, in the order of their numbers.
-static REFUSALS: &[Refusal] = {
-    use RefusalCheck::{Error, Open, Possible, Said};
+static REFUSALS: &[ControlError] = {
+    use ControlErrorCheck::{Error, Open, Possible, Said};
     refusals! {
         20008 "250515083" Error, "the first feed move of a program for which neither the program nor the channel list gives a feed",
             "write a feed before the first feed move";
-        20100 "PM/207916683" Possible, "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
+        20100 "PM/207916683" Open("frictcomp does not look for it yet"), "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
             "write a variable of your own";
         20131 "206278923" Error, "G80 without a program, and a G function that the control does not know",
             "name the program, `g80_prog_file` in the channel list";
-        20160 "diagnosis" Error, "an M function above 1000, and one above the number that P-CHAN-00041 allows",
+        20160 "diagnosis" Error, "an M function above 1000; one that P-CHAN-00041 does not allow is not looked for",
             "use a number up to 1000";
         20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
             "write `%1234` for the name of a program";
@@ -82,7 +82,7 @@ static REFUSALS: &[Refusal] = {
             "declare it once";
         20915 "" Open("no page describes it"), "`#DELETE` of a `V.E.` variable",
             "delete variables of your own only";
-        20933 "486167307" Possible, "`#DELETE` of a `V.CYC.` variable of an outer level",
+        20933 "486167307" Open("frictcomp does not look for it yet"), "`#DELETE` of a `V.CYC.` variable of an outer level",
             "delete it in the cycle that declares it";
         20966 "253121931" Error, "a dimension below 1 in the declaration of an array",
             "declare at least one element";
@@ -116,7 +116,7 @@ static REFUSALS: &[Refusal] = {
             "write `$ENDIF`";
         21768 "" Said("FC312"), "an index on a variable that is no array",
             "declare it as an array";
-        21772 "255959435" Possible, "a `V.I.` array that exists with other dimensions",
+        21772 "255959435" Open("frictcomp does not look for it yet"), "a `V.I.` array that exists with other dimensions",
             "declare it with the dimensions that it has";
         22008 "480201355" Possible, "several implicit calls in one block",
             "write each in a block of its own";
@@ -141,7 +141,7 @@ static REFUSALS: &[Refusal] = {
     }
 };
 
-impl Refusal {
+impl ControlError {
     /// Its page: what is refused, what frictcomp does, and the source.
     pub fn explanation(&self) -> String {
         let Self {
@@ -200,17 +200,17 @@ mod tests {
                 row.number, row.refused
             )
         });
-        let count = |is_it: fn(&RefusalCheck) -> bool| {
+        let count = |is_it: fn(&ControlErrorCheck) -> bool| {
             REFUSALS.iter().filter(|row| is_it(&row.check)).count()
         };
         let fresh = format!(
             "{HEAD}\nOf {} numbers {} are errors here, {} are warnings with both ways, {} have another message, {} are \
              not looked at.\n\n| number | what the control refuses | frictcomp | source |\n|---|---|---|---|\n{}",
             REFUSALS.len(),
-            count(|it| *it == RefusalCheck::Error),
-            count(|it| *it == RefusalCheck::Possible),
-            count(|it| matches!(it, RefusalCheck::Said(_))),
-            count(|it| matches!(it, RefusalCheck::Open(_))),
+            count(|it| *it == ControlErrorCheck::Error),
+            count(|it| *it == ControlErrorCheck::Possible),
+            count(|it| matches!(it, ControlErrorCheck::Said(_))),
+            count(|it| matches!(it, ControlErrorCheck::Open(_))),
             rows.collect::<String>()
         );
         if std::env::var_os("UPDATE_DOCS").is_some() {
@@ -232,10 +232,10 @@ mod tests {
         assert!(REFUSALS.is_sorted_by(|one, next| one.number < next.number));
         for row in REFUSALS {
             let code = match row.check {
-                RefusalCheck::Error => format!("P-ERR-{}", row.number),
-                RefusalCheck::Possible => "FC328".to_owned(),
-                RefusalCheck::Said(code) => code.to_owned(),
-                RefusalCheck::Open(_) => continue,
+                ControlErrorCheck::Error => format!("P-ERR-{}", row.number),
+                ControlErrorCheck::Possible => "FC328".to_owned(),
+                ControlErrorCheck::Said(code) => code.to_owned(),
+                ControlErrorCheck::Open(_) => continue,
             };
             assert!(code.parse::<Code>().is_ok(), "{}: {code}", row.number);
         }

@@ -1,7 +1,7 @@
 //! Faults in the text of a block.
 
 use crate::diagnostic::{Advice, Code, Diagnostic, Fix};
-use crate::language::Refusal;
+use crate::language::ControlError;
 use crate::text::{Place, Span};
 
 /// A statement about the text of one block: a diagnostic whose span counts from the block's start.
@@ -42,7 +42,7 @@ impl Fault {
 
     /// Adds the advice on an error of the control.
     pub(crate) fn with_cure(self, number: Option<u32>) -> Self {
-        match number.and_then(Refusal::of) {
+        match number.and_then(ControlError::of) {
             Some(row) => self.with_help(row.cure),
             None => self,
         }

@@ -66,14 +66,9 @@ impl Interpreter {
         let Some(described) = &self.state.control.described else {
             return;
         };
-        let opener = described.opener.words;
-        let number = match opener {
-            "#CONTOUR BEGIN" => Some(22101),
-            "#STROKE DEF BEGIN" => Some(120_716),
-            _ => None,
-        };
-        let what = format!("a COMP command stands within `{opener}`");
-        self.may_refuse(number, &what, command.span, at);
+        let opener = described.opener;
+        let what = format!("a COMP command stands within `{}`", opener.words);
+        self.may_refuse(opener.refuses_comp, &what, command.span, at);
     }
 
     /// FC902: the PLC may skip the command (R2.109).

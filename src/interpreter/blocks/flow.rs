@@ -8,6 +8,7 @@ use std::ops::Range;
 use super::reported::StopScope;
 use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
+use crate::interpreter::programs::builder::without_end;
 use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, Links};
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::control::ControlState;
@@ -541,12 +542,6 @@ impl ControlState {
             frame.seeking = Some(seeking);
         }
     }
-}
-
-/// The statement that an `$IF` or `#IF` has no end.
-pub(crate) fn without_end(opener: &str) -> String {
-    let sign = opener.trim().get(..1).unwrap_or("$");
-    format!("this `{sign}IF` has no `{sign}ENDIF`")
 }
 
 /// Whether rounding decides whether a counter has passed its end: its step is not exact in binary, or it comes near

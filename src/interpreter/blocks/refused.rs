@@ -18,13 +18,34 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let (number, span) = (number.into(), at.in_block(span));
+        let number = number.into();
+        let asked = (Unknown::Refused(number), StopScope::Block);
+        self.may_refuse_with(number, what, asked, span, at);
+    }
+
+    /// FC328 for a variable that no `#VAR` declares: the control has one answer for all of them (R2.102).
+    #[cold]
+    pub(crate) fn miss_declaration(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
+        let what = format!("`{name}` is written without a declaration in `#VAR`");
+        let asked = (Unknown::Undeclared, StopScope::Rest);
+        self.may_refuse_with(None, &what, asked, span, at);
+    }
+
+    fn may_refuse_with(
+        &mut self,
+        number: Option<u32>,
+        what: &str,
+        asked: (Unknown, StopScope),
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        let span = at.in_block(span);
         if self.state.is_new_word(what) {
             let error = number.map_or_else(String::new, |number| format!(" ({number})"));
             let message = format!("{what}; the control may refuse it{error}");
             let fault = Fault::new(Code::Fc328, span, message).with_cure(number);
             self.say_before_parting(at.diagnostic(fault));
         }
-        self.perhaps_stop((Unknown::Refused(number), StopScope::Block), span, at);
+        self.perhaps_stop(asked, span, at);
     }
 }

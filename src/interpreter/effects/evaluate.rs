@@ -330,11 +330,7 @@ impl Interpreter {
             _ => false,
         };
         if needs_declaration && memory.is_absent(name) {
-            let what = format!(
-                "`{}` is written without a declaration in `#VAR`",
-                name.array()
-            );
-            self.may_refuse(None, &what, span, at);
+            self.miss_declaration(name.array(), span, at);
         } else if name.family() == VariableFamily::Internal && memory.is_absent(name) {
             self.miss_internal(name.array(), span, at);
         }

@@ -5,7 +5,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::saved_config::{Saved, SavedConfig};
+use crate::interpreter::run::saved_config::{SavedConfig, SavedItem};
 use crate::language::ConfigAction;
 use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
@@ -27,8 +27,8 @@ impl Interpreter {
         match action {
             ConfigAction::Clear => {
                 self.state.control.saved = SavedConfig {
-                    axes: Saved::Nothing,
-                    links: Saved::Nothing,
+                    axes: SavedItem::Nothing,
+                    links: SavedItem::Nothing,
                 };
             }
             // Whether both are meant is not documented.
@@ -51,12 +51,12 @@ impl Interpreter {
 
     fn load_axes(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         match self.state.control.saved.axes.clone() {
-            Saved::Known(axes) => self.state.control.channel_axes = axes,
-            Saved::Nothing => {
+            SavedItem::Known(axes) => self.state.control.channel_axes = axes,
+            SavedItem::Nothing => {
                 let what = "no axes are saved, and the control refuses to restore them";
                 return Err(Fault::refused(Code::PErr21274, hash.span, what));
             }
-            Saved::Perhaps => {
+            SavedItem::Perhaps => {
                 let what =
                     "which axes are restored here is not known: no program of this run saved them";
                 self.may_refuse(21274, what, hash.span, at);
@@ -68,15 +68,15 @@ impl Interpreter {
 
     fn load_links(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         match self.state.control.saved.links.clone() {
-            Saved::Known(axes) => {
+            SavedItem::Known(axes) => {
                 self.release_couplings();
                 self.restore_couplings(RESTORED_GROUP, axes);
             }
-            Saved::Nothing => {
+            SavedItem::Nothing => {
                 let what = "no couplings are saved, and the control refuses to restore them";
                 return Err(Fault::refused(Code::PErr21275, hash.span, what));
             }
-            Saved::Perhaps => {
+            SavedItem::Perhaps => {
                 let what = "which couplings are restored here is not known: no program of this run saved them";
                 self.may_refuse(21275, what, hash.span, at);
                 self.couple_any();
@@ -107,15 +107,15 @@ impl ControlState {
     fn save_config(&mut self, axes: bool, links: bool) {
         if axes {
             self.saved.axes = match self.channel_axes.doubtful {
-                true => Saved::Perhaps,
-                false => Saved::Known(self.channel_axes.clone()),
+                true => SavedItem::Perhaps,
+                false => SavedItem::Known(self.channel_axes.clone()),
             };
         }
         if links {
             self.saved.links = match self.couplings.in_force() {
-                Some(axes) if axes.is_empty() => Saved::Nothing,
-                Some(axes) => Saved::Known(axes),
-                None => Saved::Perhaps,
+                Some(axes) if axes.is_empty() => SavedItem::Nothing,
+                Some(axes) => SavedItem::Known(axes),
+                None => SavedItem::Perhaps,
             };
         }
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::merging::MetWays;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Collected, Diagnostic};
-use crate::interpreter::blocks::flow::without_end;
+use crate::interpreter::programs::builder::without_end;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::programs::unit::SourceUnit;

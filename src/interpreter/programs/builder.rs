@@ -206,7 +206,7 @@ impl Builder {
         }
         let open = std::mem::take(&mut self.open);
         let is_if = |open: &Open| open.kind == ControlBlock::If && open.sign.is_some();
-        if open.iter().all(is_if) {
+        if open.len() <= self.nesting && open.iter().all(is_if) {
             for mut open in open {
                 self.index.unclosed.insert(open.opener);
                 open.parts.push(end);
@@ -558,6 +558,12 @@ impl Builder {
 
 fn is_jump(item: &Item) -> bool {
     matches!(item, Item::Flow(Flow::Goto(_), _))
+}
+
+/// The statement that an `$IF` or `#IF` has no end.
+pub(crate) fn without_end(opener: &str) -> String {
+    let sign = opener.trim().get(..1).unwrap_or("$");
+    format!("this `{sign}IF` has no `{sign}ENDIF`")
 }
 
 fn not_closed(open: &Open) -> Option<Fault> {

@@ -7,7 +7,7 @@ use crate::comp::AxisIndex;
 
 /// A configuration that `#LOAD CONFIG` restores.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) enum Saved<T> {
+pub(crate) enum SavedItem<T> {
     /// An earlier program may have saved one.
     #[default]
     Perhaps,
@@ -21,12 +21,12 @@ pub(crate) enum Saved<T> {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SavedConfig {
     /// The axes of the channel.
-    pub(crate) axes: Saved<ChannelAxes>,
+    pub(crate) axes: SavedItem<ChannelAxes>,
     /// The pairs of coupled axes.
-    pub(crate) links: Saved<Vec<AxisIndex>>,
+    pub(crate) links: SavedItem<Vec<AxisIndex>>,
 }
 
-impl<T: PartialEq> Saved<T> {
+impl<T: PartialEq> SavedItem<T> {
     fn join(&mut self, other: &Self) {
         if self != other {
             *self = Self::Perhaps;

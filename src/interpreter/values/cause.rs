@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::externals::SetAt;
 use crate::diagnostic::{Advice, Budget};
-use crate::language::{Refusal, is_command};
+use crate::language::{ControlError, is_command};
 
 /// Something that only the machine knows and that makes values unknown (R2.50).
 ///
@@ -32,6 +32,9 @@ pub enum Unknown {
     MissingLabel,
     /// Whether the control refuses a block, by the number of its error where that is public (R2.114).
     Refused(Option<u32>),
+    /// Whether the control takes variables that no `#VAR` declares (R2.102).
+    #[serde(rename = "a missing declaration")]
+    Undeclared,
     /// The last digits of a computed number (R2.112; PM/206929163).
     #[serde(rename = "the rounding of a computed number")]
     Rounding,
@@ -146,7 +149,7 @@ impl Unknown {
             Self::Program(word) => format!("the program of `{word}`, which is missing"),
             Self::Changed(changed) => changed.seen_from(file),
             Self::RemedyClass => format!("what the control does at `{self}`"),
-            Self::MissingLabel => format!("what the control does at {self}"),
+            Self::MissingLabel | Self::Undeclared => format!("what the control does at {self}"),
             Self::Refused(_) => format!("whether the control refuses a block by {self}"),
             Self::Rounding => format!("{self}, which the control may do otherwise"),
             Self::Passes => "how often a loop is repeated".to_owned(),
@@ -175,7 +178,8 @@ impl Unknown {
             Self::Changed(changed) => Advice::SetVariable(changed.name.to_string()),
             Self::RemedyClass => "`RC=0` lets the program go on, `RC=2` stops it".into(),
             Self::MissingLabel => "write the label that the jump looks for".into(),
-            Self::Refused(number) => number.and_then(Refusal::of).map_or("", |row| row.cure).into(),
+            Self::Refused(number) => number.and_then(ControlError::of).map_or("", |row| row.cure).into(),
+            Self::Undeclared => "declare the variable between `#VAR` and `#ENDVAR`".into(),
             Self::Rounding => "compare with a tolerance, `ABS[P1 - 0.3] < 0.001`".into(),
             Self::Passes => "give the values that decide how often the loop is repeated".into(),
             Self::Ways => Advice::RaiseBudget(Budget::Ways),
@@ -229,6 +233,7 @@ impl fmt::Display for Unknown {
             Self::MissingLabel => f.write_str("a missing jump label"),
             Self::Refused(Some(number)) => write!(f, "error {number}"),
             Self::Refused(None) => f.write_str("an error"),
+            Self::Undeclared => f.write_str("a missing declaration"),
             Self::Rounding => f.write_str("the rounding of a computed number"),
             Self::Passes => f.write_str("a loop that is repeated"),
             Self::Ways => f.write_str("ways that are not followed"),

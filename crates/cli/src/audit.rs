@@ -38,9 +38,9 @@ use frictcomp_report::audit::{
 use frictcomp_report::html::render_audit;
 use frictcomp_report::{counted, fitted};
 
-/// Show what the order of programs does: which ones leave an axis away from its start-up state, and which move it
-/// in the state that they find
+/// Show what the order of programs does, and end its hazards
 ///
+/// Shows which programs leave an axis away from its start-up state, and which move it in the state that they find.
 /// Each program runs twice, once with every configured axis in its start-up state and once with every one away
 /// from it. This shows what it does after any other program.
 #[derive(Debug, Args)]

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 36] = [
+static EXAMPLES: [Examples; 40] = [
     examples(
         &["run"],
         [
@@ -42,13 +42,6 @@ static EXAMPLES: [Examples; 36] = [
         ],
     ),
     examples(
-        &["graph"],
-        [
-            "frictcomp graph programs",
-            "frictcomp graph --format dot -o calls.dot programs",
-        ],
-    ),
-    examples(
         &["diff"],
         [
             "frictcomp diff mill-old.nc mill.nc",
@@ -57,6 +50,27 @@ static EXAMPLES: [Examples; 36] = [
     ),
     examples(&["show"], FILES),
     examples(&["show", "files"], FILES),
+    examples(
+        &["show", "calls"],
+        [
+            "frictcomp show calls programs",
+            "frictcomp show calls --format dot -o calls.dot programs",
+        ],
+    ),
+    examples(
+        &["show", "values"],
+        [
+            "frictcomp show values programs",
+            "frictcomp show values --format ndjson mill.nc",
+        ],
+    ),
+    examples(
+        &["show", "passed-over"],
+        [
+            "frictcomp show passed-over programs",
+            "frictcomp show passed-over --format json mill.nc",
+        ],
+    ),
     examples(
         &["lists"],
         [
@@ -134,25 +148,24 @@ static EXAMPLES: [Examples; 36] = [
             "frictcomp replay states.csv mill.nc --format json",
         ],
     ),
+    examples(&["ask"], ASK),
+    examples(&["ask", "write"], ASK),
     examples(
-        &["ask"],
+        &["ask", "read"],
         [
-            "frictcomp ask --axis X -o questions",
-            "frictcomp ask --list",
+            "frictcomp ask read message.txt",
+            "frictcomp ask read message.txt --cnc-build 3.1.3132.0",
         ],
+    ),
+    examples(
+        &["ask", "list"],
+        ["frictcomp ask list", "frictcomp ask list --format json"],
     ),
     examples(
         &["conformance"],
         [
             "frictcomp conformance conformance",
             "frictcomp conformance --export cases conformance",
-        ],
-    ),
-    examples(
-        &["trend"],
-        [
-            "frictcomp trend recordings",
-            "frictcomp trend recordings --axis X --svg trend.svg",
         ],
     ),
     examples(&["commission"], COMMISSION),
@@ -165,22 +178,22 @@ static EXAMPLES: [Examples; 36] = [
         ],
     ),
     examples(
-        &["learn"],
+        &["commission", "learn"],
         [
-            "frictcomp learn learning --plant mid --friction comp_x.lis",
-            "frictcomp learn learning --plant mid",
+            "frictcomp commission learn learning --plant mid --friction comp_x.lis",
+            "frictcomp commission learn learning --plant mid",
+        ],
+    ),
+    examples(
+        &["commission", "trend"],
+        [
+            "frictcomp commission trend recordings",
+            "frictcomp commission trend recordings --axis X --svg trend.svg",
         ],
     ),
     examples(
         &["explain"],
-        [
-            "frictcomp explain FC401",
-            "frictcomp explain frict_comp.position_delay",
-        ],
-    ),
-    examples(
-        &["codes"],
-        ["frictcomp codes", "frictcomp codes --format json"],
+        ["frictcomp explain FC401", "frictcomp explain --format json"],
     ),
     examples(
         &["config"],
@@ -220,6 +233,12 @@ static EXAMPLES: [Examples; 36] = [
 const COMMISSION: [&str; 2] = [
     "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000 -o m",
     "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 -o x",
+];
+
+/// The tests on one axis, and the list of all.
+const ASK: [&str; 2] = [
+    "frictcomp ask write --axis X --into questions",
+    "frictcomp ask list",
 ];
 
 /// The files of a folder.

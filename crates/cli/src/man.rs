@@ -45,8 +45,7 @@ fn commands(command: clap::Command) -> Vec<clap::Command> {
         // Propagates global options to the subcommands.
         command.build();
         let name = command.get_display_name().unwrap_or("frictcomp").to_owned();
-        let below = command.get_subcommands().filter(|it| !it.is_hide_set());
-        open.extend(below.map(|it| {
+        open.extend(command.get_subcommands().map(|it| {
             let whole = format!("{name}-{}", it.get_name());
             it.clone().display_name(whole)
         }));

@@ -39,7 +39,7 @@ const MAX_CIRCLES: usize = 32;
 /// Largest number of plants.
 const MAX_PLANTS: usize = 16;
 
-/// Find the value lists with the smallest glitch on a simulated machine
+/// Find the value lists with the smallest glitch on simulated drives
 ///
 /// Searches `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` within
 /// their documented ranges for the smallest worst glitch over all circles, then shapes the points

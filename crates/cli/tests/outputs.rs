@@ -398,7 +398,7 @@ mod unix {
             &["--help"][..],
             &["run", "--help"],
             &["--version"],
-            &["codes"],
+            &["explain"],
         ] {
             let full = fs::File::options()
                 .write(true)

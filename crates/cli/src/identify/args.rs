@@ -16,7 +16,7 @@ use frictcomp_recordings::identify::{
 use frictcomp_report::identify::IdentifyReport;
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 
-/// Find the friction of an axis in a recorded trace and make a value list of it
+/// Find the friction of an axis in recordings, and its value list
 ///
 /// Record torque and commanded velocity while the axis moves back and forth at constant speeds:
 /// docs/identification.md says how. Without options the columns `t` (s), `v` (µm/s or 0.001°/s), `x`

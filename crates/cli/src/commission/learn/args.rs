@@ -1,4 +1,4 @@
-//! The arguments of `frictcomp learn`.
+//! The arguments of `frictcomp commission learn`.
 
 use std::path::PathBuf;
 

@@ -1,18 +1,18 @@
-//! `frictcomp trend`: the friction of an axis over the dates of its recordings (R16.6).
+//! `frictcomp commission trend`: the friction of an axis over the dates of its recordings (R16.6).
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::channels::{AxisChannelArgs, TorqueArgs};
-use super::console::Console;
-use super::cycle::CycleArgs;
-use super::exit;
-use super::failure::Failure;
-use super::identify::refusal;
-use super::outputs::{Outputs, write_text};
-use super::recorded_files::{copies_among, recordings_in};
-use super::result::ResultFormat;
+use crate::channels::{AxisChannelArgs, TorqueArgs};
+use crate::console::Console;
+use crate::cycle::CycleArgs;
+use crate::exit;
+use crate::failure::Failure;
+use crate::identify::refusal;
+use crate::outputs::{Outputs, write_text};
+use crate::recorded_files::{copies_among, recordings_in};
+use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
@@ -26,7 +26,7 @@ use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_te
 /// lists where Fc, Fs, the viscous part or the offset changed by more than 3 combined errors and 5 %. Give
 /// recordings of the same state, for example warm, of one axis.
 #[derive(Debug, Args)]
-pub(super) struct TrendArgs {
+pub(crate) struct TrendArgs {
     /// The folder with the recordings
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
@@ -45,7 +45,7 @@ pub(super) struct TrendArgs {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
+pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     let paths = recordings_in(&args.folder)?;
     let registry = FileRegistry::default();
     for path in &paths {

@@ -1,4 +1,4 @@
-//! `frictcomp learn`: from recorded circles with a list to the next list (R16.4).
+//! `frictcomp commission learn`: from recorded circles with a list to the next list (R16.4).
 
 mod args;
 mod folder;

@@ -31,7 +31,7 @@ static EXAMPLES: [Examples; 40] = [
         &["audit"],
         [
             "frictcomp audit programs",
-            "frictcomp audit --fix smaller programs",
+            "frictcomp audit --diff programs",
         ],
     ),
     examples(
@@ -109,7 +109,7 @@ static EXAMPLES: [Examples; 40] = [
     examples(
         &["tune"],
         [
-            "frictcomp tune --plant mid --feeds 5000 --no-shaping -o comp_x.lis",
+            "frictcomp tune --plant mid --feeds 5000 --no-shaping --write-list comp_x.lis",
             "frictcomp tune --accelerations 70 --no-shaping --svg glitch.svg",
         ],
     ),
@@ -130,7 +130,7 @@ static EXAMPLES: [Examples; 40] = [
     examples(
         &["identify"],
         [
-            "frictcomp identify friction.csv --axis X -o new_x.lis",
+            "frictcomp identify friction.csv --axis X --write-list new_x.lis",
             "frictcomp identify friction.csv --points 5 --svg friction.svg",
         ],
     ),
@@ -165,7 +165,7 @@ static EXAMPLES: [Examples; 40] = [
         &["conformance"],
         [
             "frictcomp conformance conformance",
-            "frictcomp conformance --export cases conformance",
+            "frictcomp conformance --into cases conformance",
         ],
     ),
     examples(&["commission"], COMMISSION),
@@ -226,13 +226,13 @@ static EXAMPLES: [Examples; 40] = [
             "frictcomp completions powershell",
         ],
     ),
-    examples(&["man"], ["frictcomp man", "frictcomp man --output pages"]),
+    examples(&["man"], ["frictcomp man", "frictcomp man --into pages"]),
 ];
 
 /// Stage 1 for two axes, and for one alone.
 const COMMISSION: [&str; 2] = [
-    "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000 -o m",
-    "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 -o x",
+    "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000",
+    "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 --into x",
 ];
 
 /// The tests on one axis, and the list of all.

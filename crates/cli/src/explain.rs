@@ -9,11 +9,14 @@ use serde_json::json;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
+use super::outputs::Outputs;
 use super::painted::{page as titles, severities};
-use super::result::ResultFormat;
+use super::result::{ResultArgs, ResultFormat};
 use super::vocabulary;
 use frictcomp::diagnostic::{Code, did_you_mean};
 use frictcomp::documents::PARAMETER_PAGES;
+use frictcomp_host::FileRegistry;
+use frictcomp_report::fitted;
 
 /// Explain a code, parameter, rule or word; without one, list all codes
 #[derive(Debug, Args)]
@@ -21,30 +24,33 @@ pub(super) struct ExplainArgs {
     /// A code, parameter, rule or word, such as `FC201`, `70495`, `P-COMP-00043`,
     /// `frict_comp.mode`, `R1.27`, `C12`, `COMP`, `V.A.FRICT_COMP_ACTIVE`, `60B2` or `MP1511`
     word: Option<String>,
-    /// The format of the page or of the list
-    #[arg(long, default_value = "text")]
-    format: ResultFormat,
+    #[command(flatten)]
+    result: ResultArgs,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
-    let Some(word) = &args.word else {
-        let list = match args.format {
-            ResultFormat::Text => console.fitted(&codes()),
-            ResultFormat::Json => codes_document(),
-        };
-        console.print_painted(&list, severities)?;
-        return Ok(exit::CLEAN);
-    };
-    let page = find(word.trim()).ok_or_else(|| unknown(word))?;
-    let page = page.trim_end();
-    match args.format {
-        ResultFormat::Text => console.print_painted(&format!("{page}\n"), titles)?,
-        ResultFormat::Json => {
-            let document = json!({ "schema": 1, "word": word.trim(), "page": page });
-            console.print(&format!("{document:#}\n"))?
+    let mut outputs = Outputs::new(&FileRegistry::default(), console);
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    match (&args.word, args.result.format) {
+        (None, ResultFormat::Text) => {
+            let list = fitted(&codes(), target.look.width);
+            target.painted(&list, severities)?
+        }
+        (None, ResultFormat::Json) => target.text(&codes_document())?,
+        (Some(word), format) => {
+            let page = find(word.trim()).ok_or_else(|| unknown(word))?;
+            let page = page.trim_end();
+            match format {
+                ResultFormat::Text => target.painted(&format!("{page}\n"), titles)?,
+                ResultFormat::Json => {
+                    let document = json!({ "schema": 1, "word": word.trim(), "page": page });
+                    target.text(&format!("{document:#}\n"))?
+                }
+            }
         }
     };
+    outputs.finish()?;
     Ok(exit::CLEAN)
 }
 

@@ -69,7 +69,7 @@ fn states_stand_side_by_side() {
     ];
     let (status, said) = call(
         folder.path(),
-        &[&recorded[..], &["-o", "x.lis", "--svg", "x.svg"]].concat(),
+        &[&recorded[..], &["--write-list", "x.lis", "--svg", "x.svg"]].concat(),
     );
     assert_eq!(status, Some(0), "{said}");
     assert!(said.contains("speed cold warm spread"), "{said}");
@@ -89,7 +89,7 @@ fn states_stand_side_by_side() {
     assert!(list.contains("differs between the states"), "{list}");
     let (status, said) = call(
         folder.path(),
-        &["identify", "r/warm.csv", "-o", "alone.lis"],
+        &["identify", "r/warm.csv", "--write-list", "alone.lis"],
     );
     assert_eq!(status, Some(0), "{said}");
     let alone = std::fs::read_to_string(folder.path().join("alone.lis")).expect("a list");
@@ -132,7 +132,7 @@ fn a_state_that_is_not_there_is_refused() {
     ] {
         let (status, said) = call(
             folder.path(),
-            &[&["identify"], arguments, &["-o", "x.lis"]].concat(),
+            &[&["identify"], arguments, &["--write-list", "x.lis"]].concat(),
         );
         assert_eq!(status, Some(2), "{said}");
         assert!(said.contains(words), "{words}: {said}");

@@ -310,7 +310,7 @@ fn five_rounds_come_close_to_the_best_known_lists() {
             plant,
             "--feeds",
             &feeds,
-            "-o",
+            "--write-list",
             "start.lis",
         ];
         assert_eq!(call(bench.folder.path(), &tuned).status.code(), Some(0));

@@ -409,7 +409,7 @@ fn answers_of_a_control_are_compared() {
     let folder = root().join("conformance");
     let folder = folder.to_str().expect("text");
     assert_eq!(
-        bench.status(&["conformance", folder, "--export", "cases"]),
+        bench.status(&["conformance", folder, "--into", "cases"]),
         Some(0)
     );
     let program = bench.read("cases/1/reset/next.nc");

@@ -12,10 +12,11 @@ use crate::failure::Failure;
 use crate::identify::refusal;
 use crate::outputs::{Outputs, write_text};
 use crate::recorded_files::{copies_among, recordings_in};
-use crate::result::ResultFormat;
+use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
+use frictcomp_report::fitted;
 use frictcomp_report::pictures::friction_trend;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_text};
@@ -36,9 +37,8 @@ pub(crate) struct TrendArgs {
     cycle: CycleArgs,
     #[command(flatten)]
     torque: TorqueArgs,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: ResultFormat,
+    #[command(flatten)]
+    result: ResultArgs,
     /// Draw the parameters over the dates to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    outputs.print("the result")?;
+    let mut target = outputs.result(args.result.output.as_deref())?;
     outputs.check()?;
     let mut report = TrendReport {
         axis: args.channels.axis.clone(),
@@ -105,8 +105,8 @@ pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     if let Some(mut svg) = svg {
         write_text(&mut svg, &friction_trend(&report).render(Frame::Alone))?;
     }
-    console.print(&match args.format {
-        ResultFormat::Text => console.fitted(&render_text(&report)),
+    target.text(&match args.result.format {
+        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

@@ -173,7 +173,7 @@ fn example_folder() -> Bench {
 fn every_command_has_a_manual_page() {
     // R9.79
     let bench = bare(&[]);
-    assert_eq!(bench.status(&["man", "--output", "pages"]), Some(0));
+    assert_eq!(bench.status(&["man", "--into", "pages"]), Some(0));
     let entries = fs::read_dir(bench.folder().join("pages")).expect("pages");
     let mut names: Vec<String> = entries
         .map(|it| {

@@ -136,7 +136,7 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
-const FOLDERS: [(&str, &str, &[&str]); 25] = [
+const FOLDERS: [(&str, &str, &[&str]); 24] = [
     (
         "interpreter",
         "blocks",
@@ -205,7 +205,6 @@ const FOLDERS: [(&str, &str, &[&str]); 25] = [
     ),
     ("report", "pictures", &["circle", "commission", "svg"]),
     ("report", "text", &["assumptions"]),
-    ("cli", "", &["identify"]),
     ("cli", "commission", &["identify"]),
 ];
 

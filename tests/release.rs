@@ -75,7 +75,7 @@ fn a_release_is_made_by_the_script_alone() {
     }
     for content in [
         "completions",
-        "man --output",
+        "man --into",
         "THIRD-PARTY-LICENSES.txt",
         "SHA256SUMS",
     ] {

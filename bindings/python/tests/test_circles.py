@@ -25,7 +25,7 @@ def test_a_circle_is_that_of_the_command() -> None:
 
 def test_tuned_lists_are_those_of_the_command(tmp_path: Path) -> None:
     path = tmp_path / "x.lis"
-    options = ["--feeds", "2000", "--radii", "20", "--no-shaping", "--output", str(path)]
+    options = ["--feeds", "2000", "--radii", "20", "--no-shaping", "--write-list", str(path)]
     told = document("tune", *options)
     tuned = frictcomp.tune(feeds=[2000], radii=[20], shaping=False)
     assert tuned.record == told
@@ -36,7 +36,7 @@ def test_an_identified_list_is_that_of_the_command(tmp_path: Path) -> None:
     path = tmp_path / "x.lis"
     name = "programs/demo/recordings/friction_x.csv"
     channels = ["--velocity", "SetVelo", "--torque", "ActTorque"]
-    told = document("identify", name, *channels, "--output", str(path))
+    told = document("identify", name, *channels, "--write-list", str(path))
     identified = frictcomp.identify(name, velocity="SetVelo", torque="ActTorque")
     assert identified.record == told
     assert identified.value_list() == path.read_text("utf-8")

@@ -1,5 +1,5 @@
 //! What an archive costs: 20 000 programs, of which 400 are called, three levels deep. The time and the
-//! memory of `check`, `audit`, `graph`, and of `check --changed` after a change of one subprogram, which
+//! memory of `check`, `audit`, `show calls`, and of `check --changed` after a change of one subprogram, which
 //! costs what its callers cost and a look over the texts (R17.4); and of calls of a missing program, which
 //! are looked for in every folder.
 //!
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let callers = write_archive(folder, programs)?;
     commit(folder)?;
     println!("{programs} programs, {} of them called", programs / 50);
-    for command in [&["check", "-q"] as &[&str], &["audit"], &["graph"]] {
+    for command in [&["check", "-q"] as &[&str], &["audit"], &["show", "calls"]] {
         measure(command, folder)?;
     }
     measure(&["check", "-q", "--write-baseline", "known.json"], folder)?;
@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("every main program calls one that is missing");
     call_missing(folder)?;
     measure(&["check", "-q"], folder)?;
-    measure(&["graph"], folder)
+    measure(&["show", "calls"], folder)
 }
 
 fn commit(folder: &Path) -> Result<(), Box<dyn Error>> {

@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 
 use super::channels::MotionChannels;
@@ -14,7 +15,7 @@ use super::exit;
 use super::failure::{Failure, shown};
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
-use super::result::ResultFormat;
+use super::result::{ResultArgs, ResultFormat};
 use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::Severity;
 use frictcomp::machine::Machine;
@@ -29,47 +30,76 @@ use frictcomp_host::{
     write_new,
 };
 use frictcomp_recordings::trace::ChannelSelection;
-use frictcomp_report::visible_line;
+use frictcomp_report::{fitted, visible_line};
 
-/// Write NC programs that test on your control what its documents leave open, read the answers,
-/// and record them in `frictcomp.toml`
+/// Test on your control what its documents leave open
+#[derive(Debug, Subcommand)]
+pub(super) enum AskCommand {
+    Write(WriteArgs),
+    Read(ReadArgs),
+    List(ListArgs),
+}
+
+/// Write the NC programs of the tests
 ///
 /// The head of each program says what it tests, what moves, and what to do before and after.
 /// Nothing moves farther than `--travel`.
 #[derive(Debug, Args)]
-pub(super) struct AskArgs {
+pub(super) struct WriteArgs {
     /// The axis to test; by default the first one with P-AXIS-00522 = 1
     #[arg(long, value_name = "AXIS")]
     axis: Option<String>,
     /// Write the programs to this folder
-    #[arg(long, short, value_name = "DIR", default_value = "ask")]
-    output: PathBuf,
+    #[arg(long, value_name = "FOLDER", default_value = "ask")]
+    into: PathBuf,
     /// How far the axis may move, in mm or degrees
-    #[arg(long, value_name = "MM", default_value = "10", value_parser = parse_travel)]
+    #[arg(long, value_name = "MM", default_value_t = TRAVEL, value_parser = parse_travel)]
     travel: f64,
-    /// The CNC build of the control; by default that of the configuration
-    #[arg(long, value_name = "BUILD")]
-    build: Option<CncBuild>,
-    /// Show the questions, what is assumed, and what is answered
-    #[arg(long, conflicts_with_all = ["output", "read"])]
-    list: bool,
-    /// Read answers: `message.txt` of the control, notes, and recordings in any layout that
-    /// `frictcomp trace` reads
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "output")]
-    read: Vec<PathBuf>,
-    /// The format of the list
-    #[arg(long, default_value = "text")]
-    format: ResultFormat,
+    #[command(flatten)]
+    control: ControlArgs,
+}
+
+/// Read the answers of the control, and record them in `frictcomp.toml`
+#[derive(Debug, Args)]
+pub(super) struct ReadArgs {
+    /// `message.txt` of the control, notes, and recordings in any layout that `frictcomp trace` reads
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// The axis of the recordings; by default the first one with P-AXIS-00522 = 1
+    #[arg(long, value_name = "AXIS")]
+    axis: Option<String>,
     /// The channel of the additive current in a recording; by default `frict_comp.output` of the axis
-    #[arg(long, value_name = "CHANNEL", requires = "read")]
+    #[arg(long, value_name = "CHANNEL")]
     torque: Option<String>,
     #[command(flatten)]
     channels: MotionChannels,
     #[command(flatten)]
     cycle: CycleArgs,
     #[command(flatten)]
+    control: ControlArgs,
+}
+
+/// List the questions, what is assumed, and what is answered
+#[derive(Debug, Args)]
+pub(super) struct ListArgs {
+    #[command(flatten)]
+    result: ResultArgs,
+    #[command(flatten)]
+    control: ControlArgs,
+}
+
+/// The control that is asked.
+#[derive(Debug, Args)]
+struct ControlArgs {
+    /// The CNC build of the control; by default that of the configuration
+    #[arg(long, value_name = "BUILD")]
+    cnc_build: Option<CncBuild>,
+    #[command(flatten)]
     machine: MachineArgs,
 }
+
+/// The usual distance that an axis may move, in mm or degrees.
+const TRAVEL: f64 = 10.0;
 
 fn parse_travel(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -79,45 +109,49 @@ fn parse_travel(text: &str) -> Result<f64, String> {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &AskArgs, console: Console) -> Result<u8, Failure> {
+pub(super) fn run(command: &AskCommand, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
-    let loaded = args
-        .machine
-        .machines(&registry)
-        .for_folder(Path::new("."))?;
-    let errors = loaded.diagnostics.iter();
-    if errors.filter(|it| it.severity == Severity::Error).count() > 0 {
-        let mut failure = Failure::new("the machine is not described without errors");
-        failure.diagnostics.clone_from(&loaded.diagnostics);
-        return Err(failure);
+    match command {
+        AskCommand::Write(args) => args.write(Outputs::new(&registry, console), &registry),
+        AskCommand::Read(args) => args.read(&registry, console),
+        AskCommand::List(args) => args.list(Outputs::new(&registry, console), &registry),
     }
-    if args.list {
-        return args.list(&loaded.machine, console);
-    }
-    if args.read.is_empty() {
-        return args.write(&loaded, Outputs::new(&registry, console));
-    }
-    args.read_answers(&loaded, &registry, console)
 }
 
-impl AskArgs {
+impl ControlArgs {
+    /// Returns the machine, which must be described without errors.
+    fn loaded(&self, registry: &FileRegistry) -> Result<Arc<LoadedMachine>, Failure> {
+        let mut machines = self.machine.machines(registry);
+        let loaded = machines.for_folder(Path::new("."))?;
+        let mut said = loaded.diagnostics.iter();
+        if said.any(|it| it.severity == Severity::Error) {
+            let mut failure = Failure::new("the description of the machine has errors");
+            failure.diagnostics.clone_from(&loaded.diagnostics);
+            return Err(failure);
+        }
+        Ok(loaded)
+    }
+
+    fn build(&self, machine: &Machine) -> Option<CncBuild> {
+        self.cnc_build.or(machine.build)
+    }
+
     fn asked(&self, name: &str, machine: &Machine) -> AskedAxis {
         let found = machine.find(name);
         AskedAxis {
             name: name.to_owned(),
             number: found.and_then(|axis| machine.axis(axis).number),
             index: found.map_or(0, frictcomp::comp::AxisIndex::get),
-            build: self.build.or(machine.build),
-            travel: self.travel,
+            build: self.build(machine),
+            travel: TRAVEL,
         }
     }
 
-    fn axis(&self, machine: &Machine) -> Result<AskedAxis, Failure> {
+    fn axis(&self, given: Option<&str>, machine: &Machine) -> Result<AskedAxis, Failure> {
         let frict = frictcomp::comp::Kind::Frict;
         let mut axes = machine.axes.iter();
         let configured = axes.find(|axis| axis.configured.contains(frict));
-        let name = self.axis.as_deref();
-        let name = name.or_else(|| configured.map(|axis| axis.name.as_str()));
+        let name = given.or_else(|| configured.map(|axis| axis.name.as_str()));
         let name = name.unwrap_or("X");
         if machine.find(name).is_none() {
             let names: Vec<&str> = machine.axes.iter().map(|it| it.name.as_str()).collect();
@@ -126,50 +160,63 @@ impl AskArgs {
         }
         Ok(self.asked(name, machine))
     }
+}
 
-    fn write(&self, loaded: &LoadedMachine, mut outputs: Outputs) -> Result<u8, Failure> {
-        let axis = self.axis(&loaded.machine)?;
-        let folder = &self.output;
+impl WriteArgs {
+    fn write(&self, mut outputs: Outputs, registry: &FileRegistry) -> Result<u8, Failure> {
+        let loaded = self.control.loaded(registry)?;
+        let axis = AskedAxis {
+            travel: self.travel,
+            ..self.control.axis(self.axis.as_deref(), &loaded.machine)?
+        };
+        let folder = &self.into;
         fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
         let files = Question::ALL
             .into_iter()
             .flat_map(|question| ask(question, &axis));
         for file in files {
-            let mut target = outputs.file("--output", &folder.join(&file.name))?;
+            let mut target = outputs.file("--into", &folder.join(&file.name))?;
             write_text(&mut target, &file.text)?;
         }
-        let mut target = outputs.file("--output", &folder.join("README.txt"))?;
+        let mut target = outputs.file("--into", &folder.join("README.txt"))?;
         write_text(&mut target, &readme(&axis))?;
         outputs.check()?;
         outputs.finish()?;
         if axis.build.is_none() {
             Console::talk(
-                "the build of the control is not known, so nothing will be confirmed: give it with `--build`",
+                "the build of the control is not known, so nothing will be confirmed: give it with `--cnc-build`",
             );
         }
         Ok(exit::CLEAN)
     }
+}
 
-    fn list(&self, machine: &Machine, console: Console) -> Result<u8, Failure> {
-        let build = self.build.or(machine.build);
-        let text = match self.format {
-            ResultFormat::Text => console.fitted(&listed(machine, build)),
+impl ListArgs {
+    fn list(&self, mut outputs: Outputs, registry: &FileRegistry) -> Result<u8, Failure> {
+        let loaded = self.control.loaded(registry)?;
+        let machine = &loaded.machine;
+        let mut target = outputs.result(self.result.output.as_deref())?;
+        outputs.check()?;
+        let width = target.look.width;
+        target.text(&match self.result.format {
+            ResultFormat::Text => fitted(&listed(machine, self.control.build(machine)), width),
             ResultFormat::Json => {
-                let questions: Vec<Value> = Question::ALL
-                    .into_iter()
-                    .map(|question| record(question, machine))
-                    .collect();
+                let questions = Question::ALL.into_iter();
+                let questions: Vec<Value> = questions.map(|it| record(it, machine)).collect();
                 format!("{:#}\n", json!({ "schema": 1, "questions": questions }))
             }
-        };
-        console.print(&text)?;
+        })?;
+        outputs.finish()?;
         Ok(exit::CLEAN)
     }
+}
 
+impl ReadArgs {
     /// Returns the answers in a file: lines of a text, or what a recording shows.
     fn answers_in(&self, path: &Path, machine: &Machine) -> Result<Vec<Answer>, Failure> {
         const LINES: &str = "answers are lines that begin with `frictcomp-ask`, as in `message.txt`, or a recording";
-        let (answers, unread) = read_answers(&read_text(path)?, |name| self.asked(name, machine));
+        let (answers, unread) =
+            read_answers(&read_text(path)?, |name| self.control.asked(name, machine));
         for UnreadAnswer { line, reason } in &unread {
             let reason = visible_line(reason);
             Console::talk(&format!("{}:{line}: not an answer: {reason}", shown(path)));
@@ -181,7 +228,7 @@ impl AskArgs {
             return Err(Failure::new(format!("`{}` holds no answer", shown(path))).with_help(LINES));
         }
         let of_machine = machine.cycle_time_ms.map(|ms| ms / 1000.0);
-        let axis = self.axis(machine)?;
+        let axis = self.control.axis(self.axis.as_deref(), machine)?;
         let selection = self.channels.selection();
         let lead_mm = machine.axes.iter().find(|it| it.name == axis.name);
         let asked = RecordedQuestions {
@@ -199,15 +246,11 @@ impl AskArgs {
         read_recorded_answers(path, asked).map_err(|error| Failure::from(error).with_help(LINES))
     }
 
-    fn read_answers(
-        &self,
-        loaded: &LoadedMachine,
-        registry: &FileRegistry,
-        console: Console,
-    ) -> Result<u8, Failure> {
+    fn read(&self, registry: &FileRegistry, console: Console) -> Result<u8, Failure> {
+        let loaded = self.control.loaded(registry)?;
         let mut answers = Vec::new();
         let mut findings = Vec::new();
-        for path in &self.read {
+        for path in &self.files {
             registry.reads("answers", path);
             let changed = fs::metadata(path).and_then(|it| it.modified());
             let date = date_of(changed.map_err(|error| HostError::read(path, error))?);
@@ -216,7 +259,11 @@ impl AskArgs {
                     findings.push(AnsweredReading {
                         question: answer.question,
                         reading,
-                        build: self.build.or(answer.build).or(loaded.machine.build),
+                        build: self
+                            .control
+                            .cnc_build
+                            .or(answer.build)
+                            .or(loaded.machine.build),
                         date: date.clone(),
                     });
                 }
@@ -234,14 +281,14 @@ impl AskArgs {
         }
         drop_what_is_answered(&mut answers);
         console.print(&console.fitted(&told(&answers)))?;
-        let path = configuration(loaded);
+        let path = configuration(&loaded);
         remember(&path, &findings)?;
         if !findings.is_empty() {
             console.remark(&format!("wrote `{}`", shown_path(&path)));
         }
         if findings.iter().any(|finding| finding.build.is_none()) {
             Console::talk(
-                "the build of the control is not known, so nothing is confirmed: give it with `--build`",
+                "the build of the control is not known, so nothing is confirmed: give it with `--cnc-build`",
             );
         }
         Ok(exit::CLEAN)

@@ -38,9 +38,9 @@ use frictcomp_report::audit::{
 use frictcomp_report::html::render_audit;
 use frictcomp_report::{counted, fitted};
 
-/// Show what the order of programs does: which ones leave an axis away from its start-up state, and which move it
-/// in the state that they find
+/// Show what the order of programs does, and end its hazards
 ///
+/// Shows which programs leave an axis away from its start-up state, and which move it in the state that they find.
 /// Each program runs twice, once with every configured axis in its start-up state and once with every one away
 /// from it. This shows what it does after any other program.
 #[derive(Debug, Args)]
@@ -52,13 +52,15 @@ pub(super) struct AuditArgs {
     #[arg(long, value_name = "KINDS", num_args = 0..=1, default_value = "FRICT")]
     #[arg(default_missing_value = "all", value_parser = settings::parse_kinds)]
     kinds: KindSet,
-    /// Show the blocks that end the hazards as a diff: in the programs that leave an axis away from
-    /// its start-up state, in those that inherit it, or in the smaller number of programs for each axis
-    #[arg(long, value_name = "PROGRAMS", conflicts_with = "sequence")]
+    /// Write the blocks that end the hazards: into the programs that leave an axis away from its start-up
+    /// state, into those that inherit it, or for each axis into the smaller number of programs
+    #[arg(long, value_name = "PROGRAMS", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "smaller", conflicts_with = "sequence")]
     fix: Option<FixScope>,
-    /// Write the changes of `--fix` to the programs
-    #[arg(long, requires = "fix")]
-    write: bool,
+    /// Show the blocks that `--fix` would write, as a unified diff
+    #[arg(long, value_name = "PROGRAMS", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "smaller", conflicts_with_all = ["sequence", "fix", "format", "all"])]
+    diff: Option<FixScope>,
     /// Follow the programs in the order of this file, one on each line
     #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "html", "jobs"])]
     sequence: Option<PathBuf>,
@@ -75,7 +77,7 @@ pub(super) struct AuditArgs {
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write a report with the matrix of programs and axes to this HTML file
-    #[arg(long, value_name = "FILE", conflicts_with = "fix")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["fix", "diff"])]
     html: Option<PathBuf>,
     /// What gives exit status 1, where hazards are warnings; a list such as `error,unknown`
     #[arg(
@@ -135,12 +137,6 @@ pub(super) fn run(args: &AuditArgs, console: Console) -> Result<u8, Failure> {
 
 impl AuditArgs {
     fn audit(&self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
-        if self.fix.is_some() && !self.write && self.format != AuditFormat::Text {
-            return Err(Failure::new(
-                "`--fix` without `--write` shows a diff, which has no other format",
-            )
-            .with_help("leave `--format` out, or add `--write`"));
-        }
         let registry = FileRegistry::default();
         let mut outputs = Outputs::new(&registry, console);
         let mut target = outputs.result(self.output.as_deref())?;
@@ -162,11 +158,11 @@ impl AuditArgs {
         outputs.check()?;
         say_undescribed(&auditor, console);
         let mut archives = failures.keep(auditor.audit());
-        if let Some(fix) = self.fix {
+        if let Some(fix) = self.fix.or(self.diff) {
             let changes = failures.keep(auditor.mend(&archives, fix.end()));
             say_missed(&archives, &changes);
             say_roots(&changes);
-            if !self.write {
+            if self.diff.is_some() {
                 let files = changes.iter().filter_map(|change| change.file.as_ref());
                 target.painted(&differences(files), difference)?;
                 Console::talk(&to_write(&changes));
@@ -418,14 +414,14 @@ fn say_roots(changes: &[MendedProgram]) {
     }
 }
 
-/// Returns the effect of `--write` in words.
+/// Returns the effect of `--fix` in words.
 fn to_write(changes: &[MendedProgram]) -> String {
     let files = changes.iter().filter_map(|change| change.file.as_ref());
     let blocks: usize = files.clone().map(|file| file.changes).sum();
     match (blocks, files.count()) {
         (0, _) => "nothing to write".to_owned(),
         (blocks, programs) => format!(
-            "{} in {}; `--write` writes them",
+            "{} in {} (`--fix` writes them)",
             counted(blocks, "block"),
             counted(programs, "program")
         ),

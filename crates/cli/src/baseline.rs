@@ -21,10 +21,10 @@ const SCHEMA: u64 = 1;
 pub(super) struct BaselineArgs {
     /// Instead of listing the messages, write them to this file, for `--baseline`
     #[arg(long, value_name = "FILE")]
-    #[arg(conflicts_with_all = ["baseline", "unknowns", "opaque", "diff", "format", "output", "statistics"])]
+    #[arg(conflicts_with_all = ["baseline", "diff", "format", "output", "statistics"])]
     write_baseline: Option<PathBuf>,
     /// List only messages that are not in this file, which `--write-baseline` wrote
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["unknowns", "opaque", "diff"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["diff"])]
     baseline: Option<PathBuf>,
 }
 

@@ -17,14 +17,13 @@ use super::fail_on::of_axis;
 use super::failure::Failure;
 use super::failures::Failures;
 use super::folders::{FolderArgs, say_left_out};
-use super::listing::{Lister, ListingArgs, Uncompensated, of_records, passed_over, total};
+use super::listing::{Lister, ListingArgs, Uncompensated, passed_over, total};
 use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::mend::{FixArgs, MendRun};
-use super::notes::{self, NotedName};
 use super::outputs::Outputs;
 use super::watch::FileWatch;
 use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp::session::{Causes, Findings, NoteKind, Notes};
+use frictcomp::session::{Causes, Findings};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::{ReadingsInForce, Record, Sink};
 use frictcomp_host::{
@@ -35,9 +34,9 @@ use frictcomp_host::{
 use frictcomp_report::assumptions::rests_on_text;
 use frictcomp_report::{ListingFormat, command_line, wrap};
 
-/// Print all messages of all programs; each program runs from the start of the control
+/// Print all messages of all programs, and mend what is safe
 ///
-/// A program that another one calls is checked in its callers: it is not checked by itself if it holds
+/// Each program runs from the start of the control. A program that another one calls is checked in its callers: it is not checked by itself if it holds
 /// neither M02 nor M30 and a main program of this call executes it to its end.
 #[derive(Debug, Args)]
 // Each is a separate switch on the command line.
@@ -46,12 +45,6 @@ pub(super) struct CheckArgs {
     /// Programs and folders of programs; `-` is standard input
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    /// Instead of messages, list the values that the programs need from the machine, and where
-    #[arg(long, conflicts_with_all = ["opaque", "fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
-    unknowns: bool,
-    /// Instead of messages, list what was accepted and passed over, and where
-    #[arg(long, conflicts_with_all = ["fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
-    opaque: bool,
     /// The number of programs to check at once; by default the number of processors
     #[arg(long, short, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -63,7 +56,7 @@ pub(super) struct CheckArgs {
     #[arg(long)]
     all: bool,
     /// Check again after each save, only what the change reaches
-    #[arg(long, conflicts_with_all = ["changed", "fix", "diff", "unknowns", "opaque", "write_baseline", "output"])]
+    #[arg(long, conflicts_with_all = ["changed", "fix", "diff", "write_baseline", "output"])]
     watch: bool,
     #[command(flatten)]
     baseline: BaselineArgs,
@@ -167,18 +160,6 @@ fn check(
     let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
     let jobs: Vec<ProgramOnMachine> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
     outputs.check()?;
-    if let Some(kind) = args.notes() {
-        let format = of_records(args.listing.format, "this list")?;
-        notes::list(kind, format, target, |lines| {
-            for (input, loaded) in jobs {
-                if let Err(failure) = args.take_notes(kind, (input, loaded), lines) {
-                    failures.push(failure);
-                }
-            }
-        })?;
-        outputs.finish()?;
-        return Ok(super::exit::CLEAN);
-    }
     say_undescribed(args, &jobs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
     let mut baseline = args.baseline.open(&registry, &mut outputs)?;
@@ -319,47 +300,6 @@ impl CheckArgs {
             }
             Err(error) => Err(error.into()),
         }
-    }
-
-    fn notes(&self) -> Option<NoteKind> {
-        match (self.unknowns, self.opaque) {
-            (true, _) => Some(NoteKind::Unknown),
-            (_, true) => Some(NoteKind::Opaque),
-            _ => None,
-        }
-    }
-
-    /// Runs a program and collects its notes.
-    fn take_notes(
-        &self,
-        kind: NoteKind,
-        (input, loaded): ProgramOnMachine<'_>,
-        lines: &mut BTreeSet<NotedName>,
-    ) -> Result<(), Failure> {
-        let loaded = loaded?;
-        let mut options = self.execution.check(&loaded);
-        options.run.notes = Notes::Taken;
-        let alone = SingleRun {
-            options,
-            naming: Naming::AsGiven,
-            axes: Axes::AsTheyOccur,
-        };
-        let session = run_alone(input, &loaded, alone, &mut Findings::default())?;
-        for (name, place) in session.notes(kind) {
-            lines.insert(NotedName {
-                name: name.to_owned(),
-                file: place.file.to_string(),
-                start: place.start(),
-            });
-        }
-        let more = session.notes_left_out();
-        if more > 0 {
-            let (name, listed) = (input.name(Naming::AsGiven), session.notes(kind).count());
-            Console::talk(&format!(
-                "{name}: {listed} places are listed; it occurred {more} more times"
-            ));
-        }
-        Ok(())
     }
 
     /// Checks the programs in parallel, and lists the messages in the order of the programs. Returns how many of

@@ -30,9 +30,9 @@ use frictcomp_report::html::render_circle;
 use frictcomp_report::pictures::circle;
 use frictcomp_report::svg::Frame;
 
-/// Drive a circle with two simulated axes, with friction compensation off and on
+/// Make a circular test, simulated or recorded
 ///
-/// Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--trace`
+/// Drives a circle with two simulated axes, with friction compensation off and on. Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--trace`
 /// evaluates a recorded circle instead: an export of TwinCAT Scope, a SINUMERIK trace or a CSV file,
 /// with the columns `x` and `y` in mm (or `x_um` and `y_um` in µm) or the channels that `--x` and
 /// `--y` name. Give two files for both directions.

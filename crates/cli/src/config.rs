@@ -18,7 +18,7 @@ use frictcomp_report::lists::render_parameters;
 use frictcomp_report::schema::{config_schema, plant_schema};
 use frictcomp_report::{Table, visible_line};
 
-/// Show the configuration of the machine
+/// Show the configuration in effect, or its schema
 #[derive(Debug, Subcommand)]
 pub(super) enum ConfigCommand {
     /// Print the machine that a program in a folder would run on

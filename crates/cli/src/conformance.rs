@@ -27,13 +27,13 @@ use frictcomp_report::fitted;
 #[derive(Debug, Args)]
 pub(super) struct ConformanceArgs {
     /// The folder of the cases
-    #[arg(value_name = "DIR", default_value = "conformance")]
+    #[arg(value_name = "FOLDER", default_value = "conformance")]
     cases: PathBuf,
     /// Write each case as NC programs and lists for a control to this folder
-    #[arg(long, value_name = "DIR", conflicts_with = "compare")]
-    export: Option<PathBuf>,
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["compare", "format", "output"])]
+    into: Option<PathBuf>,
     /// Compare the answers that a control left in the files of this folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "FOLDER")]
     compare: Option<PathBuf>,
     #[command(flatten)]
     result: ResultArgs,
@@ -52,7 +52,7 @@ pub(super) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failur
     let registry = FileRegistry::default();
     let cases = read_cases(&args.cases, &registry)?;
     let mut outputs = Outputs::new(&registry, console);
-    if let Some(folder) = &args.export {
+    if let Some(folder) = &args.into {
         return write_cases(&cases, folder, outputs);
     }
     let mut result = outputs.result(args.result.output.as_deref())?;
@@ -108,7 +108,7 @@ fn write_cases(cases: &[Case], folder: &Path, mut outputs: Outputs) -> Result<u8
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(|error| Failure::writing(parent, error))?;
         }
-        let mut target = outputs.file("--export", &path)?;
+        let mut target = outputs.file("--into", &path)?;
         write_text(&mut target, &file.text)?;
     }
     outputs.check()?;

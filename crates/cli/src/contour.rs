@@ -27,9 +27,9 @@ use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
 
-/// Show where on the part compensation is missing: drive the path of a program with simulated axes
+/// Show where on the part compensation is missing
 ///
-/// The path is driven three times: with friction compensation as the program switches it, with all
+/// The path of the program is driven with simulated axes, three times: with friction compensation as the program switches it, with all
 /// of it on, and with all of it off. Each reversal of an axis is listed with its glitch.
 #[derive(Debug, Args)]
 pub(super) struct ContourArgs {

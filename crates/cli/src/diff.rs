@@ -30,9 +30,9 @@ use frictcomp_report::compare::{ContoursReport, VersionsReport, render_json, ren
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_versions;
 
-/// Show which compensation changes differ between two versions of a program
+/// Show what a change changes in the states, and in the contour
 ///
-/// The exit status is 0 if both versions change the states in the same way, and 1 if a block changes
+/// Compares two versions of a program. The exit status is 0 if both versions change the states in the same way, and 1 if a block changes
 /// a state in only one of them, or if a version is not known as a whole: an error stops it, a state
 /// depends on what only the machine knows, or no machine is described. With `--contour` it is 1, too,
 /// if a block of the new version deviates more, or if a motion could not be driven.

@@ -21,10 +21,9 @@ use frictcomp_host::{Disk, FileRegistry, read_list};
 use frictcomp_report::drives::render_drives;
 use frictcomp_report::{ListingFormat, command_line};
 
-/// Check that the torque of friction compensation reaches the drives, and that the actual torque
-/// comes back
+/// Check that the torque of compensation reaches the drives
 ///
-/// The axis lists come first, then the network information of the master (ENI), then the
+/// Checks also that the actual torque comes back. The axis lists come first, then the network information of the master (ENI), then the
 /// device descriptions (ESI).
 #[derive(Debug, Args)]
 pub(super) struct DriveArgs {

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 36] = [
+static EXAMPLES: [Examples; 40] = [
     examples(
         &["run"],
         [
@@ -31,7 +31,7 @@ static EXAMPLES: [Examples; 36] = [
         &["audit"],
         [
             "frictcomp audit programs",
-            "frictcomp audit --fix smaller programs",
+            "frictcomp audit --diff programs",
         ],
     ),
     examples(
@@ -39,13 +39,6 @@ static EXAMPLES: [Examples; 36] = [
         [
             "frictcomp golden --update programs",
             "frictcomp golden programs",
-        ],
-    ),
-    examples(
-        &["graph"],
-        [
-            "frictcomp graph programs",
-            "frictcomp graph --format dot -o calls.dot programs",
         ],
     ),
     examples(
@@ -57,6 +50,27 @@ static EXAMPLES: [Examples; 36] = [
     ),
     examples(&["show"], FILES),
     examples(&["show", "files"], FILES),
+    examples(
+        &["show", "calls"],
+        [
+            "frictcomp show calls programs",
+            "frictcomp show calls --format dot -o calls.dot programs",
+        ],
+    ),
+    examples(
+        &["show", "values"],
+        [
+            "frictcomp show values programs",
+            "frictcomp show values --format ndjson mill.nc",
+        ],
+    ),
+    examples(
+        &["show", "passed-over"],
+        [
+            "frictcomp show passed-over programs",
+            "frictcomp show passed-over --format json mill.nc",
+        ],
+    ),
     examples(
         &["lists"],
         [
@@ -95,7 +109,7 @@ static EXAMPLES: [Examples; 36] = [
     examples(
         &["tune"],
         [
-            "frictcomp tune --plant mid --feeds 5000 --no-shaping -o comp_x.lis",
+            "frictcomp tune --plant mid --feeds 5000 --no-shaping --write-list comp_x.lis",
             "frictcomp tune --accelerations 70 --no-shaping --svg glitch.svg",
         ],
     ),
@@ -116,7 +130,7 @@ static EXAMPLES: [Examples; 36] = [
     examples(
         &["identify"],
         [
-            "frictcomp identify friction.csv --axis X -o new_x.lis",
+            "frictcomp identify friction.csv --axis X --write-list new_x.lis",
             "frictcomp identify friction.csv --points 5 --svg friction.svg",
         ],
     ),
@@ -134,25 +148,24 @@ static EXAMPLES: [Examples; 36] = [
             "frictcomp replay states.csv mill.nc --format json",
         ],
     ),
+    examples(&["ask"], ASK),
+    examples(&["ask", "write"], ASK),
     examples(
-        &["ask"],
+        &["ask", "read"],
         [
-            "frictcomp ask --axis X -o questions",
-            "frictcomp ask --list",
+            "frictcomp ask read message.txt",
+            "frictcomp ask read message.txt --cnc-build 3.1.3132.0",
         ],
+    ),
+    examples(
+        &["ask", "list"],
+        ["frictcomp ask list", "frictcomp ask list --format json"],
     ),
     examples(
         &["conformance"],
         [
             "frictcomp conformance conformance",
-            "frictcomp conformance --export cases conformance",
-        ],
-    ),
-    examples(
-        &["trend"],
-        [
-            "frictcomp trend recordings",
-            "frictcomp trend recordings --axis X --svg trend.svg",
+            "frictcomp conformance --into cases conformance",
         ],
     ),
     examples(&["commission"], COMMISSION),
@@ -165,22 +178,22 @@ static EXAMPLES: [Examples; 36] = [
         ],
     ),
     examples(
-        &["learn"],
+        &["commission", "learn"],
         [
-            "frictcomp learn learning --plant mid --friction comp_x.lis",
-            "frictcomp learn learning --plant mid",
+            "frictcomp commission learn learning --plant mid --friction comp_x.lis",
+            "frictcomp commission learn learning --plant mid",
+        ],
+    ),
+    examples(
+        &["commission", "trend"],
+        [
+            "frictcomp commission trend recordings",
+            "frictcomp commission trend recordings --axis X --svg trend.svg",
         ],
     ),
     examples(
         &["explain"],
-        [
-            "frictcomp explain FC401",
-            "frictcomp explain frict_comp.position_delay",
-        ],
-    ),
-    examples(
-        &["codes"],
-        ["frictcomp codes", "frictcomp codes --format json"],
+        ["frictcomp explain FC401", "frictcomp explain --format json"],
     ),
     examples(
         &["config"],
@@ -213,13 +226,19 @@ static EXAMPLES: [Examples; 36] = [
             "frictcomp completions powershell",
         ],
     ),
-    examples(&["man"], ["frictcomp man", "frictcomp man --output pages"]),
+    examples(&["man"], ["frictcomp man", "frictcomp man --into pages"]),
 ];
 
 /// Stage 1 for two axes, and for one alone.
 const COMMISSION: [&str; 2] = [
-    "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000 -o m",
-    "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 -o x",
+    "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000",
+    "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 --into x",
+];
+
+/// The tests on one axis, and the list of all.
+const ASK: [&str; 2] = [
+    "frictcomp ask write --axis X --into questions",
+    "frictcomp ask list",
 ];
 
 /// The files of a folder.

@@ -1,32 +1,78 @@
-//! `frictcomp explain`: the page of a code, a parameter, a rule or another word.
+//! `frictcomp explain`: the page of a code, a parameter, a rule or another word, or the list of all codes.
 
 use std::borrow::Cow;
+use std::fmt::Write as _;
 
 use clap::Args;
+use serde_json::json;
 
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
-use super::painted::page as titles;
+use super::outputs::Outputs;
+use super::painted::{page as titles, severities};
+use super::result::{ResultArgs, ResultFormat};
 use super::vocabulary;
 use frictcomp::diagnostic::{Code, did_you_mean};
 use frictcomp::documents::PARAMETER_PAGES;
+use frictcomp_host::FileRegistry;
+use frictcomp_report::fitted;
 
-/// Explain a message, a parameter, a rule or another word
+/// Explain a code, parameter, rule or word; without one, list all codes
 #[derive(Debug, Args)]
 pub(super) struct ExplainArgs {
     /// A code, parameter, rule or word, such as `FC201`, `70495`, `P-COMP-00043`,
     /// `frict_comp.mode`, `R1.27`, `C12`, `COMP`, `V.A.FRICT_COMP_ACTIVE`, `60B2` or `MP1511`
-    #[arg(value_name = "WORD")]
-    code: String,
+    word: Option<String>,
+    #[command(flatten)]
+    result: ResultArgs,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
-    let page = find(args.code.trim()).ok_or_else(|| unknown(&args.code))?;
-    let text = format!("{}\n", page.trim_end());
-    console.print_painted(&text, titles)?;
+    let mut outputs = Outputs::new(&FileRegistry::default(), console);
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    match (&args.word, args.result.format) {
+        (None, ResultFormat::Text) => {
+            let list = fitted(&codes(), target.look.width);
+            target.painted(&list, severities)?
+        }
+        (None, ResultFormat::Json) => target.text(&codes_document())?,
+        (Some(word), format) => {
+            let page = find(word.trim()).ok_or_else(|| unknown(word))?;
+            let page = page.trim_end();
+            match format {
+                ResultFormat::Text => target.painted(&format!("{page}\n"), titles)?,
+                ResultFormat::Json => {
+                    let document = json!({ "schema": 1, "word": word.trim(), "page": page });
+                    target.text(&format!("{document:#}\n"))?
+                }
+            }
+        }
+    };
+    outputs.finish()?;
     Ok(exit::CLEAN)
+}
+
+/// Returns every code with its severity and title.
+fn codes() -> String {
+    Code::ALL.iter().fold(String::new(), |mut list, code| {
+        let (name, severity) = (code.as_str(), code.severity().as_str());
+        let _ = writeln!(list, "{name:<12}  {severity:<7}  {}", code.title());
+        list
+    })
+}
+
+fn codes_document() -> String {
+    let codes = Code::ALL.iter().map(|code| {
+        json!({
+            "code": code.as_str(),
+            "severity": code.severity().as_str(),
+            "title": code.title(),
+        })
+    });
+    let document = json!({ "schema": 1, "codes": codes.collect::<Vec<_>>() });
+    format!("{document:#}\n")
 }
 
 /// Returns the page of a code, of a parameter's number or of its key, of a rule or of a word.
@@ -68,7 +114,7 @@ fn unknown(text: &str) -> Failure {
     let failure = Failure::new(format!("there is no page about `{text}`"));
     match did_you_mean(text, codes.chain(parameters).chain(vocabulary::words())) {
         Some(near) => failure.with_help(format!("did you mean `{near}`?")),
-        None => failure.with_help("`frictcomp codes` lists every code"),
+        None => failure.with_help("`frictcomp explain` lists every code"),
     }
 }
 

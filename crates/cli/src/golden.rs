@@ -32,9 +32,9 @@ const TIMELINE: GoldenKind = GoldenKind {
     writer: "golden --update",
 };
 
-/// Compare each program's timeline with the `.timeline` file next to it
+/// Compare programs with their agreed timelines or contours
 ///
-/// With `--contour`, compares the contour with the `.contour` file next to the program: the
+/// The agreed timeline is the `.timeline` file next to the program. With `--contour`, compares the contour with the `.contour` file next to the program: the
 /// deviation of each block and the glitches of its reversals. A figure that changes by no more than the
 /// tolerance is as agreed.
 #[derive(Debug, Args)]

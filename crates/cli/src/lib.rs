@@ -14,7 +14,6 @@ mod channels;
 mod check;
 mod circle;
 mod code_page;
-mod codes;
 mod commission;
 mod completions;
 mod config;
@@ -36,11 +35,10 @@ mod failure;
 mod failures;
 mod folders;
 mod golden;
-mod graph;
+mod groups;
 mod html;
 mod identify;
 mod init;
-mod learn;
 mod listeners;
 mod listing;
 mod lists;
@@ -48,8 +46,8 @@ mod lsp;
 mod machine;
 mod man;
 mod mend;
+mod moved;
 mod named_lists;
-mod notes;
 mod outputs;
 mod painted;
 mod piped;
@@ -68,7 +66,6 @@ mod start;
 mod stiction;
 mod tool_radius;
 mod trace;
-mod trend;
 mod tune;
 mod values;
 mod verify;
@@ -116,36 +113,39 @@ enum Command {
     Run(run::RunArgs),
     Check(check::CheckArgs),
     Audit(audit::AuditArgs),
-    Golden(golden::GoldenArgs),
-    Graph(graph::GraphArgs),
     Diff(diff::DiffArgs),
+    Golden(golden::GoldenArgs),
+    Contour(contour::ContourArgs),
     #[command(subcommand)]
     Show(show::ShowCommand),
-    Lists(lists::ListsArgs),
-    Drive(drive::DriveArgs),
-    Current(current::CurrentArgs),
-    Circle(circle::CircleArgs),
-    Contour(contour::ContourArgs),
-    Tune(tune::TuneArgs),
-    Stiction(stiction::StictionArgs),
-    Ask(ask::AskArgs),
-    Conformance(conformance::ConformanceArgs),
-    Trace(trace::TraceArgs),
-    Identify(identify::IdentifyArgs),
-    Verify(verify::VerifyArgs),
-    Replay(replay::ReplayArgs),
-    Trend(trend::TrendArgs),
-    #[command(subcommand)]
-    Commission(commission::CommissionCommand),
-    Learn(learn::LearnArgs),
-    Explain(explain::ExplainArgs),
-    Codes(codes::CodesArgs),
-    Lsp(lsp::LspArgs),
-    Dap(dap::DapArgs),
     Init(init::InitArgs),
     #[command(subcommand)]
     Config(config::ConfigCommand),
+    Lists(lists::ListsArgs),
+    Drive(drive::DriveArgs),
+    #[command(subcommand)]
+    Commission(commission::CommissionCommand),
+    Trace(trace::TraceArgs),
+    Identify(identify::IdentifyArgs),
+    Verify(verify::VerifyArgs),
+    Circle(circle::CircleArgs),
+    Tune(tune::TuneArgs),
+    Current(current::CurrentArgs),
+    #[command(subcommand)]
+    Ask(ask::AskCommand),
+    Replay(replay::ReplayArgs),
+    Explain(explain::ExplainArgs),
+    #[command(hide = true)]
+    Conformance(conformance::ConformanceArgs),
+    #[command(hide = true)]
+    Stiction(stiction::StictionArgs),
+    #[command(hide = true)]
+    Lsp(lsp::LspArgs),
+    #[command(hide = true)]
+    Dap(dap::DapArgs),
+    #[command(hide = true)]
     Completions(completions::CompletionsArgs),
+    #[command(hide = true)]
     Man(man::ManArgs),
 }
 
@@ -160,16 +160,26 @@ pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     if cfg!(windows) {
         arguments = wildcards::expanded(arguments);
     }
-    let is_command = |word: &str| description().find_subcommand(word).is_some();
+    let tool = moved::with_moved(description());
+    let is_command = |word: &str| tool.find_subcommand(word).is_some();
     let (arguments, report) = Meant::new(arguments, is_command).split();
-    let status = status_of(arguments);
+    let status = status_of(tool, arguments);
     Meant::finish(report, status);
     status
 }
 
-fn status_of(arguments: Vec<OsString>) -> u8 {
+fn status_of(tool: clap::Command, arguments: Vec<OsString>) -> u8 {
     let hidden = hidden(&arguments);
-    let parsed = description().try_get_matches_from(arguments);
+    let mut words = arguments.iter().map(|it| it.to_string_lossy());
+    let command = words.find(|it| tool.find_subcommand(it.as_ref()).is_some());
+    let command = command.unwrap_or_default().into_owned();
+    let gone = moved::command(&command, &tool);
+    let parsed = tool.try_get_matches_from(arguments);
+    let moved = || moved::option(&command, parsed.as_ref().err()?);
+    if let Some(answer) = gone.or_else(moved) {
+        Console::talk(&answer);
+        return exit::FAILED;
+    }
     let parsed = parsed.and_then(|matches| {
         let arguments = Arguments::from_arg_matches(&matches)?;
         Ok((arguments, written(&matches)))
@@ -253,7 +263,6 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Check(args) => check::run(args, console),
         Command::Audit(args) => audit::run(args, console),
         Command::Golden(args) => golden::run(args, console),
-        Command::Graph(args) => graph::run(args, console),
         Command::Diff(args) => match args.revision() {
             Some(revision) => diff_git::run(args, revision, console),
             None => diff::run(args, console),
@@ -270,13 +279,10 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Identify(args) => identify::run(args, console),
         Command::Verify(args) => verify::run(args, console),
         Command::Replay(args) => replay::run(args, console),
-        Command::Ask(args) => ask::run(args, console),
+        Command::Ask(command) => ask::run(command, console),
         Command::Conformance(args) => conformance::run(args, console),
-        Command::Trend(args) => trend::run(args, console),
         Command::Commission(command) => commission::run(command, console),
-        Command::Learn(args) => learn::run(args, console),
         Command::Explain(args) => explain::run(args, console),
-        Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),
         Command::Dap(args) => dap::run(args),
         Command::Init(args) => init::run(args),
@@ -288,7 +294,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
 
 /// Returns the description of the command line, for completions and the manual page.
 fn description() -> clap::Command {
-    examples::with_examples(Arguments::command())
+    groups::in_groups(examples::with_examples(Arguments::command()))
 }
 
 #[cfg(test)]

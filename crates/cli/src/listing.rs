@@ -11,13 +11,14 @@ use serde_json::{Value, json};
 use super::console::{Console, DataTarget, Printed};
 use super::fail_on::{FailOn, FailOnWord};
 use super::failure::Failure;
+use super::result::RecordsFormat;
 use super::severities::SeverityArgs;
 use super::values;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::drive_interface::DriveReport;
 use frictcomp::lists::{AxisType, Origin, Parameter};
 use frictcomp::machine::AxisReport;
-use frictcomp::timeline::{FeedMoves, ReadingsInForce, SCHEMA};
+use frictcomp::timeline::{FeedMoves, ReadingsInForce};
 use frictcomp_report::drives::drive_record;
 use frictcomp_report::{Listing, ListingFormat, Tally, feed_moves_text};
 
@@ -48,26 +49,19 @@ pub(super) struct ListingArgs {
     pub(super) severities: SeverityArgs,
 }
 
-/// Refuses the formats that are for diagnostics only.
-pub(super) fn of_records(format: ListingFormat, what: &str) -> Result<ListingFormat, Failure> {
+/// Returns the format of counts; the formats that are for diagnostics alone are refused.
+fn format_of_counts(format: ListingFormat) -> Result<RecordsFormat, Failure> {
     if format.is_for_diagnostics() {
-        return Err(Failure::new(format!(
-            "`--format github` and `sarif` are for diagnostics, not for {what}"
-        ))
+        return Err(Failure::new(
+            "`--format github` and `sarif` are for diagnostics, not for statistics",
+        )
         .with_help("write `--format text`, `concise`, `json` or `ndjson`"));
     }
-    Ok(format)
-}
-
-/// Returns records as text lines, NDJSON or one document.
-pub(super) fn records(format: ListingFormat, text: &str, records: &[Value]) -> String {
-    match format {
-        ListingFormat::Json => format!("{:#}\n", json!({ "schema": SCHEMA, "records": records })),
-        ListingFormat::Ndjson => records
-            .iter()
-            .fold(String::new(), |lines, it| lines + &it.to_string() + "\n"),
-        _ => text.to_owned(),
-    }
+    Ok(match format {
+        ListingFormat::Json => RecordsFormat::Json,
+        ListingFormat::Ndjson => RecordsFormat::Ndjson,
+        _ => RecordsFormat::Text,
+    })
 }
 
 impl ListingArgs {
@@ -80,8 +74,8 @@ impl ListingArgs {
     pub(super) fn lister(&self, target: DataTarget) -> Result<Lister<'_>, Failure> {
         let (format, look) = (self.format, target.look);
         let (writer, counted): (Box<dyn Write + Send>, _) = if self.statistics {
-            of_records(self.format, "statistics")?;
-            (Box::new(io::sink()), Some(target))
+            let format = format_of_counts(self.format)?;
+            (Box::new(io::sink()), Some((target, format)))
         } else {
             (target.writer, None)
         };
@@ -103,7 +97,7 @@ pub(super) struct Lister<'a> {
     fail_on: FailOn,
     listing: Listing<Box<dyn Write + Send>>,
     /// Destination of the counts, in place of the list.
-    counted: Option<DataTarget>,
+    counted: Option<(DataTarget, RecordsFormat)>,
     counts: BTreeMap<(Code, Severity), u64>,
     /// Feed moves without compensation, by the names of the axes.
     uncompensated: BTreeMap<String, Uncompensated>,
@@ -199,8 +193,8 @@ impl Lister<'_> {
     /// Writes the end of the list.
     pub(super) fn finish(&mut self) -> Result<Printed, Failure> {
         self.listing.finish().map_err(Failure::output)?;
-        if let Some(target) = &mut self.counted {
-            let (format, counts) = (self.args.format, &self.counts);
+        if let Some((target, format)) = &mut self.counted {
+            let counts = &self.counts;
             let rows = counts
                 .iter()
                 .map(|((code, severity), count)| row(*code, *severity, *count));
@@ -212,7 +206,7 @@ impl Lister<'_> {
             let costs = self.uncompensated.iter();
             let costs = costs.map(|(axis, of)| cost_record(axis, of));
             let values: Vec<Value> = values.chain(costs).collect();
-            return target.text(&records(format, &text, &values));
+            return target.text(&format.records(&text, &values));
         }
         Ok(if self.listing.is_closed() {
             Printed::Unread

@@ -20,7 +20,7 @@ use frictcomp_report::pictures::value_curves;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::{ListingFormat, command_line};
 
-/// Read and check axis, value, channel and start-up lists
+/// Check axis, value, channel and start-up lists
 ///
 /// A start-up list or a `frictcomp.toml` is checked together with every list that it names, any
 /// other list by itself.

@@ -15,13 +15,13 @@ use frictcomp_host::FileRegistry;
 #[derive(Debug, Args)]
 pub(super) struct ManArgs {
     /// Write the pages of the tool and of each command to this folder
-    #[arg(long, short, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[arg(long, value_name = "FOLDER")]
+    into: Option<PathBuf>,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &ManArgs, tool: clap::Command, console: Console) -> Result<u8, Failure> {
-    let Some(folder) = &args.output else {
+    let Some(folder) = &args.into else {
         let (_, page) = page(tool)?;
         console.print(&page)?;
         return Ok(exit::CLEAN);
@@ -30,7 +30,7 @@ pub(super) fn run(args: &ManArgs, tool: clap::Command, console: Console) -> Resu
     let mut outputs = Outputs::new(&FileRegistry::default(), console);
     for command in commands(tool) {
         let (name, text) = page(command)?;
-        let mut file = outputs.file("man --output", &folder.join(name))?;
+        let mut file = outputs.file("--into", &folder.join(name))?;
         write_text(&mut file, &text)?;
     }
     outputs.finish()?;
@@ -45,8 +45,7 @@ fn commands(command: clap::Command) -> Vec<clap::Command> {
         // Propagates global options to the subcommands.
         command.build();
         let name = command.get_display_name().unwrap_or("frictcomp").to_owned();
-        let below = command.get_subcommands().filter(|it| !it.is_hide_set());
-        open.extend(below.map(|it| {
+        open.extend(command.get_subcommands().map(|it| {
             let whole = format!("{name}-{}", it.get_name());
             it.clone().display_name(whole)
         }));

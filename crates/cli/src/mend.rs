@@ -29,10 +29,10 @@ const MOST_PASSES: usize = 10;
 #[derive(Debug, Clone, Args)]
 pub(super) struct FixArgs {
     /// Apply the changes that do not affect what the machine does, then print the remaining messages
-    #[arg(long, conflicts_with_all = ["unknowns", "opaque"])]
+    #[arg(long)]
     pub(super) fix: bool,
     /// Instead of messages, show the changes that `--fix` would apply, as a unified diff
-    #[arg(long, conflicts_with_all = ["fix", "unknowns", "opaque", "format", "statistics", "fail_on"])]
+    #[arg(long, conflicts_with_all = ["fix", "format", "statistics", "fail_on"])]
     pub(super) diff: bool,
 }
 

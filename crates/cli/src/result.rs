@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+
+use frictcomp::timeline::SCHEMA;
 
 /// A format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -12,6 +15,31 @@ pub(super) enum ResultFormat {
     Text,
     /// One JSON document.
     Json,
+}
+
+/// A format of records of one kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum RecordsFormat {
+    /// For people.
+    #[default]
+    Text,
+    /// One JSON document.
+    Json,
+    /// One record per line.
+    Ndjson,
+}
+
+impl RecordsFormat {
+    /// Returns records in this format, `text` as they are for people.
+    pub(super) fn records(self, text: &str, records: &[Value]) -> String {
+        match self {
+            Self::Text => text.to_owned(),
+            Self::Json => format!("{:#}\n", json!({ "schema": SCHEMA, "records": records })),
+            Self::Ndjson => records
+                .iter()
+                .fold(String::new(), |lines, it| lines + &it.to_string() + "\n"),
+        }
+    }
 }
 
 /// A result that goes to standard output or to a file, in one of the formats `F`.

@@ -33,9 +33,9 @@ use frictcomp_report::{
     command_line, concise_line,
 };
 
-/// Run programs one after the other in one session of the control and print the timeline
+/// Show what is active, block by block, and what is left at the end
 ///
-/// Each program starts with the state that the one before it leaves.
+/// Runs programs one after the other in one session of the control. Each program starts with the state that the one before it leaves.
 #[derive(Debug, Args)]
 // Each is a separate switch on the command line.
 #[allow(clippy::struct_excessive_bools)]

@@ -44,7 +44,7 @@ fn parse_code(text: &str) -> Result<Code, String> {
         let known = Code::ALL.iter().map(|code| code.as_str());
         match did_you_mean(text, known) {
             Some(near) => format!("there is no code `{text}`; did you mean `{near}`?"),
-            None => format!("there is no code `{text}`; `frictcomp codes` lists them"),
+            None => format!("there is no code `{text}`; `frictcomp explain` lists them"),
         }
     })
 }

@@ -7,7 +7,9 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
-use super::result::ResultFormat;
+use super::outputs::Outputs;
+use super::result::{ResultArgs, ResultFormat};
+use frictcomp_host::FileRegistry;
 use frictcomp_physics::stiction::{Quantity, StictionError, solve};
 use frictcomp_report::stiction::{guideline, render_stiction, stiction_document};
 
@@ -55,9 +57,8 @@ pub(super) struct StictionArgs {
     /// Feed up to which stiction is compensated, in m/min by default
     #[arg(long, value_name = "FEED", value_parser = |it: &str| Quantity::Mp1513.parse(it))]
     mp1513: Option<f64>,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: ResultFormat,
+    #[command(flatten)]
+    result: ResultArgs,
 }
 
 impl StictionArgs {
@@ -100,11 +101,13 @@ fn help(error: &StictionError) -> &'static str {
 pub(super) fn run(args: &StictionArgs, console: Console) -> Result<u8, Failure> {
     let solution = solve(&args.given())
         .map_err(|error| Failure::new(error.to_string()).with_help(help(&error)))?;
-    let text = match args.format {
+    let mut outputs = Outputs::new(&FileRegistry::default(), console);
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    target.text(&match args.result.format {
         ResultFormat::Text => render_stiction(&solution),
         ResultFormat::Json => format!("{:#}\n", stiction_document(&solution)),
-    };
-    console.print(&text)?;
+    })?;
+    outputs.finish()?;
     for kept in &solution.guidelines {
         Console::talk(&format!("warning: {}", guideline(*kept)));
     }

@@ -17,7 +17,7 @@ use frictcomp_report::pictures::channels;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::trace::{TraceReport, render_json, render_text};
 
-/// List the channels of a recorded trace: rates, lengths, ranges, gaps
+/// List the channels of a recording: rates, lengths, ranges, gaps
 ///
 /// Reads exports of TwinCAT Scope (CSV), traces of SINUMERIK (XML) and CSV files with a header. The
 /// names, comments and CNC objects that it lists are what `identify`, `current` and `circle` take

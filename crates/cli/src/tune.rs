@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::progress;
-use super::result::ResultFormat;
+use super::result::{ResultArgs, ResultFormat};
 use super::values;
 use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::{Code, Diagnostic};
@@ -31,7 +31,7 @@ use frictcomp_report::pictures::tuning;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::tune::{TuneReport, render_json, render_text, round};
 use frictcomp_report::value_lists::render_tuned;
-use frictcomp_report::visible_line;
+use frictcomp_report::{fitted, visible_line};
 
 /// Largest number of circles tuned at once.
 const MAX_CIRCLES: usize = 32;
@@ -39,7 +39,7 @@ const MAX_CIRCLES: usize = 32;
 /// Largest number of plants.
 const MAX_PLANTS: usize = 16;
 
-/// Find the value lists with the smallest glitch on a simulated machine
+/// Find the value lists with the smallest glitch on simulated drives
 ///
 /// Searches `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` within
 /// their documented ranges for the smallest worst glitch over all circles, then shapes the points
@@ -106,9 +106,8 @@ pub(super) struct TuneArgs {
         hide_default_value = true
     )]
     reading: Reading,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: ResultFormat,
+    #[command(flatten)]
+    result: ResultArgs,
     /// Draw the glitch over the feed, before and after tuning, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -117,12 +116,12 @@ pub(super) struct TuneArgs {
     #[arg(long, value_name = "BUILD")]
     cnc_build: Option<CncBuild>,
     /// Write the value list of the first plant to this file; if X and Y have different lists, that of X
-    #[arg(long, short, value_name = "LIST")]
-    output: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    write_list: Option<PathBuf>,
     /// Write a value list for each axis of the first plant to this folder, named after the axes of
     /// the machine: `X.lis`, `Y.lis`
     #[arg(long, value_name = "FOLDER")]
-    output_dir: Option<PathBuf>,
+    into: Option<PathBuf>,
     #[command(flatten)]
     machine: MachineArgs,
 }
@@ -159,17 +158,17 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         .map(|name| find_plant(name, &registry))
         .collect::<Result<_, _>>()?;
     if let Some(first) = plants.first()
-        && (args.output.is_some() || args.output_dir.is_some())
+        && (args.write_list.is_some() || args.into.is_some())
     {
         check_list(first)?;
     }
     let mut outputs = Outputs::new(&registry, console);
-    outputs.print("the result")?;
-    let list = args.output.as_deref();
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    let list = args.write_list.as_deref();
     let list = list
-        .map(|path| outputs.list("--output", path))
+        .map(|path| outputs.list("--write-list", path))
         .transpose()?;
-    let axis_lists = match &args.output_dir {
+    let axis_lists = match &args.into {
         Some(folder) => axis_lists(folder, args, &mut outputs, &registry)?,
         None => Vec::new(),
     };
@@ -214,7 +213,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
                 &render_tuned(first, x, args.cnc_build, &ListHead::default()),
             )?;
             if x != y {
-                console.remark("Y has its own list: `--output-dir` writes both");
+                console.remark("Y has its own list: `--into` writes both");
             }
         }
         for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
@@ -228,8 +227,8 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     if let Some(mut svg) = svg {
         write_text(&mut svg, &tuning(&reports).render(Frame::Alone))?;
     }
-    console.print(&match args.format {
-        ResultFormat::Text => console.fitted(&render_text(&reports)),
+    target.text(&match args.result.format {
+        ResultFormat::Text => fitted(&render_text(&reports), target.look.width),
         ResultFormat::Json => render_json(&reports),
     })?;
     outputs.finish()?;
@@ -290,7 +289,7 @@ fn axis_lists(
         let found = same.or(linear.get(at));
         let name = found.map_or(axis.as_str(), |axis| &axis.name);
         Ok(AxisFile {
-            file: outputs.list("--output-dir", &folder.join(format!("{name}.lis")))?,
+            file: outputs.list("--into", &folder.join(format!("{name}.lis")))?,
             name: name.to_owned(),
             number: found.and_then(|axis| axis.number),
         })

@@ -251,7 +251,7 @@ fn a_tuned_list_is_one_that_the_control_takes() {
         "--no-shaping",
         "--format",
         "json",
-        "--output",
+        "--write-list",
         name,
     ];
     let document = json(&arguments);
@@ -326,7 +326,7 @@ fn each_axis_gets_a_list_with_the_name_of_the_machine() {
         "--no-shaping",
         "--config",
         &machine,
-        "--output-dir",
+        "--into",
         lists.to_str().expect("text"),
         "--format",
         "json",
@@ -450,7 +450,7 @@ fn stiction_compensation_is_reported_in_place_of_a_list() {
     let document: Value =
         serde_json::from_str(&said(call("tune", &["--format", "json"]))).expect("JSON");
     assert!(document["axes"]["X"]["parameters"]["mp1511_us"].is_number());
-    for option in ["--output", "--output-dir"] {
+    for option in ["--write-list", "--into"] {
         let refused = call("tune", &[option, &path("made")]);
         assert_eq!(refused.status.code(), Some(2));
         assert!(!Path::new(&path("made")).exists());

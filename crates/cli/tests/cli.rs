@@ -49,11 +49,11 @@ fn an_unknown_code_is_answered_with_the_nearest() {
 
 #[test]
 fn codes_are_listed() {
-    let text = frictcomp(&["codes"]);
+    let text = frictcomp(&["explain"]);
     assert!(
         stdout(&text).contains("P-ERR-70495   error    friction compensation is not configured")
     );
-    let json = frictcomp(&["codes", "--format", "json"]);
+    let json = frictcomp(&["explain", "--format", "json"]);
     let document: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     let codes = document["codes"].as_array().expect("a list");
     assert_eq!(codes.len(), stdout(&text).lines().count());
@@ -76,13 +76,65 @@ fn usage_errors_are_status_2_and_help_is_0() {
         &["rum"][..],
         &["run"],
         &["run", "--skip", "12", "a.nc"],
-        &["explain"],
+        &["explain", "--format", "csv"],
     ] {
         assert!(refused(wrong).starts_with("error: "), "{wrong:?}");
     }
     assert_eq!(frictcomp(&["--help"]).status.code(), Some(0));
     assert_eq!(frictcomp(&["run", "--help"]).status.code(), Some(0));
     assert_eq!(frictcomp(&["--version"]).status.code(), Some(0));
+}
+
+#[test]
+fn an_earlier_word_is_answered_with_the_present_one() {
+    // R9.85
+    for (before, answer) in [
+        (
+            &["graph", "--format", "dot", "."][..],
+            "`frictcomp graph` is now `frictcomp show calls`\n",
+        ),
+        (
+            &["trend", "--help"],
+            "`frictcomp trend` is now `frictcomp commission trend`\n",
+        ),
+        (
+            &["--color", "never", "codes"],
+            "`frictcomp codes` is now `frictcomp explain`\n",
+        ),
+        (
+            &["check", "--unknowns", "."],
+            "`frictcomp check --unknowns` is now `frictcomp show values`\n",
+        ),
+        (
+            &["ask", "--output=questions"],
+            "`frictcomp ask --output` is now `frictcomp ask write --into`\n",
+        ),
+    ] {
+        assert_eq!(refused(before), answer);
+    }
+}
+
+#[test]
+fn the_tool_alone_prints_its_commands_in_five_groups() {
+    // R9.85
+    let output = frictcomp(&[]);
+    let list = stderr(&output).to_owned() + stdout(&output);
+    assert_eq!(list, stdout(&frictcomp(&["-h"])));
+    let headings = list.lines().filter(|line| line.ends_with(':'));
+    assert_eq!(
+        headings.collect::<Vec<_>>(),
+        [
+            "Programs:",
+            "Machine:",
+            "Commissioning:",
+            "The control:",
+            "Help:",
+            "Options:",
+            "Examples:"
+        ]
+    );
+    assert!(!list.contains("conformance"), "{list}");
+    assert!(stdout(&frictcomp(&["conformance", "--help"])).contains("Examples:"));
 }
 
 #[test]

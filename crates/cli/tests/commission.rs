@@ -144,7 +144,7 @@ fn ends(values: &[f64]) -> (f64, f64) {
 #[test]
 fn programs_stay_in_the_travel_and_carry_their_number() {
     let folder = folder();
-    let (status, said) = commission(folder.path(), &[&SMALL[..], &["-o", "one"]].concat());
+    let (status, said) = commission(folder.path(), &[&SMALL[..], &["--into", "one"]].concat());
     assert_eq!(status, Some(0), "{said}");
     assert!(
         said.contains("6 programs") && said.contains(" min"),
@@ -167,7 +167,7 @@ fn programs_stay_in_the_travel_and_carry_their_number() {
         "X=comp_x.lis",
         "--value-list",
         "Y=comp_x.lis",
-        "-o",
+        "--into",
         "two",
     ];
     let (status, said) = commission(folder.path(), &[&SMALL[..], &lists].concat());
@@ -239,7 +239,7 @@ fn programs_stay_in_the_travel_and_carry_their_number() {
 #[test]
 fn a_plan_is_not_replaced_by_another_one() {
     let folder = folder();
-    let one = [&SMALL[..], &["-o", "one"]].concat();
+    let one = [&SMALL[..], &["--into", "one"]].concat();
     let (status, said) = commission(folder.path(), &one);
     assert_eq!(status, Some(0), "{said}");
     let other = ["--approach", "500"];
@@ -257,7 +257,7 @@ fn a_plan_is_not_replaced_by_another_one() {
 #[test]
 fn the_page_of_the_operator_is_one_page() {
     let folder = folder();
-    let (status, said) = commission(folder.path(), &[&SMALL[..], &["-o", "one"]].concat());
+    let (status, said) = commission(folder.path(), &[&SMALL[..], &["--into", "one"]].concat());
     assert_eq!(status, Some(0), "{said}");
     let page = std::fs::read_to_string(folder.path().join("one/README.txt")).expect("a page");
     assert!(page.is_ascii());
@@ -287,7 +287,7 @@ fn an_axis_alone_has_strokes() {
         "C=-90..270",
         "--feeds",
         "500,1000,2000,5000",
-        "-o",
+        "--into",
         "c",
     ];
     let (status, said) = commission(folder.path(), &arguments);
@@ -312,7 +312,7 @@ fn an_axis_alone_has_strokes() {
 fn inch_machines_are_refused() {
     let folder = folder();
     let path = folder.path().join("frictcomp.toml");
-    let small = [&SMALL[..], &["-o", "one"]].concat();
+    let small = [&SMALL[..], &["--into", "one"]].concat();
     let in_inch = small.iter().map(|it| it.replace("X0..60", "X0..60in"));
     let in_inch: Vec<String> = in_inch.collect();
     let in_inch: Vec<&str> = in_inch.iter().map(String::as_str).collect();
@@ -406,7 +406,7 @@ fn what_does_not_fit_is_refused_with_its_reason() {
     ];
     for (arguments, words) in cases {
         let folder = folder();
-        let arguments = [&["plan"][..], &arguments.concat(), &["-o", "made"]].concat();
+        let arguments = [&["plan"][..], &arguments.concat(), &["--into", "made"]].concat();
         let (status, said) = commission(folder.path(), &arguments);
         assert_eq!(status, Some(2), "{arguments:?}: {said}");
         assert!(said.contains(words), "{arguments:?}: {said}");

@@ -69,7 +69,7 @@ fn states_stand_side_by_side() {
     ];
     let (status, said) = call(
         folder.path(),
-        &[&recorded[..], &["-o", "x.lis", "--svg", "x.svg"]].concat(),
+        &[&recorded[..], &["--write-list", "x.lis", "--svg", "x.svg"]].concat(),
     );
     assert_eq!(status, Some(0), "{said}");
     assert!(said.contains("speed cold warm spread"), "{said}");
@@ -89,7 +89,7 @@ fn states_stand_side_by_side() {
     assert!(list.contains("differs between the states"), "{list}");
     let (status, said) = call(
         folder.path(),
-        &["identify", "r/warm.csv", "-o", "alone.lis"],
+        &["identify", "r/warm.csv", "--write-list", "alone.lis"],
     );
     assert_eq!(status, Some(0), "{said}");
     let alone = std::fs::read_to_string(folder.path().join("alone.lis")).expect("a list");
@@ -132,7 +132,7 @@ fn a_state_that_is_not_there_is_refused() {
     ] {
         let (status, said) = call(
             folder.path(),
-            &[&["identify"], arguments, &["-o", "x.lis"]].concat(),
+            &[&["identify"], arguments, &["--write-list", "x.lis"]].concat(),
         );
         assert_eq!(status, Some(2), "{said}");
         assert!(said.contains(words), "{words}: {said}");
@@ -154,7 +154,7 @@ fn a_trend_says_what_changed() {
     std::fs::write(folder.path().join("r/y-2027-10-01.csv"), "t,z\n0,1\n").expect("written");
     let (status, said) = call(
         folder.path(),
-        &["trend", "r", "--axis", "X", "--svg", "x.svg"],
+        &["commission", "trend", "r", "--axis", "X", "--svg", "x.svg"],
     );
     assert_eq!(status, Some(0), "{said}");
     assert!(said.contains("over 4 recordings"), "{said}");
@@ -174,7 +174,10 @@ fn a_trend_says_what_changed() {
     assert!(said.contains("left out: r/y-2027-10-01.csv"), "{said}");
     let svg = std::fs::read_to_string(folder.path().join("x.svg")).expect("a picture");
     roxmltree::Document::parse(&svg).expect("well-formed");
-    let (status, said) = call(folder.path(), &["trend", "r", "--format", "json"]);
+    let (status, said) = call(
+        folder.path(),
+        &["commission", "trend", "r", "--format", "json"],
+    );
     assert_eq!(status, Some(0), "{said}");
     let record: serde_json::Value = serde_json::from_str(&said).expect("a record");
     assert_eq!(record["dates"].as_array().expect("dates").len(), 4);
@@ -185,7 +188,7 @@ fn a_trend_says_what_changed() {
 #[test]
 fn what_did_not_change_is_said_and_one_date_is_no_trend() {
     let steady = folder(&[("2026-03-01.csv", 1.0, 0.0), ("2027-03-01.csv", 1.04, 0.0)]);
-    let (status, said) = call(steady.path(), &["trend", "r"]);
+    let (status, said) = call(steady.path(), &["commission", "trend", "r"]);
     assert_eq!(status, Some(0), "{said}");
     assert!(
         said.contains(
@@ -194,7 +197,7 @@ fn what_did_not_change_is_said_and_one_date_is_no_trend() {
         "{said}"
     );
     let alone = folder(&[("2026-03-01.csv", 1.0, 0.0), ("undated.csv", 1.0, 0.0)]);
-    let (status, said) = call(alone.path(), &["trend", "r"]);
+    let (status, said) = call(alone.path(), &["commission", "trend", "r"]);
     assert_eq!(status, Some(2), "{said}");
     assert!(
         said.contains("1 of the 2 recordings")
@@ -207,7 +210,7 @@ fn what_did_not_change_is_said_and_one_date_is_no_trend() {
 #[test]
 fn a_recording_given_twice_is_no_second_one() {
     let twice = folder(&[("2026-03-01.csv", 1.0, 0.0), ("2027-03-01.csv", 1.0, 0.0)]);
-    let (status, said) = call(twice.path(), &["trend", "r"]);
+    let (status, said) = call(twice.path(), &["commission", "trend", "r"]);
     assert_eq!(status, Some(2), "{said}");
     assert!(
         said.contains("2027-03-01.csv: it is a copy of `r/2026-03-01.csv`"),

@@ -201,8 +201,8 @@ fn no_command_and_no_format_lets_harm_out() {
             &["golden", "."],
             &["diff", name, COMMAND],
             &["diff", "h.lis", name],
-            &["check", "--unknowns", name],
-            &["check", "--opaque", name],
+            &["show", "values", name],
+            &["show", "passed-over", name],
             &["check", "--config", "bad.toml", name],
             &["check", "--config", "evil.toml", name],
             &["run", "--config", name, name],
@@ -250,7 +250,7 @@ fn no_command_and_no_format_lets_harm_out() {
         let agreed = fs::read(folder.join(format!("{name}.timeline"))).unwrap();
         let written = Output {
             stdout: agreed,
-            ..tool(folder, &["codes"])
+            ..tool(folder, &["explain"])
         };
         is_harmless(&written, &["timeline"]);
     }

@@ -77,7 +77,7 @@ fn play(name: &str, text: &[u8], arguments: &[&str]) -> (Option<i32>, String, St
         .arg("identify")
         .arg(&file)
         .args(arguments)
-        .arg("--output")
+        .arg("--write-list")
         .arg(&list)
         .output()
         .expect("a run");

@@ -1,4 +1,4 @@
-//! `frictcomp learn` on machines whose parameters it does not see, from the command line to the last list.
+//! `frictcomp commission learn` on machines whose parameters it does not see, from the command line to the last list.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -106,6 +106,7 @@ impl Bench {
 
     fn learn(&self, arguments: &[&str]) -> (Option<i32>, String) {
         let first = [
+            "commission",
             "learn",
             "learning",
             "--plant",
@@ -127,7 +128,15 @@ impl Bench {
     /// The record of a call.
     fn record(&self) -> Value {
         let plant = self.machine.reference.as_str();
-        let arguments = ["learn", "learning", "--plant", plant, "--format", "json"];
+        let arguments = [
+            "commission",
+            "learn",
+            "learning",
+            "--plant",
+            plant,
+            "--format",
+            "json",
+        ];
         let output = call(self.folder.path(), &arguments);
         serde_json::from_slice(&output.stdout)
             .unwrap_or_else(|error| panic!("{error}: {:?}", said(&output)))
@@ -301,7 +310,7 @@ fn five_rounds_come_close_to_the_best_known_lists() {
             plant,
             "--feeds",
             &feeds,
-            "-o",
+            "--write-list",
             "start.lis",
         ];
         assert_eq!(call(bench.folder.path(), &tuned).status.code(), Some(0));

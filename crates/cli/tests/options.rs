@@ -257,12 +257,8 @@ fn options_without_effect_are_refused() {
         &["run", "--quiet", "--changes", "a.nc"],
         &["run", "--quiet", "--format", "csv", "a.nc"],
         &["run", "--isolated", "--config", "frictcomp.toml", "a.nc"],
-        &["check", "--unknowns", "--format", "sarif", "a.nc"],
-        &["check", "--opaque", "--format", "github", "a.nc"],
-        &["check", "--unknowns", "--opaque", "a.nc"],
-        &["check", "--unknowns", "--fail-on", "info", "a.nc"],
-        &["check", "--opaque", "--statistics", "a.nc"],
-        &["check", "--unknowns", "--ignore", "FC401", "a.nc"],
+        &["show", "values", "--format", "sarif", "a.nc"],
+        &["show", "passed-over", "--format", "github", "a.nc"],
         &["lists", "--show", "--format", "concise", "v.lis"],
         &["lists", "--show", "--format", "sarif", "v.lis"],
         &[&trace[..], &["--enable", "X"]].concat(),
@@ -283,10 +279,10 @@ fn every_format_holds_what_the_text_holds() {
     // R9.71
     let program = "N10 X=V.E.PART\nN20 #FLUSH\nN30 M30\n";
     let bench = Bench::new(&[("a.nc", program)]);
-    for option in ["--unknowns", "--opaque"] {
-        let text = bench.stdout(&["check", option, "a.nc"]);
-        let lines = bench.stdout(&["check", option, "--format", "ndjson", "a.nc"]);
-        let document = json(&bench.stdout(&["check", option, "--format", "json", "a.nc"]));
+    for shown in ["values", "passed-over"] {
+        let text = bench.stdout(&["show", shown, "a.nc"]);
+        let lines = bench.stdout(&["show", shown, "--format", "ndjson", "a.nc"]);
+        let document = json(&bench.stdout(&["show", shown, "--format", "json", "a.nc"]));
         let records = document["records"].as_array().expect("records");
         assert_eq!(text.lines().count(), lines.lines().count());
         assert_eq!(text.lines().count(), records.len());
@@ -450,7 +446,7 @@ fn colour_is_there_where_it_is_asked_for() {
         &["diff", "a.nc", "b.nc"],
         &["lists", "--show", "frictcomp.toml"],
         &["config", "show"],
-        &["codes"],
+        &["explain"],
         &["explain", "FC401"],
     ] {
         let plain = bench.stdout(arguments);

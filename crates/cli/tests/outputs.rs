@@ -98,7 +98,13 @@ fn no_output_destroys_an_input() {
     both(&["circle", "--value-list", "v.lis", "-o", "v.lis"], "v.lis");
     both(&["circle", "--trace", "t.csv", "--html", "t.csv"], "t.csv");
     both(
-        &["tune", "--plant", "plant.toml", "-o", "plant.toml"],
+        &[
+            "tune",
+            "--plant",
+            "plant.toml",
+            "--write-list",
+            "plant.toml",
+        ],
         "plant.toml",
     );
 }
@@ -398,7 +404,7 @@ mod unix {
             &["--help"][..],
             &["run", "--help"],
             &["--version"],
-            &["codes"],
+            &["explain"],
         ] {
             let full = fs::File::options()
                 .write(true)

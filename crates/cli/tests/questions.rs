@@ -96,10 +96,13 @@ fn a_control_of_either_kind_is_read_rightly() {
         let facts = question.facts();
         for (second, name) in facts.readings.into_iter().enumerate() {
             let bench = bench();
-            assert_eq!(bench.status(&["ask", "--axis", "X", "-o", "ask"]), Some(0));
+            assert_eq!(
+                bench.status(&["ask", "write", "--axis", "X", "--into", "ask"]),
+                Some(0)
+            );
             let messages = answered(&bench, facts.rule, second == 1);
             bench.write("message.txt", &messages);
-            let said = bench.stdout(&["ask", "--read", "message.txt"]);
+            let said = bench.stdout(&["ask", "read", "message.txt"]);
             let head = said.lines().next().unwrap_or_default().to_owned();
             assert!(
                 head.starts_with(facts.rule) && head.ends_with(&format!(": {name}")),
@@ -125,7 +128,7 @@ fn a_control_of_either_kind_is_read_rightly() {
 #[test]
 fn a_note_answers_what_no_program_does() {
     let bench = bench();
-    bench.stdout(&["ask", "-o", "ask"]);
+    bench.stdout(&["ask", "write", "--into", "ask"]);
     let readme = bench.read("ask/README.txt");
     for question in Question::ALL {
         let facts = question.facts();
@@ -143,7 +146,7 @@ fn a_note_answers_what_no_program_does() {
         };
         for name in facts.readings {
             bench.write("note.txt", &line(name));
-            let said = bench.stdout(&["ask", "--read", "note.txt"]);
+            let said = bench.stdout(&["ask", "read", "note.txt"]);
             assert!(said.contains(&format!(": {name}\n")), "{said}");
         }
     }
@@ -153,7 +156,7 @@ fn a_note_answers_what_no_program_does() {
 #[test]
 fn the_programs_pass_the_check_under_either_reading() {
     let bench = bench();
-    bench.stdout(&["ask", "--travel", "4", "-o", "ask"]);
+    bench.stdout(&["ask", "write", "--travel", "4", "--into", "ask"]);
     // That the axis is not configured is what this one requires.
     fs::remove_file(bench.folder().join("ask/ask-R1.25.nc")).expect("removed");
     let output = bench.call(&["check", "ask"]);
@@ -199,7 +202,7 @@ fn the_programs_pass_the_check_under_either_reading() {
 #[test]
 fn what_cannot_be_told_is_not_decided() {
     let bench = bench();
-    bench.stdout(&["ask", "-o", "ask"]);
+    bench.stdout(&["ask", "write", "--into", "ask"]);
     let messages = answered(&bench, "R1.28", true);
     let cases = [
         (
@@ -218,7 +221,7 @@ fn what_cannot_be_told_is_not_decided() {
     ];
     for (text, reason) in cases {
         bench.write("message.txt", &text);
-        let said = bench.stdout(&["ask", "--read", "message.txt"]);
+        let said = bench.stdout(&["ask", "read", "message.txt"]);
         assert!(said.starts_with("R1.28 not decidable\n"), "{said}");
         let joined = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(joined.contains(reason), "{said}");
@@ -226,10 +229,10 @@ fn what_cannot_be_told_is_not_decided() {
     }
     let refused = answered(&bench, "R1.26", true).replace("error 70998", "error 70495");
     bench.write("message.txt", &refused);
-    let said = bench.stdout(&["ask", "--read", "message.txt"]);
+    let said = bench.stdout(&["ask", "read", "message.txt"]);
     assert!(said.starts_with("R1.26 not decidable\n"), "{said}");
     bench.write("message.txt", "12:00 nothing of ours\n");
-    let output = bench.call(&["ask", "--read", "message.txt"]);
+    let output = bench.call(&["ask", "read", "message.txt"]);
     assert_eq!(output.status.code(), Some(2));
 }
 
@@ -240,13 +243,13 @@ fn an_answer_without_a_build_confirms_nothing() {
     let bench = bench();
     let unbuilt = MACHINE.replace("[machine]\ncnc_build = \"3.1.3081.5\"\n\n", "");
     bench.write("frictcomp.toml", &unbuilt);
-    bench.stdout(&["ask", "-o", "ask"]);
+    bench.stdout(&["ask", "write", "--into", "ask"]);
     bench.write("first.txt", &answered(&bench, "R1.28", true));
     bench.write("other.txt", &answered(&bench, "R1.28", false));
-    let output = bench.call(&["ask", "--read", "first.txt", "other.txt"]);
+    let output = bench.call(&["ask", "read", "first.txt", "other.txt"]);
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(bench.read("frictcomp.toml"), unbuilt);
-    assert_eq!(bench.status(&["ask", "--read", "first.txt"]), Some(0));
+    assert_eq!(bench.status(&["ask", "read", "first.txt"]), Some(0));
     let written = bench.read("frictcomp.toml");
     assert!(written.contains("\"R1.28\" = \"start-up\""), "{written}");
     assert!(!written.contains("[confirmed]"), "{written}");
@@ -325,7 +328,7 @@ fn the_current_follows_the_selected_readings() {
 #[test]
 fn the_list_says_what_is_answered() {
     let bench = bench();
-    let document = json(&bench.stdout(&["ask", "--list", "--format", "json"]));
+    let document = json(&bench.stdout(&["ask", "list", "--format", "json"]));
     assert_eq!(document["schema"], 1);
     let questions = document["questions"].as_array().expect("questions");
     assert_eq!(questions.len(), Question::ALL.len());
@@ -342,9 +345,9 @@ fn the_list_says_what_is_answered() {
     let confirmed = "[reading]\n\"R1.28\" = \"start-up\"\n[confirmed]\n\
         \"R1.28\" = { build = \"3.1.3081.5\", date = \"2026-01-31\" }\n";
     bench.write("frictcomp.toml", &format!("{MACHINE}{confirmed}"));
-    let text = bench.stdout(&["ask", "--list"]);
+    let text = bench.stdout(&["ask", "list"]);
     assert!(text.contains("reading: start-up, confirmed on"), "{text}");
-    let text = bench.stdout(&["ask", "--list", "--build", "3.1.3132.0"]);
+    let text = bench.stdout(&["ask", "list", "--cnc-build", "3.1.3132.0"]);
     assert!(
         text.contains("reading: start-up, selected, not confirmed"),
         "{text}"
@@ -406,7 +409,7 @@ fn answers_of_a_control_are_compared() {
     let folder = root().join("conformance");
     let folder = folder.to_str().expect("text");
     assert_eq!(
-        bench.status(&["conformance", folder, "--export", "cases"]),
+        bench.status(&["conformance", folder, "--into", "cases"]),
         Some(0)
     );
     let program = bench.read("cases/1/reset/next.nc");

@@ -106,7 +106,7 @@ fn archive() -> Bench {
 fn calls_are_shown_as_a_tree() {
     // R17.2
     let bench = archive();
-    let shown = bench.stdout(&["graph", "."]);
+    let shown = bench.stdout(&["show", "calls", "."]);
     assert_eq!(
         shown,
         "\
@@ -124,14 +124,14 @@ call each other in a cycle: ring-a.nc, ring-b.nc
 one name in several folders: one/drill.nc, two/drill.nc
 "
     );
-    let said = talk(&bench, &["graph", "."]);
+    let said = talk(&bench, &["show", "calls", "."]);
     assert!(
         said.contains(
             "7 programs, 4 main programs, 2 that no program calls; 1 call of missing programs"
         ),
         "{said}"
     );
-    let dot = bench.stdout(&["graph", "--format", "dot", "sub.nc"]);
+    let dot = bench.stdout(&["show", "calls", "--format", "dot", "sub.nc"]);
     assert!(dot.starts_with("digraph calls {"), "{dot}");
     assert!(
         dot.contains("\"sub.nc\" -> \"one/drill.nc\" [label=\"2\"]"),
@@ -143,7 +143,7 @@ one name in several folders: one/drill.nc, two/drill.nc
 fn calls_are_a_document() {
     // R17.2
     let bench = archive();
-    let graph = json(&bench.stdout(&["graph", "--format", "json", "."]));
+    let graph = json(&bench.stdout(&["show", "calls", "--format", "json", "."]));
     assert_eq!(graph["schema"], 1);
     let programs = graph["programs"].as_array().expect("programs");
     let of = |name: &str| {
@@ -183,10 +183,10 @@ fn deep_and_wide_graphs_end() {
         let text = format!("L p{}.nc\nL p{}.nc\nM17\n", number + 1, number + 1);
         bench.write(&format!("p{number}.nc"), &text);
     }
-    let shown = bench.stdout(&["graph", "p0.nc"]);
+    let shown = bench.stdout(&["show", "calls", "p0.nc"]);
     assert!(shown.len() < 1_000_000, "{}", shown.len());
     assert_eq!(shown.matches("p3000.nc (line").count(), 2);
-    assert!(bench.status(&["graph", "-"]) == Some(2));
+    assert!(bench.status(&["show", "calls", "-"]) == Some(2));
 }
 
 #[test]

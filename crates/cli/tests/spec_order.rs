@@ -186,12 +186,12 @@ fn every_cure_ends_every_hazard_and_changes_nothing_else() {
             for program in &programs {
                 fs::write(bench.folder().join(&program.name), &program.bytes).expect("written");
             }
-            let shown = text(&bench, &["audit", "--fix", fix]);
+            let shown = text(&bench, &["audit", &format!("--diff={fix}")]);
             for program in &programs {
                 let now = fs::read(bench.folder().join(&program.name)).expect("read");
                 assert_eq!(now, program.bytes, "a diff changes nothing");
             }
-            text(&bench, &["audit", "--fix", fix, "--write"]);
+            text(&bench, &["audit", &format!("--fix={fix}")]);
             let mut all = 0;
             for program in &programs {
                 let now = fs::read(bench.folder().join(&program.name)).expect("read");
@@ -310,7 +310,7 @@ fn what_may_be_left_is_no_all_clear() {
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8(output.stdout).expect("text");
     assert!(said.contains("; 1 hazard:"), "{said}");
-    text(&bench, &["audit", "--fix", "smaller", "--write"]);
+    text(&bench, &["audit", "--fix=smaller"]);
     assert!(
         bench
             .read("maybe.nc")
@@ -369,7 +369,7 @@ fn the_block_stands_where_every_way_comes_by() {
             ("b.nc", "X1\nM30\n"),
             ("c.nc", "X1\nM30\n"),
         ]);
-        text(&bench, &["audit", "--fix", "leavers", "--write"]);
+        text(&bench, &["audit", "--fix=leavers"]);
         assert_eq!(bench.read("a.nc"), after);
         let found = records(&bench, &[]);
         assert_eq!(of(&found, "axis")[0]["hazards"], 0);
@@ -383,8 +383,9 @@ fn nothing_is_written_that_cannot_be_undone() {
     let bench = bench(&[("a.nc", error)]);
     for arguments in [
         &["audit", "--write"][..],
-        &["audit", "--fix", "all"],
-        &["audit", "--fix", "smaller", "--format", "json"],
+        &["audit", "--fix=all"],
+        &["audit", "--fix", "--diff"],
+        &["audit", "--diff=smaller", "--format", "json"],
         &["audit", "-"],
         &["audit", "--sequence", "none.txt"],
         &["audit", "--sequence", "a.nc", "--html", "a.html"],
@@ -552,7 +553,7 @@ fn the_state_at_an_error_of_one_way_reaches_the_next_program() {
         next.contains("inactive if V.E.A (guard.nc:2), else ineffective"),
         "{next}"
     );
-    let fixed = bench.call(&["audit", "--fix", "leavers", "--write"]);
+    let fixed = bench.call(&["audit", "--fix=leavers"]);
     assert!(fixed.status.code().is_some());
     let mended = bench.read("guard.nc");
     assert!(mended.contains("X[COMP ON FRICT]\n#ERROR"), "{mended}");

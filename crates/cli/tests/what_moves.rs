@@ -244,7 +244,7 @@ fn a_cure_changes_no_motion() {
         ("LAST.NC", last),
     ]);
     let files = ["a.nc", "b.nc", "heir.nc"];
-    let arguments = [&["audit", "--fix", "leavers", "--write"], &files[..]].concat();
+    let arguments = [&["audit", "--fix=leavers"], &files[..]].concat();
     let output = bench.call(&arguments);
     let remarks = String::from_utf8(output.stderr).expect("text");
     // A block before each end changes the state in no motion.
@@ -268,7 +268,7 @@ fn a_cure_in_another_place_is_written() {
         "N10 X[COMP OFF FRICT]\nN20 G01 X10 F500\nN30 $IF P1==1\nN32 M30\nN34 $ENDIF\nN40 M30\n";
     let main = format!("P1=1\n{main}");
     let bench = bench(&[("a.nc", &main), ("heir.nc", "G01 X5 F100\nM30\n")]);
-    bench.call(&["audit", "--fix", "leavers", "--write", "a.nc", "heir.nc"]);
+    bench.call(&["audit", "--fix=leavers", "a.nc", "heir.nc"]);
     let mended = main.replace("N32 M30", "N31 X[COMP ON FRICT]\nN32 M30");
     assert_eq!(bench.read("a.nc"), mended);
 }

@@ -99,7 +99,7 @@ fn tables_and_failures_keep_within_their_width() {
             "programs/demo/replay/pocket.nc",
         ],
         &["config", "show", "programs/machines/mill3"],
-        &["codes"],
+        &["explain"],
         &["circle", "--radius", "5", "--feed", "3000"],
         &[
             "tune", "--plant", "stiff", "--radius", "5", "--feeds", "5000",

@@ -40,7 +40,7 @@ pub fn render_configuration(outline: &Outline) -> String {
         Outline::Programs(_) => append_axes(&mut text, &outline.axes()),
     }
     text.push_str(
-        "# Values that only the machine knows; `frictcomp check --unknowns .` lists those that the\n\
+        "# Values that only the machine knows; `frictcomp show values .` lists those that the\n\
          # programs need.\n# [variables]\n# \"V.E.PART\" = 3\n\n\
          # Severities: off, info, warning, error.\n# [lint]\n# FC402 = \"off\"\n",
     );

@@ -1,4 +1,4 @@
-//! Writes the recordings of `programs/demo/recorded`, for `commission run`, `learn` and `trend`:
+//! Writes the recordings of `programs/demo/recorded`, for `commission run`, `commission learn` and `commission trend`:
 //!
 //!     frictcomp commission plan --axis X,Y --travel X0..60,Y-30..30 --feeds 1200,1600,2100,2800,3700,5000 --radius 10 \
 //!         --slowest 1 -o PLANNED

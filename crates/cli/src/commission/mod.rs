@@ -4,6 +4,7 @@ mod channels;
 mod closer;
 mod friction;
 mod grounds;
+mod learn;
 mod plan;
 mod plants;
 mod reading;
@@ -11,17 +12,20 @@ mod recorded;
 mod run;
 mod run_args;
 mod sources;
+mod trend;
 
 use clap::Subcommand;
 
 use super::console::Console;
 use super::failure::Failure;
 
-/// Commission the friction compensation of one or two axes
+/// Commission the compensation of one or two axes, step by step in a folder
 #[derive(Debug, Subcommand)]
 pub(super) enum CommissionCommand {
     Plan(plan::PlanArgs),
     Run(run_args::CommissionRunArgs),
+    Learn(learn::LearnArgs),
+    Trend(trend::TrendArgs),
 }
 
 /// Runs the command.
@@ -29,5 +33,7 @@ pub(super) fn run(command: &CommissionCommand, console: Console) -> Result<u8, F
     match command {
         CommissionCommand::Plan(args) => plan::run(args, console),
         CommissionCommand::Run(args) => run::run(args, console),
+        CommissionCommand::Learn(args) => learn::run(args, console),
+        CommissionCommand::Trend(args) => trend::run(args, console),
     }
 }

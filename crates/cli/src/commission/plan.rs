@@ -9,7 +9,7 @@ use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::machine::{MachineArgs, value_list};
 use crate::outputs::{Outputs, write_text};
-use crate::result::ResultFormat;
+use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::comp::Kind;
 use frictcomp::machine::{Axis, Machine};
 use frictcomp_host::{FileRegistry, Replaces, read_text, sha256_of};
@@ -20,7 +20,7 @@ use frictcomp_recordings::commission::{
 use frictcomp_report::commission::{
     PlanFile, PlanReport, ValueListUsed, render_json, render_program, render_readme, render_text,
 };
-use frictcomp_report::visible_line;
+use frictcomp_report::{fitted, visible_line};
 
 /// Write the NC programs that measure friction, and a page for the operator
 ///
@@ -71,13 +71,12 @@ pub(crate) struct PlanArgs {
     /// The value list of an axis that is on in stage 2: `X=comp_x.lis`
     #[arg(long, value_name = "AXIS=LIST")]
     value_list: Vec<String>,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: ResultFormat,
+    #[command(flatten)]
+    result: ResultArgs,
     /// Write the programs, `README.txt` and `plan-1.json` to this folder; stage 2 has `plan-2.json`, and one more for
     /// each further set of lists
-    #[arg(long, short, value_name = "FOLDER")]
-    output: Option<PathBuf>,
+    #[arg(long, value_name = "FOLDER")]
+    into: Option<PathBuf>,
     #[command(flatten)]
     machine: MachineArgs,
 }
@@ -111,7 +110,7 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
     } else {
         Stage::On
     };
-    let round = round(args.output.as_deref(), &lists);
+    let round = round(args.into.as_deref(), &lists);
     let request = PlanRequest {
         axes,
         feeds: args.feeds.clone(),
@@ -131,22 +130,25 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
         machine,
         assumed_jerk: assumed.map(|it| it.name.clone()).collect(),
     };
-    if let Some(folder) = &args.output {
-        write((folder, round), &report, &registry, console)?;
+    let mut outputs = Outputs::new(&registry, console);
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    if let Some(folder) = &args.into {
+        write((folder, round), &report, (&mut outputs, console))?;
     }
-    console.print(&match args.format {
-        ResultFormat::Text => console.fitted(&render_text(&report)),
+    outputs.check()?;
+    target.text(&match args.result.format {
+        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
+    outputs.finish()?;
     Ok(exit::CLEAN)
 }
 
-/// Writes the folder: all of its files or none.
+/// Writes the files of the folder.
 fn write(
     (folder, round): (&Path, u16),
     report: &PlanReport,
-    registry: &FileRegistry,
-    console: Console,
+    (outputs, console): (&mut Outputs, Console),
 ) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
     let plan = folder.join(plan_name(round));
@@ -157,8 +159,6 @@ fn write(
                     are none";
         return Err(Failure::new(message).with_help(help));
     }
-    let mut outputs = Outputs::new(registry, console);
-    outputs.print("the result")?;
     let pages = [
         ("README.txt".to_owned(), render_readme(report)),
         (plan_name(round), render_json(report)),
@@ -166,11 +166,10 @@ fn write(
     let programs = report.plan.programs.iter();
     let programs = programs.map(|it| (it.file.clone(), render_program(report, it)));
     for (name, text) in programs.chain(pages) {
-        let mut file = outputs.file("--output", &folder.join(name))?;
+        let mut file = outputs.file("--into", &folder.join(name))?;
         write_text(&mut file, &text)?;
     }
-    outputs.check()?;
-    outputs.finish()
+    Ok(())
 }
 
 /// Returns the file name of the plan of a round.

@@ -28,7 +28,7 @@ use frictcomp_report::commission::{
 };
 use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on};
-use frictcomp_report::{TextChange, render_unified, visible_line};
+use frictcomp_report::{TextChange, fitted, render_unified, visible_line};
 
 /// Runs the command.
 pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Failure> {
@@ -74,12 +74,12 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     args.reading
         .take_shares(&args.folder, &plans, (&mut results, &registry))?;
     let mut outputs = Outputs::new(&registry, console);
-    outputs.print("the result")?;
+    let mut target = outputs.result(args.result.output.as_deref())?;
     // What one recording shows about another is determined anew each time.
     let read = results.clone();
     refuse_strangers(&mut results);
     let axes = lists(args, &plans, &results, &mut outputs)?;
-    let fitted = match &args.plant {
+    let plants = match &args.plant {
         Some(name) => {
             memory_for_simulation()?;
             let fitting = Fitting {
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
         }
         None => Plants::not_wanted(),
     };
-    let rounds = rounds(&plans, &results, (&fitted, &registry))?;
+    let rounds = rounds(&plans, &results, (&plants, &registry))?;
     let report = ResultsReport {
         inputs: args.inputs(&plans)?,
         said: args.said(),
@@ -102,7 +102,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
         results,
         kept,
         axes,
-        fitted,
+        fitted: plants,
         rounds,
     };
     if let Some(path) = &args.html {
@@ -120,8 +120,8 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
         serde_json::to_string_pretty(&content).map_err(|error| Failure::new(error.to_string()))?;
     write_text(&mut file, &text)?;
     outputs.check()?;
-    console.print(&match args.format {
-        ResultFormat::Text => console.fitted(&render_results(&report)),
+    target.text(&match args.result.format {
+        ResultFormat::Text => fitted(&render_results(&report), target.look.width),
         ResultFormat::Json => render_results_json(&report),
     })?;
     outputs.finish()?;
@@ -208,7 +208,7 @@ fn plans(folder: &Path, registry: &FileRegistry) -> Result<Vec<PlanFile>, Failur
     if plans.is_empty() {
         let message = format!("the folder `{}` has no `plan-1.json`", shown(folder));
         return Err(Failure::new(message)
-            .with_help("`frictcomp commission plan -o FOLDER` writes it with the programs"));
+            .with_help("`frictcomp commission plan --into FOLDER` writes it with the programs"));
     }
     Ok(plans)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::channels::ReadingArgs;
-use crate::result::ResultFormat;
+use crate::result::ResultArgs;
 use frictcomp::comp::CncBuild;
 
 /// Evaluate the recordings of the measuring programs: friction, lists, circles before and after
@@ -46,7 +46,6 @@ pub(crate) struct CommissionRunArgs {
     /// `X=old.lis`
     #[arg(long, value_name = "AXIS=LIST", requires = "html")]
     pub(super) before: Vec<String>,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    pub(super) format: ResultFormat,
+    #[command(flatten)]
+    pub(super) result: ResultArgs,
 }

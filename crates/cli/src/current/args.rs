@@ -14,7 +14,7 @@ use super::super::tool_radius::ToolArgs;
 use frictcomp_physics::current::{ChosenOptions, DeadBand, Resampling, TraceOptions};
 use frictcomp_physics::motion::PlannerOptions;
 
-/// Compute the additive current of a program or a recorded trace, cycle by cycle
+/// Compute the additive current of a program or a recording
 ///
 /// A program runs as in `run`, and its path is followed in CNC cycles; the current of each axis
 /// depends on its compensation state. A trace is an export of TwinCAT Scope, a SINUMERIK trace or a

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::channels::{AxisChannelArgs, TorqueArgs};
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
-use crate::result::ResultFormat;
+use crate::result::ResultArgs;
 use frictcomp::comp::CncBuild;
 use frictcomp::text::shown_path;
 use frictcomp_recordings::identify::{
@@ -16,7 +16,7 @@ use frictcomp_recordings::identify::{
 use frictcomp_report::identify::IdentifyReport;
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 
-/// Find the friction of an axis in a recorded trace and make a value list of it
+/// Find the friction of an axis in recordings, and its value list
 ///
 /// Record torque and commanded velocity while the axis moves back and forth at constant speeds:
 /// docs/identification.md says how. Without options the columns `t` (s), `v` (µm/s or 0.001°/s), `x`
@@ -62,9 +62,8 @@ pub(crate) struct IdentifyArgs {
     pub(super) feed: f64,
     #[command(flatten)]
     pub(super) torque: TorqueArgs,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    pub(super) format: ResultFormat,
+    #[command(flatten)]
+    pub(super) result: ResultArgs,
     /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
     /// unless the build accepts fractions
     #[arg(long, value_name = "BUILD")]
@@ -76,8 +75,8 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,
     /// Write the value list to this file
-    #[arg(long, short, value_name = "LIST")]
-    pub(super) output: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    pub(super) write_list: Option<PathBuf>,
 }
 
 impl IdentifyArgs {

@@ -38,13 +38,13 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         .iter()
         .for_each(|path| registry.reads("trace", path));
     let mut outputs = Outputs::new(&registry, console);
-    let list = args.output.as_deref();
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    let list = args.write_list.as_deref();
     let list = list
-        .map(|path| outputs.list("--output", path))
+        .map(|path| outputs.list("--write-list", path))
         .transpose()?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
-    outputs.print("the result")?;
     outputs.check()?;
     let read = |path: &PathBuf| {
         let cycle = args.cycle.seconds()?;
@@ -62,8 +62,7 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
             .map(read)
             .collect::<Result<Vec<_>, _>>()?;
         let report = circles(args, recordings, list)?;
-        let mut target = console.stdout();
-        target.text(&match args.format {
+        target.text(&match args.result.format {
             ResultFormat::Text => fitted(&on_circles::render_text(&report), target.look.width),
             ResultFormat::Json => on_circles::render_json(&report),
         })?;
@@ -85,8 +84,7 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     if let Some(mut html) = html {
         render_identification(&report, &mut html).map_err(Failure::output)?;
     }
-    let mut target = console.stdout();
-    target.text(&match args.format {
+    target.text(&match args.result.format {
         ResultFormat::Text => fitted(&render_text(&report), target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;

@@ -32,12 +32,12 @@ pub(super) fn run(
         registry.reads("trace", path);
     }
     let mut outputs = Outputs::new(&registry, console);
-    let list = args.output.as_deref();
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    let list = args.write_list.as_deref();
     let list = list
-        .map(|path| outputs.list("--output", path))
+        .map(|path| outputs.list("--write-list", path))
         .transpose()?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    outputs.print("the result")?;
     outputs.check()?;
     let paths: Vec<PathBuf> = args.recording.iter().map(|it| it.1.clone()).collect();
     refuse_copies(&paths)?;
@@ -59,8 +59,7 @@ pub(super) fn run(
     if let Some(mut svg) = svg {
         write_text(&mut svg, &friction_states(&report).render(Frame::Alone))?;
     }
-    let mut target = console.stdout();
-    target.text(&match args.format {
+    target.text(&match args.result.format {
         ResultFormat::Text => fitted(&render_text(&report), target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;

@@ -24,7 +24,7 @@ use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_replay;
 
-/// Compare a recording of what a machine did with the dry run of its programs
+/// Compare what a machine did with the dry run of its programs
 ///
 /// The recording says for each axis whether friction compensation is active: `frict_comp.f_is_active`,
 /// or `V.A.FRICT_COMP_ACTIVE.<axis>` sampled by the PLC; as CSV the columns `t`, `active_<axis>` and, if

@@ -32,7 +32,7 @@ const PLAN: [&str; 11] = [
     "500,800,1300,2000,3200,5000",
     "--radius",
     "100",
-    "-o",
+    "--into",
 ];
 
 /// R16.2, R16.3, R16.9: on a machine of the tests the lists of the loop are accepted, and leave at most 1.35 times

@@ -51,7 +51,7 @@ fn plan(folder: &Path, axis: &str, more: &[&str]) {
         "500,1000,2000,3000,4000",
         "--slowest",
         "1",
-        "-o",
+        "--into",
         "m",
     ];
     let output = call(folder, &[&arguments[..], more].concat());

@@ -76,7 +76,7 @@ fn mended_archives() {
     // R9.95
     let moving = "G01 X10 F1000\nM30\n";
     let bench = Bench::new(&[("a.nc", OFF), ("b.nc", OFF), ("c.nc", moving)]);
-    let call = ["audit", "--fix", "leavers", "--write", "."];
+    let call = ["audit", "--fix=leavers", "."];
     survives(&bench, Range::Whole, &call);
 }
 
@@ -152,14 +152,21 @@ fn results_of_contours() {
 fn results_of_circles() {
     // R9.95
     let bench = demo("contour");
-    let files = ["-o", "r.lis", "--svg", "r.svg"];
+    let files = ["-o", "r.txt", "--svg", "r.svg"];
     let circle = [
         "circle", "--radius", "5", "--feed", "5000", "--html", "r.html",
     ];
     survives(&bench, Range::FullDisk, &[&circle[..], &files].concat());
-    let tune = ["tune", "--accelerations", "70", "--no-shaping"];
+    let tune = [
+        "tune",
+        "--accelerations",
+        "70",
+        "--no-shaping",
+        "--write-list",
+        "r.lis",
+    ];
     survives(&bench, Range::FullDisk, &[&tune[..], &files].concat());
-    let call = [&tune[..], &["--output-dir", "lists"]].concat();
+    let call = [&tune[..], &["--into", "lists"]].concat();
     survives(&bench, Range::FullDisk, &call);
 }
 
@@ -168,5 +175,5 @@ fn results_of_circles() {
 fn manual_pages() {
     // R9.95
     let bench = Bench::new(&[]);
-    survives(&bench, Range::FullDisk, &["man", "--output", "pages"]);
+    survives(&bench, Range::FullDisk, &["man", "--into", "pages"]);
 }

@@ -74,7 +74,7 @@ fn rounds(machine: &Machine) -> Vec<[f64; 2]> {
         let name = format!("friction-{axis}.lis");
         std::fs::write(folder.path().join(name), friction(machine, at)).expect("written");
     }
-    let first = ["learn", "learning", "--plant", "mid"];
+    let first = ["commission", "learn", "learning", "--plant", "mid"];
     let learn = |more: &[&str]| {
         said(&call(
             folder.path(),

@@ -42,7 +42,7 @@ fn one_block_in_a_subprogram_mends_its_callers() {
             ("c.nc", caller),
             ("tool.nc", tool),
         ]);
-        let (shown, said) = audited(&bench, &[&["--fix", "leavers"], named].concat());
+        let (shown, said) = audited(&bench, &[&["--diff=leavers"], named].concat());
         assert_eq!(changed(&shown), ["tool.nc"], "{shown}{said}");
         assert!(
             said.contains("tool.nc: this mends 3 programs that call it: "),
@@ -50,7 +50,7 @@ fn one_block_in_a_subprogram_mends_its_callers() {
         );
         let is_unnamed = said.contains("; programs that were not audited may call it, too\n");
         assert_eq!(is_unnamed, named.len() > 1, "{said}");
-        audited(&bench, &[&["--fix", "leavers", "--write"], named].concat());
+        audited(&bench, &[&["--fix=leavers"], named].concat());
         let mended = "N10 X[COMP OFF FRICT]\nN20 G01 X5 F100\nN25 X[COMP ON FRICT]\nN30 M17\n";
         assert_eq!(bench.read("tool.nc"), mended);
         assert_eq!(bench.read("a.nc"), caller);
@@ -81,7 +81,7 @@ fn bytes_of_a_mended_subprogram_stay() {
         ];
         let before = [head.as_bytes(), comment, tail.as_bytes()].concat();
         fs::write(&path, before).expect("written");
-        let (_, said) = audited(&bench, &["--fix", "leavers", "--write", "."]);
+        let (_, said) = audited(&bench, &["--fix=leavers", "."]);
         let block = format!("{end}n015 {HOME}");
         let after = [head.as_bytes(), comment, block.as_bytes(), tail.as_bytes()].concat();
         let found = fs::read(&path).expect("bytes");
@@ -106,7 +106,7 @@ fn a_caller_that_needs_it_otherwise_is_named_and_nothing_is_changed_for_it() {
         ("needs.nc", needs),
         ("tool.nc", tool),
     ]);
-    let (shown, said) = audited(&bench, &["--fix", "leavers", "."]);
+    let (shown, said) = audited(&bench, &["--diff=leavers", "."]);
     assert_eq!(changed(&shown), ["a.nc", "b.nc"], "{shown}{said}");
     assert!(
         said.contains(
@@ -134,7 +134,7 @@ fn the_innermost_file_that_can_be_mended_is_the_proposal() {
             ("leaf.nc", leaf),
         ];
         let bench = bench(&programs);
-        let (shown, said) = audited(&bench, &["--fix", "leavers", "."]);
+        let (shown, said) = audited(&bench, &["--diff=leavers", "."]);
         assert_eq!(changed(&shown), [root], "{shown}{said}");
         let mended = if root == "leaf.nc" {
             "3 programs"
@@ -159,7 +159,7 @@ fn a_subprogram_with_several_returns_is_mended_at_each() {
         ("b.nc", two.as_str()),
         ("tool.nc", tool),
     ]);
-    let (_, said) = audited(&bench, &["--fix", "leavers", "--write", "a.nc", "b.nc"]);
+    let (_, said) = audited(&bench, &["--fix=leavers", "a.nc", "b.nc"]);
     let mended = "X[COMP OFF FRICT]\n$IF V.P.KIND == 1\nG01 X1 F100\nX[COMP ON FRICT]\nM17\n$ENDIF\nG01 X2 F100\nX[COMP ON FRICT]\nM17\n";
     assert_eq!(bench.read("tool.nc"), mended, "{said}");
     assert_eq!(bench.read("a.nc"), one);
@@ -171,7 +171,7 @@ fn a_subprogram_without_a_return_is_mended_at_its_end() {
     let caller = "G01 X10 F200\nL tool.nc\nM30\n";
     let tool = "G01 X5 F100\nX[COMP OFF FRICT]\n";
     let bench = bench(&[("a.nc", caller), ("b.nc", caller), ("tool.nc", tool)]);
-    let (_, said) = audited(&bench, &["--fix", "leavers", "--write", "."]);
+    let (_, said) = audited(&bench, &["--fix=leavers", "."]);
     assert_eq!(bench.read("tool.nc"), format!("{tool}{HOME}\n"), "{said}");
     assert_eq!(bench.read("a.nc"), caller);
 }
@@ -189,14 +189,14 @@ fn a_motion_in_a_subprogram_is_mended_there() {
         ("leaver.nc", leaver),
         ("tool.nc", tool),
     ];
-    let (shown, said) = audited(&bench(&programs), &["--fix", "inheritors", "."]);
+    let (shown, said) = audited(&bench(&programs), &["--diff=inheritors", "."]);
     assert_eq!(changed(&shown), ["tool.nc"], "{shown}{said}");
     assert!(
         shown.contains(" G04 1\n+X[COMP ON FRICT]\n G01 X5 F100\n"),
         "{shown}"
     );
     programs.push(("needs.nc", needs));
-    let (shown, said) = audited(&bench(&programs), &["--fix", "inheritors", "."]);
+    let (shown, said) = audited(&bench(&programs), &["--diff=inheritors", "."]);
     assert_eq!(changed(&shown), ["a.nc", "b.nc"], "{shown}{said}");
     assert!(said.contains("in `needs.nc`, which calls it"), "{said}");
 }
@@ -208,6 +208,6 @@ fn the_only_caller_is_mended_in_its_own_text() {
         ("a.nc", "G01 X10 F200\nL tool.nc\nM30\n"),
         ("tool.nc", "X[COMP OFF FRICT]\nM17\n"),
     ]);
-    let (shown, said) = audited(&bench, &["--fix", "leavers", "a.nc"]);
+    let (shown, said) = audited(&bench, &["--diff=leavers", "a.nc"]);
     assert_eq!(changed(&shown), ["a.nc"], "{shown}{said}");
 }

@@ -98,7 +98,7 @@ fn a_block_before_the_end_takes_a_program_out_of_the_hazards_on_every_way() {
     let late = "N10 $IF V.E.A == 1\nN20 X[COMP OFF FRICT]\nN30 $ENDIF\nN40 G01 X1 F100\nN50 M30\n";
     for text in [early, late] {
         let bench = bench(&[("a.nc", text), MOVER]);
-        let mended = bench.call(&["audit", "--fix", "leavers", "--write", "."]);
+        let mended = bench.call(&["audit", "--fix=leavers", "."]);
         assert_eq!(mended.status.code(), Some(0));
         let found = of_x(&bench, "a.nc", &[]);
         let now = bench.read("a.nc");

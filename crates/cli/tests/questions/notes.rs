@@ -10,7 +10,7 @@ fn lines_that_are_no_answers_are_named() {
         "note.txt",
         "frictcomp-ask R1.9\n\nfrictcomp-ask X9.9 0 X V3.1.3081.5 reading x\n",
     );
-    let output = bench.call(&["ask", "--read", "note.txt"]);
+    let output = bench.call(&["ask", "read", "note.txt"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).expect("text");
     for words in [
@@ -28,8 +28,8 @@ fn lines_that_are_no_answers_are_named() {
 fn the_lines_to_copy_are_no_answers() {
     let bench = bench();
     let before = bench.read("frictcomp.toml");
-    bench.stdout(&["ask", "-o", "ask"]);
-    let said = bench.stdout(&["ask", "--read", "ask/README.txt"]);
+    bench.stdout(&["ask", "write", "--into", "ask"]);
+    let said = bench.stdout(&["ask", "read", "ask/README.txt"]);
     assert!(
         said.contains(
             "R1.9 not decidable\n  axis X on V3.1.3081.05: the note says `after` and `before`"
@@ -48,6 +48,6 @@ fn the_lines_to_copy_are_no_answers() {
         .lines()
         .find(|line| line.ends_with(" reading before"));
     bench.write("note.txt", line.expect("a line to copy"));
-    let said = bench.stdout(&["ask", "--read", "note.txt"]);
+    let said = bench.stdout(&["ask", "read", "note.txt"]);
     assert!(said.starts_with("R1.9 confirmed: before\n"), "{said}");
 }

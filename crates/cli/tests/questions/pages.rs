@@ -81,7 +81,7 @@ fn the_page_of_differences_is_that_of_the_data() {
     text.push_str(
         "\nMotion that is followed in a simpler way is reported at its block (FC907); \
          [motion.md](motion.md#what-is-not-modelled) lists it.\n\n## Not in the simulated machine\n\n\
-         `circle`, `tune`, `contour`, `learn` and a fitted plant depend on it, and name it.\n\n\
+         `circle`, `tune`, `contour`, `commission learn` and a fitted plant depend on it, and name it.\n\n\
          | what | the machine | the simulation | rule |\n|---|---|---|---|\n",
     );
     for it in differences().iter().filter(|it| it.kind == "simulation") {

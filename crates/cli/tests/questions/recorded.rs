@@ -11,7 +11,7 @@ use frictcomp::readings::{Question, Way};
 fn bench() -> Bench {
     let bench = Bench::new(&[]);
     bench.write("frictcomp.toml", &format!("{MACHINE}{LIST}"));
-    bench.stdout(&["ask", "--axis", "X", "-o", "ask"]);
+    bench.stdout(&["ask", "write", "--axis", "X", "--into", "ask"]);
     bench
 }
 
@@ -122,7 +122,7 @@ fn record(bench: &Bench, name: &str, bytes: &[u8]) {
 
 /// The result for a question, on one line.
 fn said_of(bench: &Bench, rule: &str, arguments: &[&str]) -> String {
-    let said = bench.stdout(&[&["ask", "--read"], arguments].concat());
+    let said = bench.stdout(&[&["ask", "read"], arguments].concat());
     let mut found = String::new();
     let mut is_own = false;
     for line in said.lines() {

@@ -219,7 +219,7 @@ fn a_full_disk_under_the_output_is_said() {
     for format in LISTINGS {
         calls.push(vec!["check", "--format", format, "a.nc"]);
     }
-    calls.push(vec!["check", "--unknowns", "c.nc"]);
+    calls.push(vec!["show", "values", "c.nc"]);
     for call in calls {
         let full = fs::File::options().write(true).open("/dev/full");
         let mut to_stdout = bench.command(&call);

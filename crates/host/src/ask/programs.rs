@@ -150,9 +150,9 @@ fn by_itself(before: &str, part: String, read: &str) -> Script {
     }
 }
 
-const READ: &str = "give message.txt to frictcomp ask --read";
+const READ: &str = "give message.txt to frictcomp ask read";
 
-const READ_ERROR: &str = "give message.txt to frictcomp ask --read; where the control showed an error, add \
+const READ_ERROR: &str = "give message.txt to frictcomp ask read; where the control showed an error, add \
     a copy of the begin line with error and the number in place of begin";
 
 /// Returns the blocks that switch an axis off, query its state, and switch it on again.
@@ -190,7 +190,7 @@ fn recorded(question: Question, axis: &AskedAxis) -> Script {
                 objects(axis)
             ),
             format!(">begin\n{part}M30\n"),
-            "export the recording as CSV, and give it to frictcomp ask --read, with message.txt",
+            "export the recording as CSV, and give it to frictcomp ask read, with message.txt",
         )
     }
 }
@@ -256,7 +256,7 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
              ; Turn skip level 2 on now, then press start.\nN30 M00\nN40 #FLUSH WAIT\n\
              /2 N50 V.S.FRICTASK = 1 ; frictcomp: allow FC901 the question\n>answer V.S.FRICTASK\nN99 M30\n"
                 .to_owned(),
-            "turn skip level 2 off again; give message.txt to frictcomp ask --read",
+            "turn skip level 2 off again; give message.txt to frictcomp ask read",
         ),
         Question::MachineData => by_itself(
             ACTIVE,
@@ -270,7 +270,7 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
                  N299 M30\n"
             ),
             "it is started by a block search for N200, not from its first block; add a copy of the begin \
-             line with searched 1 in place of begin to message.txt, and give it to frictcomp ask --read",
+             line with searched 1 in place of begin to message.txt, and give it to frictcomp ask read",
         ),
         Question::RemedyClass => by_itself(
             "the axis stands still",
@@ -305,7 +305,7 @@ pub fn readme(axis: &AskedAxis) -> String {
          The head of each program says what it tests, what moves, and what to do before and after.\n\
          Programs leave their answers in message.txt, in the folder of the control's start-up list with\n\
          type 0x04, else in its main folder. Collect it, or several of them, and run\n\n\
-         \u{20}   frictcomp ask --read message.txt\n\n\
+         \u{20}   frictcomp ask read message.txt\n\n\
          The last program of a question brings the axis back to its state at the start of the control.\n\
          Where a program stopped with an error, run the last one of its question, or restart the control.\n\n\
          Where only you see the answer, copy one of the two lines of its question below into a text file,\n\

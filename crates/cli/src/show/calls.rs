@@ -1,4 +1,4 @@
-//! `frictcomp graph`: which programs call which.
+//! `frictcomp show calls`: which programs call which.
 
 use std::collections::VecDeque;
 use std::fmt::Write as _;
@@ -7,15 +7,15 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::console::{Console, Printed};
-use super::exit;
-use super::failure::Failure;
-use super::failures::Failures;
-use super::folders::{FolderArgs, say_left_out};
-use super::machine::MachineArgs;
-use super::outputs::Outputs;
-use super::painted::parts;
-use super::result::ResultArgs;
+use crate::console::{Console, Printed};
+use crate::exit;
+use crate::failure::Failure;
+use crate::failures::Failures;
+use crate::folders::{FolderArgs, say_left_out};
+use crate::machine::MachineArgs;
+use crate::outputs::Outputs;
+use crate::painted::parts;
+use crate::result::ResultArgs;
 use frictcomp::session::NoProgram;
 use frictcomp_host::{
     CallGraph, FileRegistry, GraphProgram, MissingCall, find_programs, processors,
@@ -30,12 +30,12 @@ const MAX_DEPTH: usize = 24;
 /// Nothing is executed: a call counts whether it is reached or not. A call whose program depends on the
 /// value of a variable is marked as such.
 #[derive(Debug, Args)]
-pub(super) struct GraphArgs {
+pub(crate) struct CallsArgs {
     /// Programs and folders of programs
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
     #[command(flatten)]
-    result: ResultArgs<GraphFormat>,
+    result: ResultArgs<CallsFormat>,
     #[command(flatten)]
     folders: FolderArgs,
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub(super) struct GraphArgs {
 
 /// A format of the calls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum GraphFormat {
+pub(crate) enum CallsFormat {
     /// A tree for people.
     #[default]
     Text,
@@ -55,11 +55,11 @@ pub(super) enum GraphFormat {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &GraphArgs, console: Console) -> Result<u8, Failure> {
+pub(super) fn run(args: &CallsArgs, console: Console) -> Result<u8, Failure> {
     Failures::of(console, |failures| graph(args, console, failures))
 }
 
-fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+fn graph(args: &CallsArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
     if args.paths.iter().any(|path| path.as_os_str() == "-") {
         let failure = Failure::new("standard input has no folder in which it could be called");
         return Err(failure.with_help("name programs or folders"));
@@ -81,11 +81,11 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
     }
     outputs.check()?;
     let mains = calls.mains(processors());
-    let shown = GraphOutput { calls, mains };
+    let shown = CallsOutput { calls, mains };
     let printed = match args.result.format {
-        GraphFormat::Text => target.painted(&shown.text(), parts)?,
-        GraphFormat::Dot => target.text(&shown.dot())?,
-        GraphFormat::Json => target.text(&format!("{:#}\n", shown.json()))?,
+        CallsFormat::Text => target.painted(&shown.text(), parts)?,
+        CallsFormat::Dot => target.text(&shown.dot())?,
+        CallsFormat::Json => target.text(&format!("{:#}\n", shown.json()))?,
     };
     if printed == Printed::Read {
         outputs.finish()?;
@@ -96,13 +96,13 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
 }
 
 /// A graph that is being written.
-struct GraphOutput {
+struct CallsOutput {
     calls: CallGraph,
     /// Whether each program is a main program.
     mains: Vec<bool>,
 }
 
-impl GraphOutput {
+impl CallsOutput {
     fn programs(&self) -> &[GraphProgram] {
         self.calls.programs()
     }

@@ -1,4 +1,4 @@
-//! The arguments of `frictcomp learn`.
+//! The arguments of `frictcomp commission learn`.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use clap::Args;
 use crate::axis_list::AxisList;
 use crate::channels::parse_unit;
 use crate::cycle::CycleArgs;
-use crate::result::ResultFormat;
+use crate::result::ResultArgs;
 use crate::values;
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::Points;
@@ -68,9 +68,8 @@ pub(crate) struct LearnArgs {
     /// build accepts fractions
     #[arg(long, value_name = "BUILD")]
     pub(super) cnc_build: Option<CncBuild>,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    pub(super) format: ResultFormat,
+    #[command(flatten)]
+    pub(super) result: ResultArgs,
 }
 
 impl LearnArgs {

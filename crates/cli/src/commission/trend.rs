@@ -1,21 +1,22 @@
-//! `frictcomp trend`: the friction of an axis over the dates of its recordings (R16.6).
+//! `frictcomp commission trend`: the friction of an axis over the dates of its recordings (R16.6).
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::channels::{AxisChannelArgs, TorqueArgs};
-use super::console::Console;
-use super::cycle::CycleArgs;
-use super::exit;
-use super::failure::Failure;
-use super::identify::refusal;
-use super::outputs::{Outputs, write_text};
-use super::recorded_files::{copies_among, recordings_in};
-use super::result::ResultFormat;
+use crate::channels::{AxisChannelArgs, TorqueArgs};
+use crate::console::Console;
+use crate::cycle::CycleArgs;
+use crate::exit;
+use crate::failure::Failure;
+use crate::identify::refusal;
+use crate::outputs::{Outputs, write_text};
+use crate::recorded_files::{copies_among, recordings_in};
+use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
+use frictcomp_report::fitted;
 use frictcomp_report::pictures::friction_trend;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_text};
@@ -26,7 +27,7 @@ use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_te
 /// lists where Fc, Fs, the viscous part or the offset changed by more than 3 combined errors and 5 %. Give
 /// recordings of the same state, for example warm, of one axis.
 #[derive(Debug, Args)]
-pub(super) struct TrendArgs {
+pub(crate) struct TrendArgs {
     /// The folder with the recordings
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
@@ -36,16 +37,15 @@ pub(super) struct TrendArgs {
     cycle: CycleArgs,
     #[command(flatten)]
     torque: TorqueArgs,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: ResultFormat,
+    #[command(flatten)]
+    result: ResultArgs,
     /// Draw the parameters over the dates to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
 
 /// Runs the command.
-pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
+pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     let paths = recordings_in(&args.folder)?;
     let registry = FileRegistry::default();
     for path in &paths {
@@ -53,7 +53,7 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    outputs.print("the result")?;
+    let mut target = outputs.result(args.result.output.as_deref())?;
     outputs.check()?;
     let mut report = TrendReport {
         axis: args.channels.axis.clone(),
@@ -105,8 +105,8 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     if let Some(mut svg) = svg {
         write_text(&mut svg, &friction_trend(&report).render(Frame::Alone))?;
     }
-    console.print(&match args.format {
-        ResultFormat::Text => console.fitted(&render_text(&report)),
+    target.text(&match args.result.format {
+        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

@@ -1,36 +1,30 @@
-//! `frictcomp show`: what is there.
+//! `frictcomp show files`: which files are taken as programs.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::Args;
 use serde_json::{Value, json};
 
-use super::console::{Console, Printed};
-use super::exit;
-use super::failure::{Failure, shown};
-use super::failures::Failures;
-use super::folders::FolderArgs;
-use super::listing::passed_over;
-use super::machine::MachineArgs;
-use super::outputs::Outputs;
-use super::result::{ResultArgs, ResultFormat};
+use crate::console::{Console, Printed};
+use crate::exit;
+use crate::failure::{Failure, shown};
+use crate::failures::Failures;
+use crate::folders::FolderArgs;
+use crate::listing::passed_over;
+use crate::machine::MachineArgs;
+use crate::outputs::Outputs;
+use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{FileRegistry, FoundPrograms, Input, LeftOutFile, Naming, find_programs};
 use frictcomp_report::counted;
 
-/// Show what is there
-#[derive(Debug, Subcommand)]
-pub(super) enum ShowCommand {
-    Files(FilesArgs),
-}
-
 /// Show which files are taken as programs, which are not, and why
 ///
 /// Nothing is executed. A program that is not taken by itself may still be called by one that is.
 #[derive(Debug, Args)]
-pub(super) struct FilesArgs {
+pub(crate) struct FilesArgs {
     /// Programs and folders of programs
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
@@ -46,8 +40,7 @@ pub(super) struct FilesArgs {
 }
 
 /// Runs the command.
-pub(super) fn run(command: &ShowCommand, console: Console) -> Result<u8, Failure> {
-    let ShowCommand::Files(args) = command;
+pub(super) fn run(args: &FilesArgs, console: Console) -> Result<u8, Failure> {
     Failures::of(console, |failures| files(args, console, failures))
 }
 

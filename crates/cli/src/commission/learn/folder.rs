@@ -1,4 +1,4 @@
-//! The folder of `learn`: rounds with lists and recordings, and the file that records them.
+//! The folder of `commission learn`: rounds with lists and recordings, and the file that records them.
 
 use std::path::{Path, PathBuf};
 
@@ -53,7 +53,10 @@ impl LearningFolder {
         let read: Result<LearningFile, _> = serde_json::from_str(&read_text(&json)?);
         let known = |it: &LearningFile| it.schema == LearningFile::SCHEMA && !it.rounds.is_empty();
         let Some(file) = read.ok().filter(known) else {
-            let message = format!("`{}` is not a file that `learn` wrote", shown(&json));
+            let message = format!(
+                "`{}` is not a file that `commission learn` wrote",
+                shown(&json)
+            );
             return Err(Failure::new(message).with_help("begin again in another folder"));
         };
         let mut folder = Self {

@@ -1,4 +1,4 @@
-//! `frictcomp learn`: from recorded circles with a list to the next list (R16.4).
+//! `frictcomp commission learn`: from recorded circles with a list to the next list (R16.4).
 
 mod args;
 mod folder;
@@ -16,6 +16,7 @@ use frictcomp_host::{FileRegistry, find_plant, learn, memory_for_simulation, rea
 use frictcomp_physics::circle::{LearningProgress, PlaneAxis};
 use frictcomp_physics::simulation::Plant;
 use frictcomp_report::assumptions::not_modelled;
+use frictcomp_report::fitted;
 use frictcomp_report::learn::{
     LearnReport, LearnedAxis, NextStep, Prediction, render_file, render_json, render_text,
 };
@@ -31,7 +32,7 @@ pub(super) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
     let plant = find_plant(&args.plant, &registry)?;
     let mut outputs = Outputs::new(&registry, console);
-    outputs.print("the result")?;
+    let mut target = outputs.result(args.result.output.as_deref())?;
     let opened = LearningFolder::open(&args.folder, &registry)?;
     let is_new = opened.is_none();
     let mut folder = match opened {
@@ -54,8 +55,8 @@ pub(super) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
     }
     outputs.check()?;
     let report = report(&plant, &folder, &learned, is_over);
-    console.print(&match args.format {
-        ResultFormat::Text => console.fitted(&render_text(&report)),
+    target.text(&match args.result.format {
+        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

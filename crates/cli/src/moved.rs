@@ -1,0 +1,122 @@
+//! Earlier words of the command line: each is answered with the present one.
+
+use clap::error::{ContextKind, ContextValue};
+use clap::{Arg, ArgAction, Command};
+
+/// A row for each earlier command or option that is no longer there, with its present form, or with the reason why
+/// there is none.
+const MOVED: &str = include_str!("moved.csv");
+
+/// The arguments of a command that is no longer there.
+const REST: &str = "rest";
+
+/// Returns the earlier forms, each with its present one, empty where there is none.
+fn moved() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let rows = MOVED.lines().skip(1);
+    rows.filter_map(|row| {
+        let (before, rest) = row.split_once(',')?;
+        Some((before, rest.split_once(',')?.0))
+    })
+}
+
+/// Returns the command line with the earlier commands, which take any arguments and are in no list.
+pub(super) fn with_moved(tool: Command) -> Command {
+    let gone = moved().map(|it| it.0).filter(|name| !name.contains(' '));
+    gone.fold(tool, |tool, name| {
+        if tool.find_subcommand(name).is_some() {
+            return tool;
+        }
+        let rest = Arg::new(REST)
+            .action(ArgAction::Append)
+            .trailing_var_arg(true)
+            .allow_hyphen_values(true)
+            .num_args(0..);
+        let command = Command::new(name).hide(true).disable_help_flag(true);
+        tool.subcommand(command.arg(rest))
+    })
+}
+
+/// Returns the answer to a command that is no longer there.
+pub(super) fn command(name: &str, tool: &Command) -> Option<String> {
+    let mut arguments = tool.find_subcommand(name)?.get_arguments();
+    let is_gone = arguments.any(|it| it.get_id() == REST);
+    is_gone.then(|| answer(name)).flatten()
+}
+
+/// Returns the answer to an earlier option of a command, from the error about it.
+pub(super) fn option(command: &str, error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else {
+        return None;
+    };
+    answer(&format!("{command} {}", option.split('=').next()?))
+}
+
+fn answer(before: &str) -> Option<String> {
+    let (before, now) = moved().find(|it| it.0 == before && !it.1.is_empty())?;
+    Some(format!("`frictcomp {before}` is now `frictcomp {now}`"))
+}
+
+/// Each earlier command and option, as `tests/grammar/before.csv` has them, is there, has a new form, or has a reason
+/// why it went.
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use clap::{Arg, Command};
+
+    use super::{MOVED, moved};
+
+    /// Returns `run`, `run --state`, `run FILES` and so on.
+    fn forms(command: &Command, path: &str, forms: &mut BTreeSet<String>) {
+        forms.insert(path.to_owned());
+        let arguments = command
+            .get_arguments()
+            .map(|it| format!("{path} {}", form(it)));
+        forms.extend(arguments.map(|it| it.trim_start().to_owned()));
+        for below in command.get_subcommands() {
+            let path = format!("{path} {}", below.get_name());
+            self::forms(below, path.trim_start(), forms);
+        }
+    }
+
+    fn form(argument: &Arg) -> String {
+        let place = || argument.get_id().to_string().to_uppercase();
+        let long = argument.get_long().map(|name| format!("--{name}"));
+        long.unwrap_or_else(place)
+    }
+
+    fn present() -> BTreeSet<String> {
+        let mut tool = crate::description();
+        tool.build();
+        let mut present = BTreeSet::new();
+        forms(&tool, "", &mut present);
+        present
+    }
+
+    #[test]
+    fn every_earlier_word_has_a_present_one_or_a_reason() {
+        let present = present();
+        let before = include_str!("../tests/grammar/before.csv");
+        for row in before.lines().skip(1) {
+            let mut cells = row.split(',');
+            let mut cell = || cells.next().unwrap_or_default();
+            let (command, option) = (cell(), cell());
+            let whole = format!("{command} {option}").trim().to_owned();
+            let of_command = moved().find(|it| it.0 == command && !command.is_empty());
+            let under = of_command.map(|it| format!("{} {option}", it.1).trim().to_owned());
+            let is_moved = moved().any(|it| it.0 == whole);
+            let is_there = |form: &String| present.contains(form);
+            let found = is_moved || is_there(&whole) || under.is_some_and(|it| is_there(&it));
+            assert!(found, "`{whole}` has neither a new form nor a reason");
+        }
+    }
+
+    #[test]
+    fn every_present_form_is_there() {
+        let present = present();
+        for (before, now) in moved() {
+            let is_gone = now.is_empty() && !MOVED.contains(&format!("\n{before},,\n"));
+            assert!(is_gone || present.contains(now), "{before}: {now}");
+        }
+    }
+}

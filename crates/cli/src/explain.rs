@@ -13,6 +13,7 @@ use super::outputs::Outputs;
 use super::painted::{page as titles, severities};
 use super::result::{ResultArgs, ResultFormat};
 use super::vocabulary;
+use frictcomp::ControlError;
 use frictcomp::diagnostic::{Code, did_you_mean};
 use frictcomp::documents::PARAMETER_PAGES;
 use frictcomp_host::FileRegistry;
@@ -91,6 +92,15 @@ fn find(text: &str) -> Option<Cow<'static, str>> {
         })
         .map(|parameter| parameter.page.into())
         .or_else(|| vocabulary::find(text).map(Cow::Owned))
+        .or_else(|| control_error(text).map(Cow::Owned))
+}
+
+/// Returns the page of an error number of the control, with `P-ERR-` or without (R2.114).
+fn control_error(text: &str) -> Option<String> {
+    let number = text.to_ascii_uppercase();
+    let number = number.strip_prefix("P-ERR-").unwrap_or(&number);
+    let row = ControlError::of(number.parse().ok()?)?;
+    Some(row.explanation())
 }
 
 /// Turns `frict_comp.table[3].in` into `frict_comp.table[i].in`.
@@ -135,6 +145,8 @@ mod tests {
             "frict_comp.table[i].out",
             "139",
             "R1.27",
+            "120434",
+            "P-ERR-22008",
             "COMP",
         ] {
             assert!(find(name).is_some(), "{name}");

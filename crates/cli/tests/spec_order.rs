@@ -361,7 +361,7 @@ fn the_block_stands_where_every_way_comes_by() {
         ("X[COMP OFF FRICT]", "X[COMP OFF FRICT]\nX[COMP ON FRICT]"),
         (
             "n8 X[COMP OFF FRICT]\nn9 m30\n",
-            "n8 X[COMP OFF FRICT]\nn10 X[COMP ON FRICT]\nn9 m30\n",
+            "n8 X[COMP OFF FRICT]\nN10 X[COMP ON FRICT]\nn9 m30\n",
         ),
     ] {
         let bench = bench(&[

@@ -15,6 +15,6 @@ pub const fn planned_circles(feeds: &'static str, radius: &'static str) -> [&'st
         radius,
         "--slowest",
         "0.5",
-        "-o",
+        "--into",
     ]
 }

@@ -31,17 +31,20 @@ impl Interpreter {
                     links: SavedItem::Nothing,
                 };
             }
-            // Whether both are meant is not documented.
-            ConfigAction::Save if !axes && !links => {
-                self.state.control.saved = SavedConfig::default();
-            }
+            // Without a word both are meant.
+            ConfigAction::Save if !axes && !links => self.state.control.save_config(true, true),
             ConfigAction::Save => self.state.control.save_config(axes, links),
             ConfigAction::Load => {
-                let is_open = !axes && !links;
-                if axes || is_open {
+                let is_both = !axes && !links;
+                let saved = &self.state.control.saved;
+                let [no_axes, no_links] = [
+                    saved.axes == SavedItem::Nothing,
+                    saved.links == SavedItem::Nothing,
+                ];
+                if axes || is_both && !no_axes {
                     self.load_axes(hash, at)?;
                 }
-                if links || is_open {
+                if links || is_both && !no_links {
                     self.load_links(hash, at)?;
                 }
             }

@@ -82,7 +82,7 @@ fn bytes_of_a_mended_subprogram_stay() {
         let before = [head.as_bytes(), comment, tail.as_bytes()].concat();
         fs::write(&path, before).expect("written");
         let (_, said) = audited(&bench, &["--fix=leavers", "."]);
-        let block = format!("{end}n015 {HOME}");
+        let block = format!("{end}N015 {HOME}");
         let after = [head.as_bytes(), comment, block.as_bytes(), tail.as_bytes()].concat();
         let found = fs::read(&path).expect("bytes");
         assert_eq!(

@@ -27,7 +27,7 @@ fn versions_that_stop_are_not_comparable() {
     assert_eq!(status, Some(1), "{shown}");
     assert!(shown.contains("FC910"), "{shown}");
 
-    let refused = "$IF 1\nX[COMP OFF FRICT]\nM30\n";
+    let refused = "$WHILE 1\nX[COMP OFF FRICT]\nM30\n";
     let (status, shown) = diff(refused, refused, &[]);
     assert_eq!(status, Some(1), "{shown}");
     assert!(shown.contains("not comparable: "), "{shown}");

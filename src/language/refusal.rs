@@ -40,8 +40,8 @@ impl ControlErrorCheck {
         match self {
             Self::Error => "an error with this number".to_owned(),
             Self::Possible => "FC328, a warning, and both ways are followed".to_owned(),
-            Self::Said(code) => format!("{code}"),
-            Self::Open(why) => format!("nothing: {why}"),
+            Self::Said(code) => code.to_owned(),
+            Self::Open(why) => format!("no message: {why}"),
         }
     }
 }
@@ -130,13 +130,13 @@ static REFUSALS: &[ControlError] = {
             "write it outside";
         90050 "PM/524821515" Said("FC328"), "a command that flushes the channel under G41 or G42",
             "write it before G41 or G42";
-        120102 "264720011" Said("FC328"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
+        120_102 "264720011" Said("FC328"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
             "write it before the spline, or after it";
-        120104 "" Open("no page describes it; 120102 and 120434 do"), "the same",
+        120_104 "" Open("no page describes it; 120102 and 120434 do"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
             "write it before the spline, or after it";
-        120434 "264284811" Said("FC328"), "the same",
+        120_434 "264284811" Said("FC328"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
             "write it before the spline, or after it";
-        120716 "265538187" Possible, "commands within `#STROKE DEF`",
+        120_716 "265538187" Possible, "commands within `#STROKE DEF`",
             "write COMP commands outside";
     }
 };

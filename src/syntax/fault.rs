@@ -34,6 +34,10 @@ impl Fault {
     }
 
     /// An error of the control, with the advice of its row (R2.114).
+    #[allow(
+        clippy::unnecessary_box_returns,
+        reason = "it is the error of a result"
+    )]
     pub(crate) fn refused(code: Code, span: Span, message: impl Into<String>) -> Box<Self> {
         let number = code.as_str().strip_prefix("P-ERR-");
         let number = number.and_then(|number| number.parse().ok());

@@ -124,24 +124,24 @@ impl Interpreter {
         &mut self,
         name: &'n str,
         number: Option<u32>,
-        (names, numbers): (&mut BTreeSet<&'n str>, &mut BTreeSet<u32>),
+        (asked, logical): (&mut BTreeSet<&'n str>, &mut BTreeSet<u32>),
         at: &BlockContext<'_>,
     ) {
         let span = Span::new(0, at.text.trim_end().len());
-        if number.is_some_and(|number| !numbers.insert(number)) {
+        if number.is_some_and(|number| !logical.insert(number)) {
             self.may_refuse(21256, "one axis is asked for twice", span, at);
         }
-        if !names.insert(name) {
+        if !asked.insert(name) {
             let what = format!("the name `{name}` is given twice");
             self.may_refuse(21258, &what, span, at);
         }
-        let axes = &self.state.control.channel_axes;
+        let meaning = self.state.control.channel_axes.meaning(name);
         let own = self.machine.find(name).map(AxisNameMeaning::Axis);
-        let held = match axes.meaning(name).or(own) {
+        let present = match meaning.or(own) {
             Some(AxisNameMeaning::Axis(axis)) => self.machine.axis(axis).number,
             _ => None,
         };
-        if held.is_some() && number.is_some() && held != number {
+        if present.is_some() && number.is_some() && present != number {
             let what = format!("the channel has another axis with the name `{name}`");
             self.may_refuse(21261, &what, span, at);
         }

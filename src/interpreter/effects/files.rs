@@ -6,7 +6,7 @@ use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::outcome::BlockOutcome;
+use crate::interpreter::run::outcome::{BlockOutcome, LookedFor};
 use crate::interpreter::values::cause::{MissingProgram, Unknown};
 use crate::interpreter::values::value::Value;
 use crate::language::FileAction;
@@ -37,7 +37,12 @@ impl Interpreter {
             }
             FileAction::Delete => files.change(name("PATH")),
             FileAction::Message => files.write_message(),
-            FileAction::LookFor => outcome.looks_for = Some(name("PATH").map(str::to_owned)),
+            FileAction::LookFor => {
+                outcome.looks_for = Some(match name("PATH") {
+                    Some(name) => LookedFor::Named(name.to_owned()),
+                    None => LookedFor::Computed,
+                });
+            }
         }
     }
 
@@ -45,10 +50,14 @@ impl Interpreter {
     #[cold]
     pub(crate) fn look_for_file(
         &mut self,
-        name: Option<String>,
+        file: LookedFor,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) {
+        let name = match file {
+            LookedFor::Named(name) => Some(name),
+            LookedFor::Computed => None,
+        };
         let unit = self.state.control.frames.running().map_or(0, |it| it.unit);
         let caller = Caller {
             unit,
@@ -74,9 +83,7 @@ impl Interpreter {
         let result = VariableName::read(RESULT);
         self.state.control.memory.set_variable(&result, value);
         self.scratch.wrote = true;
-        self.state
-            .control
-            .files
-            .miss(name.filter(|_| found.is_none()));
+        let missing = name.as_deref().filter(|_| found.is_none());
+        self.state.control.files.miss(missing);
     }
 }

@@ -109,9 +109,10 @@ impl Interpreter {
 impl ControlState {
     fn save_config(&mut self, axes: bool, links: bool) {
         if axes {
-            self.saved.axes = match self.channel_axes.doubtful {
-                true => SavedItem::Perhaps,
-                false => SavedItem::Known(self.channel_axes.clone()),
+            self.saved.axes = if self.channel_axes.doubtful {
+                SavedItem::Perhaps
+            } else {
+                SavedItem::Known(self.channel_axes.clone())
             };
         }
         if links {

@@ -395,9 +395,10 @@ impl Index {
             let mut switches = self.switches.iter().copied();
             let enters =
                 |opener: EntryIndex| self.is_within(to, opener) && !self.is_within(from, opener);
-            match switches.any(enters) {
-                true => JumpAcross::IntoSwitch,
-                false => JumpAcross::Nothing,
+            if switches.any(enters) {
+                JumpAcross::IntoSwitch
+            } else {
+                JumpAcross::Nothing
             }
         }
     }

@@ -44,8 +44,8 @@ impl ChangedFiles {
     }
 
     /// `#FILE EXIST` looked for a file that is not here.
-    pub(crate) fn miss(&mut self, name: Option<String>) {
-        self.missing = name.as_deref().map(base_name);
+    pub(crate) fn miss(&mut self, name: Option<&str>) {
+        self.missing = name.map(base_name);
     }
 
     /// Whether the program asked whether a file that is not here exists.

@@ -17,6 +17,14 @@ pub(crate) enum Feed {
     Given(Option<f64>),
 }
 
+/// A file that `#FILE EXIST` looks for.
+pub(crate) enum LookedFor {
+    /// The one of a name.
+    Named(String),
+    /// One whose name the program computes.
+    Computed,
+}
+
 /// Actions of a block after its words.
 #[derive(Default)]
 pub(crate) struct BlockOutcome {
@@ -28,8 +36,8 @@ pub(crate) struct BlockOutcome {
     pub(crate) step: Option<ControlStep>,
     /// Calls, in the order in which they are made.
     pub(crate) calls: Vec<WantedCall>,
-    /// The file that `#FILE EXIST` looks for; its name where it is known.
-    pub(crate) looks_for: Option<Option<String>>,
+    /// The file that `#FILE EXIST` looks for.
+    pub(crate) looks_for: Option<LookedFor>,
     /// Letter of the last word that calls a program.
     pub(crate) implicit: Option<u8>,
     /// The groups of its G functions, a bit each: those of [`Group`], then those of [`BlockGroup`].

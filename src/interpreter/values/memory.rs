@@ -321,9 +321,10 @@ impl Memory {
 
     /// Whether a declaration of the name in the current level is a second one.
     pub(crate) fn is_declared_here(&self, name: &VariableName) -> Option<Declared> {
-        let level = match name.family().is_of_level() {
-            true => self.locals.last()?,
-            false => &self.variables,
+        let level = if name.family().is_of_level() {
+            self.locals.last()?
+        } else {
+            &self.variables
         };
         level.names.get(name.array())?.declared
     }
@@ -344,9 +345,11 @@ impl Memory {
             (true, Some(array)) if array.has(name.subscripts()) => None,
             (true, Some(array)) => {
                 let numbers = name.subscripts().numbers()?;
-                Some(match numbers.len() == array.dimensions.len() {
-                    true => Misuse::Outside,
-                    false => Misuse::OtherCount(array.dimensions.len()),
+                let count = array.dimensions.len();
+                Some(if numbers.len() == count {
+                    Misuse::Outside
+                } else {
+                    Misuse::OtherCount(count)
                 })
             }
             (true, None) => self.declaration(name).map(|_| Misuse::NoArray),

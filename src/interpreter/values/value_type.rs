@@ -90,9 +90,10 @@ impl ValueType {
                 } else {
                     let unknown = Value::Unknown(Unknown::text(name));
                     let is_inside = number.floor() >= least && number.ceil() <= most;
-                    match is_inside {
-                        true => TypedValue::Taken(unknown),
-                        false => TypedValue::Rounded(unknown),
+                    if is_inside {
+                        TypedValue::Taken(unknown)
+                    } else {
+                        TypedValue::Rounded(unknown)
                     }
                 }
             }

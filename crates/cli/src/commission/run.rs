@@ -79,7 +79,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     let read = results.clone();
     refuse_strangers(&mut results);
     let axes = lists(args, &plans, &results, &mut outputs)?;
-    let plants = match &args.plant {
+    let fitted_drives = match &args.plant {
         Some(name) => {
             memory_for_simulation()?;
             let fitting = Fitting {
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
         }
         None => Plants::not_wanted(),
     };
-    let rounds = rounds(&plans, &results, (&plants, &registry))?;
+    let rounds = rounds(&plans, &results, (&fitted_drives, &registry))?;
     let report = ResultsReport {
         inputs: args.inputs(&plans)?,
         said: args.said(),
@@ -102,7 +102,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
         results,
         kept,
         axes,
-        fitted: plants,
+        fitted: fitted_drives,
         rounds,
     };
     if let Some(path) = &args.html {

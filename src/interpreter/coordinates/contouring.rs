@@ -4,7 +4,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::interpreter::values::value::rounded;
 use crate::language::ContouringCommand;
 use crate::syntax::ast::{Argument, BracketArguments};
 
@@ -102,7 +101,7 @@ impl ContouringCommand {
                     && given != Some(1.0)
                 {
                     next.tolerance_mm = None;
-                    next.is_spline = given.is_none_or(|mode| rounded(mode) == Some(2));
+                    next.is_spline = given.is_none_or(|mode| (mode - 2.0).abs() < 0.5);
                 }
                 for key in ["CONTERROR", "PATH_DEV"] {
                     match value(key) {

@@ -9,6 +9,7 @@ use frictcomp_host::{
     ArchiveAuditor, AuditOptions, FileRegistry, HostError, Input, MachineOptions, Machines,
 };
 use frictcomp_report::audit::{AuditReport, MachineAudit, records};
+use frictcomp_report::counted;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
@@ -302,7 +303,8 @@ impl PyAudit {
 
     /// The effect of each program on each axis, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let words = format!("{} programs, {} hazards", self.programs, self.hazards);
+        let programs = counted(self.programs, "program");
+        let words = format!("{programs}, {}", counted(self.hazards, "hazard"));
         let columns = ["file", "axis", "kind", "effect", "reason", "inherits"];
         notebook::tabular(py, &words, (&self.table, &columns))
     }

@@ -6,6 +6,7 @@ use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{Step, StepAxis};
 use frictcomp_host::AuditOptions;
 use frictcomp_report::audit::{sequence_records, sequence_text};
+use frictcomp_report::counted;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
@@ -222,7 +223,7 @@ impl PyAuditSequence {
 
     /// The states at the start and the end of each program, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let words = format!("{} programs", self.text.lines().count());
+        let words = counted(self.text.lines().count(), "program");
         let columns = [
             "position", "file", "axis", "kind", "start", "end", "left_by",
         ];
@@ -231,8 +232,8 @@ impl PyAuditSequence {
 
     fn __repr__(&self) -> String {
         format!(
-            "<frictcomp.AuditSequence: {} programs>",
-            self.text.lines().count()
+            "<frictcomp.AuditSequence: {}>",
+            counted(self.text.lines().count(), "program")
         )
     }
 }

@@ -95,7 +95,10 @@ impl Interpreter {
                     }
                 }
             }
-            memory.set_declared(&name, kind);
+            // P parameters have no type.
+            if name.family() != VariableFamily::Parameter {
+                memory.set_declared(&name, kind);
+            }
             if let Some(before) = before {
                 memory.declare_anew(&name, &before);
             }

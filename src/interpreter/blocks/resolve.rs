@@ -161,9 +161,12 @@ impl Interpreter {
         if cycles.is_empty() {
             return false;
         }
-        let perhaps = |it: &Repeated| matches!(it.call, RepeatedCall::Perhaps(_));
-        let is_open = cycles.iter().any(perhaps) || self.state.control.frames.cycle_mut().is_some();
-        if is_open {
+        let is_open = |it: &Repeated| match it.call {
+            RepeatedCall::Program(found) => self.state.control.frames.is_running(found),
+            RepeatedCall::External(_) => false,
+            RepeatedCall::Perhaps(_) => true,
+        };
+        if cycles.iter().any(is_open) {
             let what = "this block calls a cycle while a modal cycle may be active";
             self.may_refuse(21381, what, span, at);
             return false;
@@ -281,10 +284,8 @@ impl Interpreter {
                 return None;
             }
         };
-        let inside = self.state.control.frames.iter().any(|frame| {
-            frame.level > 0 && (frame.unit, frame.section) == (found.unit, found.section)
-        });
-        if inside || calls.iter().any(|call| call.found == found) {
+        let is_inside = self.state.control.frames.is_running(found);
+        if is_inside || calls.iter().any(|call| call.found == found) {
             return None;
         }
         if let RepeatedCall::Perhaps(_) = cycle.call {

@@ -62,10 +62,10 @@ impl Interpreter {
             return false;
         };
         let (unit, level, is_main) = (frame.unit, frame.level, frame.level == 0);
-        let (section, next) = (frame.section, frame.next);
+        let section = frame.section;
         frame.seeking = None;
         let index = self.programs.index(unit);
-        let Some(opener) = index.last_unclosed(next) else {
+        let Some(opener) = index.last_unclosed(section) else {
             return false;
         };
         let code = match index.sections.get(section) {

@@ -49,9 +49,9 @@ impl Index {
                 entries: Vec::new(),
                 sections: Vec::new(),
                 links: BTreeMap::new(),
-                loops: Vec::new(),
+                loops: BTreeMap::new(),
                 unclosed: BTreeSet::new(),
-                switches: Vec::new(),
+                switches: BTreeMap::new(),
                 labels: HashMap::new(),
                 targets: JumpTargets::default(),
                 locals: HashMap::new(),
@@ -400,10 +400,21 @@ impl Builder {
             .with_help(Advice::RaiseBudget(Budget::Nesting));
             self.refuse(at.entry, fault);
         }
+        let is_loop = |it: ControlBlock| !matches!(it, ControlBlock::If | ControlBlock::Switch);
+        let around = |it: fn(ControlBlock) -> bool| {
+            let depth = self.innermost(it);
+            depth.map(|depth| self.open[depth].opener)
+        };
         match kind {
             ControlBlock::If => {}
-            ControlBlock::Switch => self.index.switches.push(at.entry),
-            _ => self.index.loops.push(at.entry),
+            ControlBlock::Switch => {
+                let around = around(|it| it == ControlBlock::Switch);
+                self.index.switches.insert(at.entry, around);
+            }
+            _ => {
+                let around = around(is_loop);
+                self.index.loops.insert(at.entry, around);
+            }
         }
         let mut innermost = self.open.last().map(|open| open.innermost);
         innermost.get_or_insert_default()[kind as usize] = self.open.len() + 1;

@@ -119,6 +119,9 @@ pub(crate) enum JumpAcross {
     IntoSwitch,
 }
 
+/// Control blocks of a kind by their openers, each with the innermost one of the kind around it.
+pub(crate) type OpenedBlocks = BTreeMap<EntryIndex, Option<EntryIndex>>;
+
 /// The targets of the jumps of a program.
 #[derive(Debug, Default)]
 pub(crate) struct JumpTargets {
@@ -152,12 +155,12 @@ pub(crate) struct Index {
     pub(crate) entries: Vec<IndexEntry>,
     pub(crate) sections: Vec<ProgramSection>,
     pub(crate) links: BTreeMap<EntryIndex, Links>,
-    /// The statements that open loops.
-    pub(crate) loops: Vec<EntryIndex>,
+    /// The loops.
+    pub(crate) loops: OpenedBlocks,
     /// The `$IF` statements without `$ENDIF`, which reach to the end of their section.
     pub(crate) unclosed: BTreeSet<EntryIndex>,
-    /// The statements that open a `$SWITCH`.
-    pub(crate) switches: Vec<EntryIndex>,
+    /// The `$SWITCH` blocks.
+    pub(crate) switches: OpenedBlocks,
     pub(crate) labels: HashMap<(usize, LabelName), EntryIndex>,
     pub(crate) targets: JumpTargets,
     /// The local subprograms by name, the first of each.
@@ -187,9 +190,11 @@ impl Index {
         self.links.contains_key(&entry)
     }
 
-    /// The last `$IF` without `$ENDIF` before a block.
-    pub(crate) fn last_unclosed(&self, before: EntryIndex) -> Option<EntryIndex> {
-        self.unclosed.range(..before).next_back().copied()
+    /// The last `$IF` without `$ENDIF` of a section.
+    pub(crate) fn last_unclosed(&self, section: usize) -> Option<EntryIndex> {
+        let section = self.sections.get(section)?;
+        let mut unclosed = self.unclosed.range(section.start..section.end);
+        unclosed.next_back().copied()
     }
 
     /// The links of a `$` statement.
@@ -356,19 +361,26 @@ impl Index {
 
     /// The loop that contains a block, by its opener.
     pub(crate) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
-        let around = |opener: &&EntryIndex| **opener <= entry && entry <= self.links(**opener).end;
-        self.loops.iter().filter(around).max().copied()
+        let opens = self.loops.contains_key(&entry);
+        opens.then_some(entry).or_else(|| self.loop_around(entry))
     }
 
     /// The innermost loop that contains a block and does not begin with it, by its opener.
     pub(crate) fn loop_around(&self, entry: EntryIndex) -> Option<EntryIndex> {
-        self.loops_around(entry).max()
+        self.opened_around(&self.loops, entry).next()
     }
 
-    /// The loops that contain a block and do not begin with it, by their openers.
-    fn loops_around(&self, entry: EntryIndex) -> impl Iterator<Item = EntryIndex> {
-        let loops = self.loops.iter().copied();
-        loops.filter(move |opener| self.is_within(entry, *opener))
+    /// The control blocks that contain a block and do not begin with it, by their openers, the innermost first.
+    fn opened_around<'a>(
+        &'a self,
+        blocks: &'a OpenedBlocks,
+        entry: EntryIndex,
+    ) -> impl Iterator<Item = EntryIndex> + 'a {
+        let last = blocks.range(..entry).next_back();
+        let outwards = std::iter::successors(last.map(|(opener, _)| *opener), |opener| {
+            blocks.get(opener).copied().flatten()
+        });
+        outwards.filter(move |opener| self.is_within(entry, *opener))
     }
 
     /// Whether a block is within a control block, by its opener, and does not open it.
@@ -378,28 +390,16 @@ impl Index {
 
     /// What a jump crosses (R2.103).
     pub(crate) fn jump_across(&self, from: EntryIndex, to: EntryIndex) -> JumpAcross {
-        if self.loops.is_empty() && self.switches.is_empty() {
-            return JumpAcross::Nothing;
-        }
-        let innermost = self.loop_around(from);
-        if innermost.is_some_and(|opener| self.is_within(to, opener)) {
-            JumpAcross::WithinLoop
-        } else if self
-            .loops_around(from)
-            .any(|opener| self.is_within(to, opener))
-        {
-            JumpAcross::OneOfSeveralLoops
-        } else if self.loop_around(to).is_some() {
-            JumpAcross::IntoLoop
-        } else {
-            let mut switches = self.switches.iter().copied();
-            let enters =
-                |opener: EntryIndex| self.is_within(to, opener) && !self.is_within(from, opener);
-            if switches.any(enters) {
-                JumpAcross::IntoSwitch
-            } else {
-                JumpAcross::Nothing
-            }
+        let mut loops = self.opened_around(&self.loops, from);
+        let mut enters_switch = self
+            .opened_around(&self.switches, to)
+            .filter(|opener| !self.is_within(from, *opener));
+        match loops.next() {
+            Some(innermost) if self.is_within(to, innermost) => JumpAcross::WithinLoop,
+            _ if loops.any(|opener| self.is_within(to, opener)) => JumpAcross::OneOfSeveralLoops,
+            _ if self.loop_around(to).is_some() => JumpAcross::IntoLoop,
+            _ if enters_switch.next().is_some() => JumpAcross::IntoSwitch,
+            _ => JumpAcross::Nothing,
         }
     }
 

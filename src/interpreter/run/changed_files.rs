@@ -11,8 +11,8 @@ pub(crate) struct ChangedFiles {
     names: BTreeSet<String>,
     /// Whether any file may have changed: the program computes a name.
     any: bool,
-    /// The file to which `#MSG SAVE` writes, where the program named one.
-    messages: Option<String>,
+    /// The files to which `#MSG SAVE` may write, where the program named one.
+    messages: BTreeSet<String>,
     /// The file that `#FILE EXIST` looked for last and that is not here.
     missing: Option<String>,
 }
@@ -33,14 +33,12 @@ impl ChangedFiles {
 
     /// Messages are written to a file from here on.
     pub(crate) fn write_messages_to(&mut self, name: &str) {
-        self.messages = Some(name.to_owned());
+        self.messages = BTreeSet::from([base_name(name)]);
     }
 
     /// A message is written.
     pub(crate) fn write_message(&mut self) {
-        if let Some(name) = self.messages.clone() {
-            self.change(Some(&name));
-        }
+        self.names.extend(self.messages.iter().cloned());
     }
 
     /// `#FILE EXIST` looked for a file that is not here.
@@ -57,9 +55,7 @@ impl ChangedFiles {
     pub(crate) fn join(&mut self, other: &Self) {
         self.names.extend(other.names.iter().cloned());
         self.any |= other.any;
-        if self.messages.is_none() {
-            self.messages.clone_from(&other.messages);
-        }
+        self.messages.extend(other.messages.iter().cloned());
         if self.missing != other.missing {
             self.missing = None;
         }

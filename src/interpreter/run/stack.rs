@@ -134,6 +134,13 @@ impl CallStack {
         self.0.first()
     }
 
+    /// Whether a subprogram is being executed.
+    pub(crate) fn is_running(&self, program: ProgramId) -> bool {
+        self.iter().any(|frame| {
+            frame.level > 0 && (frame.unit, frame.section) == (program.unit, program.section)
+        })
+    }
+
     /// The running cycle, whose end restores what was in force before it.
     pub(crate) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
         let mut frames = self.0.iter_mut().rev();

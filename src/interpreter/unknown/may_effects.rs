@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::interpreter::programs::file_names::named_words;
-use crate::interpreter::programs::index::{EntryIndex, LabelName};
+use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::cycles::after_motion_only;
@@ -243,9 +243,11 @@ impl MayEffects<'_> {
         let (unit, entry) = self.place;
         let index = self.run.programs.index(unit);
         match flow {
-            Flow::Goto(BlockReference::Label(name)) => self.exit(Exit::label(name.of(at.text))),
+            Flow::Goto(BlockReference::Label(name)) => {
+                self.jump(LabelName::Text(name.of(at.text).to_owned()));
+            }
             Flow::Goto(BlockReference::Number(Operand::Number(number))) => {
-                self.exit(Exit::Label(LabelName::numbered(*number)));
+                self.jump(LabelName::numbered(*number));
             }
             Flow::Goto(_) => {
                 // There may be no such label.
@@ -260,6 +262,20 @@ impl MayEffects<'_> {
             }
             _ => {}
         }
+    }
+
+    /// A jump, which the control may refuse where it stays within a loop or enters one (R2.103).
+    fn jump(&mut self, label: LabelName) {
+        let (unit, from) = self.place;
+        let index = self.run.programs.index(unit);
+        let sections = index.sections.iter();
+        let mut numbered = sections.enumerate();
+        let section = numbered.find(|(_, it)| (it.start..it.end).contains(&from));
+        let to = section.and_then(|(section, _)| index.label(section, label.clone()));
+        let crosses = to.map_or(JumpAcross::Nothing, |to| index.jump_across(from, to));
+        self.region
+            .refuse_if(crosses != JumpAcross::Nothing, self.place);
+        self.exit(Exit::Label(label));
     }
 
     fn exit(&mut self, exit: Exit) {

@@ -253,7 +253,7 @@ impl Interpreter {
         let index = self.programs.index(unit);
         self.state.work.charge_region(index.loops.len());
         let mut around = blocks;
-        for &opener in &index.loops {
+        for &opener in index.loops.keys() {
             let end = index.links(opener).end;
             let opens = around.contains(&opener);
             let closes = around.contains(&end);

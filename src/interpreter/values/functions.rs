@@ -101,13 +101,19 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
     finite(value, span)
 }
 
-/// Greatest difference of two numbers, as a share of them, that the rounding of a computation may make (R2.112).
+/// Greatest difference of two numbers, as a share of them, that the rounding of a computation may make; of a number and 0,
+/// as it stands (R2.112).
 const ROUNDING: f64 = 1e-9;
 
 /// Whether two numbers differ, and by no more than rounding: the control may have rounded otherwise.
 pub(crate) fn are_nearly_equal(left: f64, right: f64) -> bool {
     let difference = (left - right).abs();
-    difference > 0.0 && difference <= ROUNDING * left.abs().max(right.abs())
+    let scale = if left == 0.0 || right == 0.0 {
+        1.0
+    } else {
+        left.abs().max(right.abs())
+    };
+    difference > 0.0 && difference <= ROUNDING * scale
 }
 
 /// FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.

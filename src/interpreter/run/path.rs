@@ -367,6 +367,20 @@ impl Path {
 }
 
 impl State {
+    /// An error ends a way. Ways that it ends at one block, in passes of a loop, are kept as one.
+    pub(crate) fn end_way(&mut self, way: EndedPath) {
+        let mut ended = self.ended.iter_mut().rev();
+        let is_same = |it: &&mut EndedPath| {
+            it.by == way.by
+                && it.at == way.at
+                && it.path.track.failed.is_some() == way.path.track.failed.is_some()
+        };
+        match ended.find(is_same) {
+            Some(same) => _ = same.path.join(way.path, &Unknown::RemedyClass),
+            None => self.ended.push(way),
+        }
+    }
+
     /// The part of the way that later ways to the same block are compared with.
     pub(crate) fn arriving(&self) -> Path {
         let track = &self.track;

@@ -28,6 +28,8 @@ impl Interpreter {
         }
         let is_passed_into = !self.may_be_jumped_to(at);
         let sides = self.sides_after(ways, after, at);
+        // The states after a reset and after a restart differ, which is reported.
+        let is_one_end = sides.len() == 1;
         let here = (self.state.control.clone(), self.state.track.clone());
         for (ways, next) in sides {
             (self.state.control, self.state.track) = here.clone();
@@ -50,7 +52,11 @@ impl Interpreter {
                 // It does not leave the loops in which the run goes on.
                 ended.path.parted = 0;
             }
-            self.state.ended.push(ended);
+            if is_one_end {
+                self.state.end_way(ended);
+            } else {
+                self.state.ended.push(ended);
+            }
             self.scratch.end = end;
         }
         (self.state.control, self.state.track) = here;

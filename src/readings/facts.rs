@@ -21,7 +21,7 @@ crate::words! {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct QuestionFacts {
-    /// The rule of `docs/rules.md` that depends on the answer.
+    /// The rule of `docs/rules` that depends on the answer.
     pub rule: &'static str,
     /// The question in plain words.
     pub question: &'static str,

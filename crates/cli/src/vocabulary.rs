@@ -1,5 +1,7 @@
 //! The words that `explain` covers besides codes and parameters: the sections of `docs/words.md`,
-//! and the rules and contradictions of `docs/rules.md`.
+//! and the rules and contradictions of `docs/rules`.
+
+use std::fmt::Write as _;
 
 use frictcomp::documents::{RULES, WORDS};
 use frictcomp_report::wrap;
@@ -47,7 +49,14 @@ fn rule(text: &str) -> Option<String> {
     let is_title = number.starts_with(['R', 'C']);
     let rest = RULES[at..].split("\n- ").next().unwrap_or_default();
     let rule = rest.split("\n\n").next().unwrap_or_default();
-    is_title.then(|| format!("# {number}\n\n{}\n", wrap(rule.trim_end(), WIDTH, 0)))
+    let mut lines = rule.trim_end().lines();
+    let mut page = format!("# {number}\n\n{}\n", wrap(lines.next()?, WIDTH, 0));
+    for (count, line) in lines.enumerate() {
+        let point = wrap(line.trim_start_matches([' ', '-']), WIDTH, 2);
+        let before = if count == 0 { "\n" } else { "" };
+        let _ = writeln!(page, "{before}- {}", point.replace('\n', "\n  "));
+    }
+    is_title.then_some(page)
 }
 
 /// Returns one form for all spellings of a word: a command, a variable of an axis, a machine

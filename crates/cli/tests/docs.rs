@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use files::files;
+use frictcomp::documents::RULES;
 use frictcomp_report::assumptions::{Chapter, chapters};
 use workspace::root;
 
@@ -115,6 +116,15 @@ fn rules(text: &str) -> BTreeSet<String> {
         whole.then(|| text[at..=at + chapter + 1 + rule].to_owned())
     });
     found.collect()
+}
+
+/// The rules and contradictions of `docs/rules`, each with its text.
+fn listed_rules() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let items = RULES.split("\n- **").skip(1);
+    items.filter_map(|item| {
+        let text = item.split("\n\n").next().unwrap_or_default();
+        text.split_once("** ")
+    })
 }
 
 /// The sources with tests, each with its test part.
@@ -252,15 +262,8 @@ fn the_list_of_assumptions_is_that_of_the_code() {
 fn every_rule_that_is_an_assumption_is_in_the_list() {
     let all = chapters().iter().flat_map(|chapter| &chapter.assumptions);
     let named: BTreeSet<&str> = all.flat_map(|it| it.rule.split(", ")).collect();
-    let text = read(&root().join("docs/rules.md"));
     let mut listed = BTreeSet::new();
-    for line in text.lines() {
-        let Some((rule, rest)) = line
-            .strip_prefix("- **")
-            .and_then(|line| line.split_once("** "))
-        else {
-            continue;
-        };
+    for (rule, rest) in listed_rules() {
         listed.insert(rule);
         let source = rest.rsplit_once("*(").map_or("", |(_, source)| source);
         assert!(
@@ -273,18 +276,13 @@ fn every_rule_that_is_an_assumption_is_in_the_list() {
         .iter()
         .filter(|rule| !rule.starts_with(|it: char| it.is_ascii_digit()));
     let unknown: Vec<_> = rules.filter(|rule| !listed.contains(*rule)).collect();
-    assert!(unknown.is_empty(), "docs/rules.md has no {unknown:?}");
+    assert!(unknown.is_empty(), "docs/rules has no {unknown:?}");
 }
 
 #[test]
 fn every_rule_has_a_test() {
-    let listed = read(&root().join("docs/rules.md"));
-    let listed: BTreeSet<String> = listed
-        .lines()
-        .filter_map(|line| line.strip_prefix("- **")?.split_once("**"))
-        .map(|(rule, _)| rule.to_owned())
-        .filter(|rule| rule.starts_with('R'))
-        .collect();
+    let rule_numbers = listed_rules().filter(|(rule, _)| rule.starts_with('R'));
+    let listed: BTreeSet<String> = rule_numbers.map(|(rule, _)| rule.to_owned()).collect();
     let mut named = BTreeSet::new();
     for (file, text) in tests() {
         if file.ends_with("docs.rs") {
@@ -294,7 +292,7 @@ fn every_rule_has_a_test() {
         let unknown: Vec<_> = here.difference(&listed).collect();
         assert!(
             unknown.is_empty(),
-            "{file} names rules that docs/rules.md does not have: {unknown:?}"
+            "{file} names rules that docs/rules does not have: {unknown:?}"
         );
         named.extend(here);
     }
@@ -304,7 +302,7 @@ fn every_rule_has_a_test() {
 
 #[test]
 fn every_named_rule_exists() {
-    let listed = rules(&read(&root().join("docs/rules.md")));
+    let listed = rules(RULES);
     for path in documents().into_iter().chain(sources()) {
         let here = rules(&read(&path));
         // Pages may mention chapters that are not built yet.

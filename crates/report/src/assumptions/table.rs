@@ -26,7 +26,7 @@ pub struct Chapter {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Assumption {
-    /// The rule, section or contradiction of `docs/rules.md` that it belongs to.
+    /// The rule, section or contradiction of `docs/rules` that it belongs to.
     pub rule: String,
     /// The assumption.
     pub sentence: String,

@@ -1,4 +1,4 @@
--- Opens a program in a headless Neovim with the settings of `docs/neovim.lua`, and reads back what the
+-- Opens a program in a headless Neovim with the settings of `docs/assets/neovim.lua`, and reads back what the
 -- server shows. Arguments: the settings, the tool, a folder to work in.
 local settings, tool, folder = arg[1], arg[2], arg[3]
 

@@ -84,6 +84,11 @@
 #[macro_use]
 mod words;
 
+/// The examples of the README of the package.
+#[cfg(doctest)]
+#[doc = include_str!("README.md")]
+mod readme {}
+
 pub mod audit;
 pub mod comp;
 pub mod config;

@@ -103,7 +103,7 @@ fn the_extension_has_the_version_of_the_command() {
 #[test]
 fn other_editors_start_the_same_server_for_the_same_files() {
     // R12.10: `scripts/neovim-test` opens a program with the first of these.
-    let neovim = file("docs/neovim.lua");
+    let neovim = file("docs/assets/neovim.lua");
     assert!(
         neovim.contains(r#"cmd = { "frictcomp", "lsp" }"#),
         "{neovim}"

@@ -174,3 +174,137 @@ fn a_release_is_attested_and_says_what_is_inside() {
         assert!(build.contains(&format!("materials {part} ")), "{part}");
     }
 }
+
+/// Returns the folders of the packages that are published, the library's among them.
+fn published() -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let crates = fs::read_dir(root.join("crates")).expect("packages");
+    let names = crates.map(|it| it.expect("an entry").file_name());
+    let folders = names.map(|it| format!("crates/{}", it.to_string_lossy()));
+    let is_published =
+        |folder: &String| !read(&format!("{folder}/Cargo.toml")).contains("\npublish = false");
+    let published = folders.filter(is_published);
+    published.chain([".".to_owned()]).collect()
+}
+
+/// Returns the addresses to which a text in Markdown links.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    let targets = text.split("](").skip(1);
+    targets.filter_map(|target| target.split([')', '#']).next())
+}
+
+#[test]
+fn every_package_has_its_licences_and_a_readme_whose_links_work() {
+    // R13.20
+    let repository = repository();
+    let mut readmes = vec!["bindings/python/README.md".to_owned()];
+    for folder in published() {
+        for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            assert_eq!(read(&format!("{folder}/{licence}")), read(licence));
+        }
+        let manifest: toml::Table = read(&format!("{folder}/Cargo.toml")).parse().expect("TOML");
+        let readme = manifest["package"]["readme"].as_str().expect("a README");
+        assert!(!readme.contains(".."), "{folder}: {readme}");
+        readmes.push(format!("{folder}/{readme}"));
+    }
+    assert_eq!(readmes.len(), 9);
+    for readme in readmes {
+        for link in links(&read(&readme)) {
+            assert!(link.starts_with("https://"), "{readme}: {link}");
+            let file = link
+                .strip_prefix(&repository)
+                .and_then(|it| it.strip_prefix("/blob/main/"));
+            let exists =
+                file.is_none_or(|it| Path::new(env!("CARGO_MANIFEST_DIR")).join(it).exists());
+            assert!(exists, "{readme}: {link}");
+        }
+    }
+}
+
+/// Returns the address of the repository.
+fn repository() -> String {
+    let manifest: toml::Table = read("Cargo.toml").parse().expect("TOML");
+    let address = manifest["workspace"]["package"]["repository"].as_str();
+    address.expect("an address").to_owned()
+}
+
+#[test]
+fn the_owner_of_the_repository_is_set_in_one_place() {
+    // R13.20: `dist/owner` sets it; what a release has is searched for one that is not set.
+    let repository = repository();
+    for file in ["README.md", "docs/ci.md", "editors/vscode/package.json"] {
+        let text = read(file);
+        for (at, _) in text.match_indices("https://github.com/") {
+            let own = text[at..]
+                .split(['"', ')', '>', '\n'])
+                .next()
+                .unwrap_or_default();
+            assert!(
+                !own.contains("/frictcomp") || own.starts_with(&repository),
+                "{file}: {own}"
+            );
+        }
+    }
+    let workflow = read(".github/workflows/release.yml");
+    assert!(workflow.contains("test \"$(dist/owner)\" = \"$GITHUB_REPOSITORY_OWNER\""));
+    assert!(read("dist/try").contains("names no owner of the repository"));
+}
+
+#[test]
+fn what_is_published_was_tested_and_tried_and_needs_few_rights() {
+    // R13.20
+    let workflow = read(".github/workflows/release.yml");
+    assert!(workflow.contains("\npermissions: {}\n"));
+    let (_, jobs) = workflow.split_once("\njobs:\n").expect("jobs");
+    let name = |job: &str| job.split(':').next().unwrap_or_default().trim().to_owned();
+    let jobs: Vec<&str> = jobs.split("\n\n").collect();
+    let of = |wanted: &str| {
+        let found = jobs.iter().find(|job| name(job) == wanted);
+        *found.unwrap_or_else(|| panic!("no job {wanted}"))
+    };
+    for job in &jobs {
+        assert!(job.contains("permissions:"), "{job}");
+        let writes = job.contains("contents: write");
+        assert_eq!(writes, name(job) == "release", "{job}");
+    }
+    assert!(of("release").contains("needs: [test, try]"));
+    assert!(of("try").contains("- run: dist/try\n"));
+    for place in ["crates-io", "pypi", "marketplace", "open-vsx"] {
+        let job = of(place);
+        assert!(job.contains("needs: release"), "{place}");
+        assert!(job.contains(&format!("environment: {place}")), "{place}");
+    }
+    for trusted in ["crates-io", "pypi"] {
+        let job = of(trusted);
+        assert!(job.contains("id-token: write") && !job.contains("secrets."));
+    }
+}
+
+#[test]
+fn the_book_has_every_document_in_four_parts() {
+    // R13.21
+    let contents = read("docs/SUMMARY.md");
+    let parts: Vec<&str> = contents
+        .lines()
+        .filter_map(|it| it.strip_prefix("# "))
+        .collect();
+    assert_eq!(
+        parts,
+        ["frictcomp", "Use", "Commission", "Reference", "Embed"]
+    );
+    let documents = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    for entry in fs::read_dir(documents).expect("documents") {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy();
+        let listed = contents.contains(&format!("({name})"));
+        let is_document = name.ends_with(".md") && name != "SUMMARY.md";
+        assert!(listed || !is_document, "{name} is not in the book");
+        assert!(
+            name.ends_with(".md") || !name.contains('.'),
+            "{name} is no document"
+        );
+    }
+    // Archives have it in HTML; the references come from the command and its pages.
+    assert!(read("dist/build").contains("dist/book \"$folder/docs\""));
+    assert!(read("dist/book").contains("man --format markdown"));
+}

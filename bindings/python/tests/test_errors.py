@@ -208,3 +208,6 @@ def test_messages_are_hashable_and_explained() -> None:
     assert len({fix, fix.also, *message.ends}) == 3
     assert frictcomp.explain(message.code).startswith("# FC407")
     assert "P-AXIS-00522" in frictcomp.explain("lr_param.frict_comp")
+    # As the command: rules, words, error numbers of the control.
+    for word, title in [("R1.27", "# R1.27"), ("comp", "# `COMP`"), ("120434", "# P-ERR-120434")]:
+        assert frictcomp.explain(word).startswith(title)

@@ -40,7 +40,7 @@ pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
         }
         (None, ResultFormat::Json) => target.text(&codes_document())?,
         (Some(word), format) => {
-            let page = find(word.trim()).ok_or_else(|| unknown(word))?;
+            let page = page_about(word).map_err(|error| unknown(word, &error))?;
             let page = page.trim_end();
             match format {
                 ResultFormat::Text => target.painted(&format!("{page}\n"), titles)?,
@@ -76,7 +76,33 @@ fn codes_document() -> String {
     format!("{document:#}\n")
 }
 
-/// Returns the page of a code, of a parameter's number or of its key, of a rule or of a word.
+/// Returns the page about a code, a parameter by its number or its key, a rule, an error number of the control or another
+/// word.
+///
+/// # Errors
+/// There is no page about it.
+pub fn page_about(word: &str) -> Result<Cow<'static, str>, NoPage> {
+    let word = word.trim();
+    find(word).ok_or_else(|| {
+        let codes = Code::ALL.iter().map(|code| code.as_str());
+        let parameters = PARAMETER_PAGES
+            .iter()
+            .flat_map(|parameter| [parameter.number, parameter.key]);
+        let all = codes.chain(parameters).chain(vocabulary::words());
+        NoPage {
+            near: did_you_mean(word, all).map(str::to_owned),
+        }
+    })
+}
+
+/// There is no page about a word.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NoPage {
+    /// The most similar word that has one.
+    pub near: Option<String>,
+}
+
 fn find(text: &str) -> Option<Cow<'static, str>> {
     let number = text.bytes().all(|byte| byte.is_ascii_digit());
     let bare = number.then(|| format!("FC{text}"));
@@ -116,13 +142,9 @@ fn general_key(text: &str) -> String {
     }
 }
 
-fn unknown(text: &str) -> Failure {
-    let codes = Code::ALL.iter().map(|code| code.as_str());
-    let parameters = PARAMETER_PAGES
-        .iter()
-        .flat_map(|parameter| [parameter.number, parameter.key]);
+fn unknown(text: &str, error: &NoPage) -> Failure {
     let failure = Failure::new(format!("there is no page about `{text}`"));
-    match did_you_mean(text, codes.chain(parameters).chain(vocabulary::words())) {
+    match &error.near {
         Some(near) => failure.with_help(format!("did you mean `{near}`?")),
         None => failure.with_help("`frictcomp explain` lists every code"),
     }
@@ -153,7 +175,9 @@ mod tests {
         }
         assert!(find("P-ERR-1").is_none());
         assert!(find("1").is_none() && find("").is_none());
-        assert_eq!(unknown("FC20l").help, ["did you mean `FC201`?"]);
-        assert_eq!(unknown("FRIKT").help, ["did you mean `FRICT`?"]);
+        for (word, near) in [("FC20l", "FC201"), ("FRIKT", "FRICT")] {
+            let error = page_about(word).expect_err("a misspelt word");
+            assert_eq!(error.near.as_deref(), Some(near));
+        }
     }
 }

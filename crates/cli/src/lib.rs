@@ -79,6 +79,8 @@ use std::process::ExitCode;
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
+pub use explain::{NoPage, page_about};
+
 use code_page::{CodePage, Encoded};
 use console::{Color, Console, OutputContents};
 use failure::Failure;

@@ -162,7 +162,7 @@ fn each_axis_has_its_own_list() {
 fn every_model_and_plant_can_be_named() {
     // R5.10 R5.11 R5.12
     for model in ["lugre", "gms", "stribeck"] {
-        for plant in ["stiff", "mid", "soft", "docs/plant.toml"] {
+        for plant in ["stiff", "mid", "soft", "docs/assets/plant.toml"] {
             let document = json(&[&QUICK[..], &["--model", model, "--plant", plant]].concat());
             let glitch = document["off"]["glitch_max"].as_f64().expect("a number");
             assert!((3.0..60.0).contains(&glitch), "{model} {plant}: {glitch}");

@@ -18,7 +18,7 @@ fn bench() -> Bench {
     let bench = Bench::new(&[("part.nc", PROGRAM), ("v.lis", VALUES), ("t.csv", TRACE)]);
     bench.write(
         "plant.toml",
-        &fs::read_to_string(root().join("docs/plant.toml")).expect("a plant"),
+        &fs::read_to_string(root().join("docs/assets/plant.toml")).expect("a plant"),
     );
     bench
 }

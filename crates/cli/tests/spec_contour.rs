@@ -425,14 +425,14 @@ fn the_picture_of_the_documents_is_what_the_tool_draws() {
         .expect("the tool starts");
     assert!(status.success());
     let drawn = std::fs::read_to_string(drawn).expect("a picture");
-    let kept = root().join("docs/contour.svg");
+    let kept = root().join("docs/assets/contour.svg");
     if std::env::var_os("UPDATE_DOCS").is_some() {
         std::fs::write(&kept, &drawn).expect("written");
     }
     let kept = std::fs::read_to_string(kept).expect("a picture");
     assert!(
         kept == drawn,
-        "docs/contour.svg is no longer what the tool draws"
+        "docs/assets/contour.svg is no longer what the tool draws"
     );
 }
 

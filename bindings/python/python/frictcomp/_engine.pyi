@@ -699,8 +699,9 @@ def tune(
     """
 
 def explain(word: str) -> str:
-    """The page about the code of a message, such as ``"FC401"``, or about a parameter, by its number or its key in the
-    lists, such as ``"P-AXIS-00522"``; as Markdown.
+    """The page that the command `frictcomp explain` prints: about the code of a message, such as ``"FC401"``, an error number
+    of the control, a parameter by its number or its key in the lists, such as ``"P-AXIS-00522"``, a rule or another word;
+    as Markdown.
     """
 
 def identify(

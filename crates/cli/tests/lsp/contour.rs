@@ -116,7 +116,10 @@ fn what_a_contour_rests_on_is_said() {
     assert!(!remarks.contains("no machine"), "{remarks}");
 
     let bench = Bench::new(&[("a.nc", "M30\n")]);
-    bench.write("drives.toml", include_str!("../../../../docs/plant.toml"));
+    bench.write(
+        "drives.toml",
+        include_str!("../../../../docs/assets/plant.toml"),
+    );
     let own = json!({ "capabilities": {}, "rootUri": uri(bench.folder()), "initializationOptions": {
         "contour": { "plant": "drives.toml" },
     } });

@@ -308,3 +308,15 @@ fn the_book_has_every_document_in_four_parts() {
     assert!(read("dist/build").contains("dist/book \"$folder/docs\""));
     assert!(read("dist/book").contains("man --format markdown"));
 }
+
+#[test]
+fn the_example_of_the_page_begins_with_a_path() {
+    // R13.18: `bindings/web/test` opens it, and drops what is no program.
+    let example = read("bindings/web/page/demo.ts");
+    let first = example.split("[\"example/").nth(1).expect("a file");
+    assert!(first.starts_with("contour/plate.nc\""), "{first}");
+    let tests = read("bindings/web/tests/browser.mjs");
+    for shown in ["#contour img", "the folder is empty", "#channels img", ".field-error"] {
+        assert!(tests.contains(shown), "{shown}");
+    }
+}

@@ -37,7 +37,9 @@ const page = await script("page.ts", {
   WORKER: JSON.stringify(worker),
   VERSION: JSON.stringify(version),
 });
-const style = readFileSync(join(here, "page", "style.css"), "utf8");
+const style = [join(here, "../../crates/report/src/colours.css"), join(here, "page", "style.css")]
+  .map((file) => readFileSync(file, "utf8"))
+  .join("");
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 const policy = [
   "default-src 'none'",

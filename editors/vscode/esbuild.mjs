@@ -24,9 +24,13 @@ const views = await build({
 });
 cpSync("../../docs/codes", "dist/codes", { recursive: true });
 // A webview indicates the theme by a class of its body, and not through `prefers-color-scheme`.
-const style = readFileSync("../../crates/report/src/svg/style.css", "utf8");
+const report = (file) => readFileSync(`../../crates/report/src/${file}`, "utf8");
 const dark = "body:is(.vscode-dark, .vscode-high-contrast:not(.vscode-high-contrast-light))";
-writeFileSync("dist/picture.css", style.replaceAll("@media (prefers-color-scheme:dark)", dark));
+const colours = report("colours.css").replace(
+  /@media screen and \(prefers-color-scheme: dark\) \{\s*:root/,
+  `@media screen {\n  ${dark}`,
+);
+writeFileSync("dist/picture.css", colours + report("svg/style.css"));
 
 /** The folder of the npm package that a bundled file belongs to, if there is one. */
 function packageOf(file) {

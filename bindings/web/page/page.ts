@@ -3,7 +3,7 @@
 import type { Audit, FileKind, Fix, Overview, Settings } from "./answers";
 import { audit } from "./audit";
 import { bars } from "./bars";
-import { DEMO } from "./demo";
+import { DEMO, DEMO_START } from "./demo";
 import { counted, fill, grouped, h, part } from "./dom";
 import { Editor, LONGEST } from "./editor";
 import { Edits, fixed, sought } from "./edits";
@@ -11,11 +11,12 @@ import { Refused } from "./engine";
 import { type Intake, dropped, picked } from "./intake";
 import { left } from "./left";
 import { described, parameters } from "./machine";
+import { withCode } from "./markdown";
 import { messages } from "./messages";
 import { besides, download, picture } from "./pictures";
 import { Cancelled, Session } from "./session";
 import {
-  circle, circleQuestion, contour, contourQuestion, forgetContour, noted, positions, tune,
+  circle, circleQuestion, contour, contourQuestion, FieldError, figures, forgetContour, noted, positions, tune,
 } from "./simulations";
 import { MEANINGS } from "./states";
 import { type Tab, Tabs } from "./tabs";
@@ -100,10 +101,14 @@ async function attempt<T>(work: Promise<T>): Promise<T | null> {
 
 function complain(error: unknown): void {
   const box = part("complaint");
+  if (error instanceof FieldError) {
+    error.show();
+    return;
+  }
   if (error instanceof Refused) {
     const { message, help, said } = error.refusal;
-    fill(box, h("p", {}, sentence(message)), help !== null && h("p", {}, sentence(help)),
-      ...said.map((one) => h("p", {}, `${one.file}:${one.line}: ${one.message}`)));
+    fill(box, h("p", {}, ...withCode(sentence(message))), help !== null && h("p", {}, ...withCode(sentence(help))),
+      ...said.map((one) => h("p", {}, ...withCode(`${one.file}:${one.line}: ${one.message}`))));
   } else if (error instanceof Cancelled) {
     fill(box, h("p", {}, "Cancelled."));
   } else {
@@ -116,6 +121,10 @@ function complain(error: unknown): void {
 async function take(work: Promise<Intake> | Intake): Promise<void> {
   part("complaint").hidden = true;
   const intake = await work;
+  if (intake.incoming.length === 0) {
+    throw new Error(intake.leftOut === 0 ? "There is no file here: the folder is empty."
+      : `There is nothing to read here: ${counted(intake.leftOut, "file")} left out, hidden or too large.`);
+  }
   for (const { path, file, named } of intake.incoming) {
     session.put(path, { content: new Uint8Array(await file.arrayBuffer()), named });
     edits.arrived(path);
@@ -142,7 +151,12 @@ async function arrived(paths: readonly string[]): Promise<void> {
   if (meant === null) {
     program = null;
     part("program").hidden = true;
+    part("recording").hidden = true;
     part("no-program").hidden = kinds.length === 0;
+    const first = kinds.find(([, kind]) => kind === "recording");
+    if (first) {
+      await attempt(recording(first[0]));
+    }
     return;
   }
   await open(meant);
@@ -157,11 +171,20 @@ function programsOf(all: typeof kinds): string[] {
   return all.flatMap(([path, kind]) => (kind === "program" ? [path] : []));
 }
 
+/** What files are that are no programs. */
+const OTHERS = {
+  recording: "recording",
+  picture: "picture",
+  foreign: "foreign program",
+  other: "other file",
+};
+
 /** The list of files. */
 function files(): void {
   const programs = programsOf(kinds);
   const lists = kinds.filter(([, kind]) => ["list", "startup", "configuration"].includes(kind));
-  const others = kinds.length - programs.length - lists.length;
+  const others = (["recording", "picture", "foreign", "other"] as const).map((kind) =>
+    [kind, kinds.filter(([, one]) => one === kind)] as const);
   fill(
     part("files"),
     h("h2", {}, counted(programs.length, "program")),
@@ -173,11 +196,25 @@ function files(): void {
     lists.length === 0 ? h("h2", {}, "No list") : h("details", { open: window.innerWidth > NARROW },
       h("summary", {}, h("h2", {}, counted(lists.length, "list"))),
       h("ul", {}, ...lists.map(([path]) => h("li", { title: path }, ...pathParts(path))))),
-    others > 0 && h("p", { class: "quiet" }, `${counted(others, "other file")} not looked at`),
+    ...others.map(([kind, all]) => all.length > 0 && h("details", {},
+      h("summary", { class: "quiet" }, counted(all.length, OTHERS[kind])),
+      h("ul", {}, ...all.map(([path]) => h("li", { title: path }, kind === "recording"
+        ? h("button", { onclick: () => { void attempt(recording(path)); } }, ...pathParts(path))
+        : h("span", {}, ...pathParts(path))))))),
   );
   const needed = overview ? missing(overview) : [];
   fill(part("missing"), needed.length > 0 && h("div", { class: "notice warning" },
     h("h2", {}, "Not dropped"), h("ul", {}, ...needed.map((name) => h("li", {}, name)))));
+}
+
+/** Shows the channels of a recording in place of a program. */
+async function recording(path: string): Promise<void> {
+  const answer = await session.json<{ svg: string; text: string }>({ ask: "recording", path });
+  part("program").hidden = true;
+  part("no-program").hidden = true;
+  part("recording").hidden = false;
+  part("recording-title").textContent = path;
+  picture(part("channels"), answer.svg, `The channels of ${path} over time`, figures(answer.text));
 }
 
 /** A path that may be broken after each folder. */
@@ -201,6 +238,7 @@ async function open(path: string): Promise<void> {
   program = path;
   part("no-program").hidden = true;
   part("program").hidden = false;
+  part("recording").hidden = true;
   mark();
   if (isOther) {
     foundLine = 0;
@@ -256,7 +294,7 @@ async function result(found: Overview): Promise<void> {
     counted(found.warnings, "warning"),
   ].filter((fact) => fact !== null).join(" · ");
   fill(part("verdict"), ...verdict(found, given()).map(({ weight, text }) =>
-    h("p", { class: `notice ${weight}` }, text)));
+    h("p", { class: `notice ${weight}` }, ...withCode(text))));
   fill(part("left"), left(found, (line) => { void openTimeline(found.program, line); }));
   fill(part("bars"), bars(found, (block) => {
     tabs.show("timeline");
@@ -304,7 +342,7 @@ async function show(tab: Tab): Promise<void> {
     }
     case "current": {
       const answer = await session.json<{ svg: string | null; notes: string[] }>(
-        { ask: "current", program, settings, start: positions((part("start") as HTMLInputElement).value) });
+        { ask: "current", program, settings, start: positions("start") });
       const notes = noted(answer.notes);
       picture(part("current"), answer.svg, `Additive current of ${program} over time`, ...notes ? [notes] : []);
       break;
@@ -445,7 +483,8 @@ function listen(): void {
   }
   on("demo", "click", () => {
     const incoming = DEMO.map(([path, text]) => ({ path, file: new Blob([text]), named: false }));
-    void attempt(take({ incoming, leftOut: 0 }));
+    (part("contour-start") as HTMLInputElement).value = DEMO_START;
+    void attempt(take({ incoming, leftOut: 0 }).then(() => { tabs.show("contour"); }));
   });
   on("clear", "click", () => {
     if (edits.isUnsaved && !window.confirm("Programs that were changed here are not saved. Remove them?")) {

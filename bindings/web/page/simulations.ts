@@ -1,6 +1,7 @@
 // What simulated drives do: contours, circles, tuned value lists.
 
 import { fill, h, part } from "./dom";
+import { withCode } from "./markdown";
 import { download, picture } from "./pictures";
 import type { Settings } from "./answers";
 import type { Session } from "./session";
@@ -8,6 +9,26 @@ import { sentence } from "./verdict";
 
 /** The maximum number of feeds that are tuned for at once. */
 const MOST_FEEDS = 8;
+
+/** What is wrong with a field; it is said next to it until the field changes. */
+export class FieldError extends Error {
+  constructor(readonly field: string, message: string) {
+    super(message);
+  }
+
+  show(): void {
+    const field = part(this.field);
+    const said = h("span", { class: "field-error", role: "alert" }, this.message);
+    field.parentElement?.querySelector(".field-error")?.remove();
+    field.after(said);
+    field.setAttribute("aria-invalid", "true");
+    field.addEventListener("input", () => {
+      said.remove();
+      field.removeAttribute("aria-invalid");
+    }, { once: true });
+    field.focus();
+  }
+}
 
 interface Drawn {
   svg: string | null;
@@ -18,24 +39,35 @@ function value(id: string): string {
   return (part(id) as HTMLInputElement | HTMLSelectElement).value;
 }
 
-function figures(text: string): HTMLElement {
+/** Figures as the command prints them. */
+export function figures(text: string): HTMLElement {
   return h("pre", { class: "figures", tabindex: 0, role: "region", "aria-label": "Figures" }, text);
 }
 
 /** Notes below a picture. */
 export function noted(notes: readonly string[]): HTMLElement | null {
   return notes.length === 0 ? null
-    : h("ul", { class: "notes" }, ...notes.map((note) => h("li", {}, sentence(note))));
+    : h("ul", { class: "notes" }, ...notes.map((note) => h("li", {}, ...withCode(sentence(note)))));
 }
 
-/** The axis positions at the start: `X0, Y-12.5, Z1=30`. */
-export function positions(written: string): [axis: string, position: number][] {
-  const words = written.split(/[\s,;]+/);
-  return words.flatMap((word): [string, number][] => {
+/** The axis positions at the start, in a field: `X0, Y-12.5, Z1=30`. */
+export function positions(field: string): [axis: string, position: number][] {
+  const found = positionsOf(value(field));
+  if (found === null) {
+    throw new FieldError(field, "Give positions in mm or degrees, such as X0, Y-12.5, Z1=30.");
+  }
+  return found;
+}
+
+/** The positions of a text; `null` where one of its words is none. */
+export function positionsOf(written: string): [axis: string, position: number][] | null {
+  const words = written.split(/[\s,;]+/).filter((word) => word !== "");
+  const all = words.flatMap((word): [string, number][] => {
     const found = /^([A-Za-z]\w*)=(.+)$|^([A-Za-z])(.+)$/.exec(word);
     const [axis, position] = [found?.[1] ?? found?.[3], Number(found?.[2] ?? found?.[4])];
     return axis !== undefined && Number.isFinite(position) ? [[axis.toUpperCase(), position]] : [];
   });
+  return all.length === words.length ? all : null;
 }
 
 /** The feeds of a text, `500, 1000`; none where one of its words is not a feed. */
@@ -46,7 +78,7 @@ export function feeds(written: string): number[] {
 
 /** The question for the contour of a program. */
 export function contourQuestion(program: string | null, settings: Settings): object {
-  return { program, settings, start: positions(value("contour-start")), plant: value("contour-plant") };
+  return { program, settings, start: positions("contour-start"), plant: value("contour-plant") };
 }
 
 /** Drives a program and shows how far the axes leave its path. */
@@ -78,7 +110,7 @@ export async function circle(session: Session, program: string | null): Promise<
 export async function tune(session: Session): Promise<void> {
   const wanted = feeds(value("feeds"));
   if (wanted.length === 0) {
-    throw new Error(`Give from 1 to ${MOST_FEEDS} feeds in mm/min, such as 500, 2000.`);
+    throw new FieldError("feeds", `Give from 1 to ${MOST_FEEDS} feeds in mm/min, such as 500, 2000.`);
   }
   const plant = value("plant");
   const answer = await session.json<Drawn & { list: string }>(

@@ -24,6 +24,12 @@ pub(crate) enum Kind {
     List,
     Startup,
     Configuration,
+    /// A table of samples.
+    Recording,
+    /// A picture or a document to be printed.
+    Picture,
+    /// A program for another control.
+    Foreign,
     /// It was in a folder, and its extension is not that of a program.
     Other,
 }
@@ -48,8 +54,10 @@ impl Dropped {
     /// file that is not a list is then a program, whatever its extension.
     pub(crate) fn put(&mut self, path: &str, content: Vec<u8>, named: bool) {
         let path = PathBuf::from(path.trim_start_matches('/'));
+        let is_picture = is_picture(&path, &content);
         let text = Arc::new(decode(content));
         let kind = match self.files.get(&path) {
+            _ if is_picture => Kind::Picture,
             // An edited text keeps its role.
             Some(before) if before.kind == Kind::Program => Kind::Program,
             _ => kind_of(&path, &text, named),
@@ -164,6 +172,15 @@ fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
             _ => Kind::List,
         };
     }
+    if ["csv", "tsv"]
+        .iter()
+        .any(|it| extension.eq_ignore_ascii_case(it))
+    {
+        return Kind::Recording;
+    }
+    if is_for_another_control(text) {
+        return Kind::Foreign;
+    }
     if named || is_program(path, None) {
         Kind::Program
     } else {
@@ -171,9 +188,53 @@ fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
     }
 }
 
+/// Beginnings of pictures and of documents to be printed.
+const PICTURES: [&[u8]; 6] = [
+    b"\x89PNG",
+    b"\xff\xd8\xff",
+    b"GIF8",
+    b"BM",
+    b"%PDF",
+    b"<svg",
+];
+
+fn is_picture(path: &Path, content: &[u8]) -> bool {
+    let is_svg = path
+        .extension()
+        .is_some_and(|it| it.eq_ignore_ascii_case("svg"));
+    // A program may begin with these letters.
+    let is_bitmap = |beginning: &[u8]| beginning != b"BM" || content.contains(&0);
+    is_svg
+        || PICTURES
+            .iter()
+            .any(|it| content.starts_with(it) && is_bitmap(it))
+}
+
+/// Whether a text begins as a program for Heidenhain in its own language, with `BEGIN PGM` in its first line.
+fn is_for_another_control(text: &str) -> bool {
+    let first = text.lines().find(|line| !line.trim().is_empty());
+    let words = first.unwrap_or_default().split_whitespace();
+    let words = words.skip_while(|word| word.bytes().all(|it| it.is_ascii_digit()));
+    words.take(2).eq(["BEGIN", "PGM"])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_no_program_is_told_apart_before_anything_runs() {
+        // R13.18
+        let mut dropped = Dropped::default();
+        dropped.put("a.csv", b"t;x\n0;1\n".to_vec(), true);
+        dropped.put("b.png", b"\x89PNG\r\n".to_vec(), true);
+        dropped.put("c.h", b"0 BEGIN PGM C MM\n".to_vec(), true);
+        dropped.put("d.nc", b"BMX=1\nM30\n".to_vec(), true);
+        let kinds: Vec<Kind> = dropped.files().into_iter().map(|(_, kind)| kind).collect();
+        let wanted = [Kind::Recording, Kind::Picture, Kind::Foreign, Kind::Program];
+        assert_eq!(kinds, wanted);
+        assert!(crate::recording::answer(&mut dropped, "a.csv").is_ok());
+    }
 
     #[test]
     fn files_are_told_apart() {

@@ -8,7 +8,7 @@ use crate::dropped::Dropped;
 use crate::questions::PageQuestion;
 use crate::refusal::Refusal;
 use crate::run::{ShownRun, json};
-use crate::{audits, circle, contour, current, parameters, run, tuning};
+use crate::{audits, circle, contour, current, parameters, recording, run, tuning};
 
 /// The dropped files and the run that is shown.
 #[derive(Debug, Default)]
@@ -74,6 +74,7 @@ impl Engine {
             PageQuestion::Parameters { program, enable } => {
                 parameters::answer(dropped, &program, &enable)?
             }
+            PageQuestion::Recording { path } => recording::answer(dropped, &path)?,
             PageQuestion::Explain { code } => {
                 let code: Result<Code, _> = code.parse();
                 let code = code.map_err(|_| Refusal::new("there is no page about this code"))?;

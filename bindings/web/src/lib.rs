@@ -15,6 +15,7 @@ mod engine;
 mod lines;
 mod parameters;
 mod questions;
+mod recording;
 mod refusal;
 mod rows;
 mod run;

@@ -78,6 +78,8 @@ pub(crate) enum PageQuestion {
         #[serde(default)]
         enable: Vec<String>,
     },
+    /// The channels of a recording: picture and table, in JSON.
+    Recording { path: String },
     /// The page about a code, as text.
     Explain { code: String },
     /// A simulated circular test: picture and figures, in JSON.

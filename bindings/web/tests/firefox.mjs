@@ -61,6 +61,9 @@ const tests = {
   async "every view shows what it asks for"() {
     const page = await open();
     await page.click("#demo");
+    await page.waitForSelector("#contour img", { timeout: 60_000 });
+    await page.click("#files button[title='example/friction.nc']");
+    await page.waitForFunction(() => document.getElementById("title").textContent === "example/friction.nc");
     await page.waitForSelector(rows);
     const wanted = {
       messages: "#panel-messages .messages li",
@@ -84,6 +87,9 @@ const tests = {
   async "an edit changes the result"() {
     const page = await open();
     await page.click("#demo");
+    await page.waitForSelector("#contour img", { timeout: 60_000 });
+    await page.click("#files button[title='example/friction.nc']");
+    await page.waitForFunction(() => document.getElementById("title").textContent === "example/friction.nc");
     await page.waitForSelector(rows);
     assert.match(await text(page, "#verdict"), /Left for the next program: X inactive, Y inactive/);
     await page.click("#edit");

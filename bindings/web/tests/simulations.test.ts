@@ -1,10 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { feeds, positions } from "../page/simulations";
+import { feeds, positionsOf } from "../page/simulations";
 
 describe("what is written into a form", () => {
   it("says where axes stand", () => {
-    expect(positions("x0, Y-12.5 ; Z1=30")).toEqual([["X", 0], ["Y", -12.5], ["Z1", 30]]);
-    expect(positions("X, 5, Yfast")).toEqual([]);
+    expect(positionsOf("x0, Y-12.5 ; Z1=30")).toEqual([["X", 0], ["Y", -12.5], ["Z1", 30]]);
+    expect(positionsOf("")).toEqual([]);
+    // R13.18: the field says it.
+    expect(positionsOf("X, 5, Yfast")).toBeNull();
   });
 
   it("gives feeds, or none where a word is no feed", () => {

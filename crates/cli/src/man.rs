@@ -91,11 +91,22 @@ fn page(command: clap::Command) -> Result<(String, String), Failure> {
 /// under their headings, and its commands.
 fn markdown(command: &clap::Command) -> (String, String) {
     let name = command.get_display_name().unwrap_or("frictcomp");
-    let title = name.replace('-', " ");
-    let about = command.get_long_about().or_else(|| command.get_about());
     let usage = command.clone().render_usage().to_string();
     let usage = usage.trim_start_matches("Usage: ");
-    let mut page = format!("# {title}\n\n{}.\n\n```text\n{usage}\n```\n", plain(about));
+    let words = usage
+        .split(' ')
+        .take_while(|it| !it.starts_with(['[', '<', '-']));
+    let mut page = format!("# {}\n\n", words.collect::<Vec<_>>().join(" "));
+    let about = command.get_long_about().or_else(|| command.get_about());
+    let about = about.map(ToString::to_string).unwrap_or_default();
+    for paragraph in about.split("\n\n") {
+        let _ = write!(
+            page,
+            "{}.\n\n",
+            paragraph.trim_end_matches('.').replace('\n', " ")
+        );
+    }
+    let _ = write!(page, "```text\n{usage}\n```\n");
     let shown = || command.get_arguments().filter(|it| !it.is_hide_set());
     let mut headings: Vec<&str> = Vec::new();
     for heading in shown().map(heading) {

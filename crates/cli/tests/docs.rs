@@ -33,7 +33,9 @@ fn documents() -> Vec<PathBuf> {
         "CHANGELOG.md",
     ];
     let mut documents: Vec<PathBuf> = names.iter().map(|name| root().join(name)).collect();
-    documents.extend(files("docs", &["md"]));
+    let docs = files("docs", &["md"]);
+    // The contents of the book list pages that `dist/book` makes, too.
+    documents.extend(docs.into_iter().filter(|it| !it.ends_with("SUMMARY.md")));
     documents
 }
 

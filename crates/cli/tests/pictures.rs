@@ -59,7 +59,7 @@ fn every_picture_is_told_in_words() {
             );
         }
         assert!(
-            svg.contains("prefers-color-scheme:dark"),
+            svg.contains("prefers-color-scheme: dark"),
             "{name} has one ground only"
         );
         assert!(svg.contains("@media print"), "{name}");
@@ -134,8 +134,8 @@ fn a_value_list_shows_its_points_and_held_ends() {
         });
         count.count()
     };
-    assert_eq!(with("fc-m0"), 5, "five points");
-    assert_eq!(with("fc-m1"), 5, "the scaled points, of another shape");
+    assert_eq!(with("fc-m2"), 5, "five points");
+    assert_eq!(with("fc-m3"), 5, "the scaled points, of another shape");
     assert_eq!(with("fc-held"), 2);
     let texts = texts(&document);
     for text in [
@@ -154,7 +154,7 @@ fn a_value_list_shows_its_points_and_held_ends() {
     // A tenth of the axis separates the slow points from each other.
     let places: Vec<f64> = document
         .descendants()
-        .filter(|node| node.attribute("class") == Some("fc-m0"))
+        .filter(|node| node.attribute("class") == Some("fc-m2"))
         .map(|node| node.attribute("cx").unwrap().parse().unwrap())
         .collect();
     assert!(places[2] - places[0] > 200.0, "{places:?}");
@@ -222,7 +222,7 @@ fn currents_are_steps_and_blocks_stand_along_the_time() {
     // A step is drawn level, then upright.
     let line = document
         .descendants()
-        .find(|node| node.attribute("class") == Some("fc-curve fc-s0 fc-steps"));
+        .find(|node| node.attribute("class") == Some("fc-curve fc-s2 fc-steps"));
     let path = line.and_then(|node| node.attribute("d")).unwrap();
     let places: Vec<(&str, &str)> = path
         .split(['M', 'L'])
@@ -236,7 +236,7 @@ fn currents_are_steps_and_blocks_stand_along_the_time() {
     assert_eq!(
         document
             .descendants()
-            .filter(|node| node.attribute("class") == Some("fc-f0"))
+            .filter(|node| node.attribute("class") == Some("fc-f2"))
             .count(),
         2
     );
@@ -323,7 +323,7 @@ fn points_without_a_line_have_none_in_the_legend() {
             .filter(|node| node.attribute("class") == Some(class))
             .count()
     };
-    assert_eq!([lines("fc-curve fc-s0"), lines("fc-curve fc-s1")], [0, 2]);
+    assert_eq!([lines("fc-curve fc-s2"), lines("fc-curve fc-s3")], [0, 2]);
 }
 
 #[test]

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::report_text::ReportText;
 use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{
@@ -56,7 +57,12 @@ impl IdentifyReport {
 
 /// Speeds, curve and points, then the findings.
 pub fn render_text(report: &IdentifyReport) -> String {
-    let mut out = String::new();
+    report_text(report).to_string()
+}
+
+/// Returns the identification as sentences and tables.
+pub(crate) fn report_text(report: &IdentifyReport) -> ReportText {
+    let mut out = ReportText::default();
     let found = &report.identified;
     let axis = report
         .axis
@@ -76,7 +82,7 @@ pub fn render_text(report: &IdentifyReport) -> String {
         let mut said = String::new();
         write_findings(report.findings(), &mut said);
         out.push_str(said.trim_start());
-        out.push('\n');
+        out.push_str("\n");
     }
     push_pairs(&mut out, found);
     if let Some(branches) = found.branches() {
@@ -98,17 +104,18 @@ pub fn render_text(report: &IdentifyReport) -> String {
     }
     let _ = write!(
         out,
-        "\nvalue list: {} points, straight lines at most {:.3} from the curve\n\n{table}",
+        "\nvalue list: {} points, straight lines at most {:.3} from the curve\n\n",
         found.points.len(),
         found.point_error,
     );
+    out.table(table);
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
     }
     out
 }
 
-fn push_pairs(out: &mut String, found: &Identified) {
+fn push_pairs(out: &mut ReportText, found: &Identified) {
     let mut table = Table::of_numbers(["speed", "friction", "±", "offset", "residual", "visits"]);
     table.row(&[&"mm/s"]);
     for pair in &found.pairs {
@@ -124,11 +131,11 @@ fn push_pairs(out: &mut String, found: &Identified) {
             &pair.visits.len(),
         ]);
     }
-    let _ = write!(out, "{table}");
+    out.table(table);
 }
 
 /// Both directions, where an offset does not make them one (R6.25).
-fn push_branches(out: &mut String, branches: &DirectionBranches, unit: &str) {
+fn push_branches(out: &mut ReportText, branches: &DirectionBranches, unit: &str) {
     let mut table = Table::of_numbers(["speed", "forth", "back"]);
     table.row(&[&"mm/s", &unit, &unit]);
     for point in &branches.points {
@@ -141,12 +148,15 @@ fn push_branches(out: &mut String, branches: &DirectionBranches, unit: &str) {
     let _ = write!(
         out,
         "\nfriction depends on the direction: the common part of both changes by {} ± {} {unit} from the slowest to \
-         the fastest speed\n\n{table}\n\
-         Neither a value list nor `getriebe[i].torque_offset` (P-AXIS-00324) can hold that: the list has one output \
-         for both directions, and the offset does not change with the speed. The list below is the compromise, \
-         their mean.",
+         the fastest speed\n\n",
         Rounded(branches.change, 3),
         Rounded(branches.error, 3),
+    );
+    out.table(table);
+    out.push_str(
+        "\nNeither a value list nor `getriebe[i].torque_offset` (P-AXIS-00324) can hold that: the list has one output \
+         for both directions, and the offset does not change with the speed. The list below is the compromise, \
+         their mean.",
     );
     if let Some((speed, cost)) = branches.cost() {
         let [forth, back] = if cost > 0.0 {
@@ -160,7 +170,7 @@ fn push_branches(out: &mut String, branches: &DirectionBranches, unit: &str) {
             Rounded(cost.abs(), 3)
         );
     }
-    out.push('\n');
+    out.push_str("\n");
 }
 
 /// Returns the use of an offset, in words.
@@ -176,7 +186,7 @@ fn offset_words(found: &Identified) -> &'static str {
     }
 }
 
-fn push_curve(out: &mut String, found: &Identified) {
+fn push_curve(out: &mut ReportText, found: &Identified) {
     match &found.curve {
         FrictionCurve::Fit(fit) => {
             let _ = writeln!(

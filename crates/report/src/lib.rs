@@ -42,6 +42,7 @@ pub mod on_circles;
 mod output;
 pub mod pictures;
 mod records;
+mod report_text;
 pub mod schema;
 pub mod states;
 pub mod stiction;

@@ -57,6 +57,17 @@ impl Table {
         self.rows.push(cells);
     }
 
+    /// Returns the headings, each with whether its column has numbers.
+    pub(crate) fn headings(&self) -> impl Iterator<Item = (&str, bool)> {
+        let numbers = self.alignments.iter().map(|it| *it == Alignment::Right);
+        self.headings.iter().map(String::as_str).zip(numbers)
+    }
+
+    /// Returns the rows below the headings.
+    pub(crate) fn rows(&self) -> &[Vec<String>] {
+        &self.rows
+    }
+
     fn lines(&self) -> impl Iterator<Item = &Vec<String>> {
         let has_headings = self.headings.iter().any(|heading| !heading.is_empty());
         let headings = has_headings.then_some(&self.headings);

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::report_text::ReportText;
 use crate::table::Table;
 use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
 
@@ -20,7 +21,12 @@ pub struct TraceReport<'a> {
 
 /// The channels for people, one per line, then their oddities.
 pub fn render_text(report: &TraceReport<'_>) -> String {
-    let mut out = String::new();
+    report_text(report).to_string()
+}
+
+/// Returns the channels as a table, with their oddities.
+pub(crate) fn report_text(report: &TraceReport<'_>) -> ReportText {
+    let mut out = ReportText::default();
     let recording = report.recording;
     let _ = writeln!(
         out,
@@ -34,7 +40,7 @@ pub fn render_text(report: &TraceReport<'_>) -> String {
     for summary in recording.summaries() {
         push_channel(&mut table, &summary);
     }
-    let _ = write!(out, "{table}");
+    out.table(table);
     for summary in recording.summaries() {
         for odd in oddities(&summary) {
             let name = visible_line(&summary.channel.name);

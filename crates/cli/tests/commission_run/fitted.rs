@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use frictcomp::lists::FrictionList;
 use frictcomp_host::{FileRegistry, read_value_list};
 use frictcomp_physics::simulation::{Plant, Preset};
-use frictcomp_report::svg::STYLE;
+use frictcomp_report::svg::style;
 use frictcomp_testing::planned_circles;
 use serde_json::Value;
 
@@ -260,10 +260,11 @@ fn check_pictures(folder: &Path) {
         let picture = picture.unwrap_or_else(|| panic!("a picture of {title}"));
         let (head, body) = picture.split_once("</desc>\n").expect("a description");
         let drawn = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" {head}</desc>\n<style>\n{STYLE}</style>\n{body}</svg>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" {head}</desc>\n<style>\n{}</style>\n{body}</svg>\n",
+            style()
         );
         let kept = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join(format!("../../docs/commissioning-{file}.svg"));
+            .join(format!("../../docs/assets/commissioning-{file}.svg"));
         if std::env::var_os("UPDATE_DOCS").is_some() {
             std::fs::write(&kept, &drawn).expect("written");
         }

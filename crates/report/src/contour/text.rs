@@ -7,6 +7,7 @@ use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
 use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::glitch::glitch_in_words;
+use crate::report_text::ReportText;
 use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::comp::State;
@@ -41,7 +42,15 @@ pub fn render_text(
     contour: &mut ProgramContour<ContourRecorder<'_>>,
     subject: &ContourSubject,
 ) -> String {
-    let mut out = String::new();
+    report_text(contour, subject).to_string()
+}
+
+/// Returns the report as sentences and tables.
+pub(crate) fn report_text(
+    contour: &mut ProgramContour<ContourRecorder<'_>>,
+    subject: &ContourSubject,
+) -> ReportText {
+    let mut out = ReportText::default();
     let axes = &contour.options().axes;
     let _ = writeln!(
         out,
@@ -57,7 +66,7 @@ pub fn render_text(
         let _ = writeln!(out, "{line}");
     }
     if !obstacles.is_empty() {
-        out.push('\n');
+        out.push_str("\n");
     }
     if contour.deviations().programmed.max_at().is_some() {
         push_figures(&mut out, contour);
@@ -68,7 +77,7 @@ pub fn render_text(
     for line in contour_remarks(contour) {
         let _ = writeln!(out, "{line}");
     }
-    out.push('\n');
+    out.push_str("\n");
     let is_whole = contour.is_whole();
     for axis in contour.axes() {
         let _ = writeln!(out, "{}", sentence(axis, Counted::of(is_whole)));
@@ -76,7 +85,7 @@ pub fn render_text(
     push_switches(&mut out, contour.sink().switches());
     push_beside_the_plane(&mut out, contour.axes());
     push_worst(&mut out, contour.sink().worst(), &subject.program);
-    out.push('\n');
+    out.push_str("\n");
     for axis in &contour.options().axes {
         let _ = writeln!(out, "{}", compensation(axis));
     }
@@ -103,7 +112,7 @@ pub fn render_text(
 }
 
 /// The figures of the three runs, and the places of the extreme ones.
-fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
+fn push_figures<S: ContourSink>(out: &mut ReportText, contour: &ProgramContour<S>) {
     let runs = contour.deviations();
     let runs = [&runs.programmed, &runs.all_on, &runs.all_off];
     let table = Table::default().left("while cutting, in µm");
@@ -117,7 +126,8 @@ fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
         let [programmed, on, off] = values.map(|value| format!("{:.2}", value + 0.0));
         table.row(&[&name, &programmed, &on, &off]);
     }
-    let _ = writeln!(out, "{table}");
+    out.table(table);
+    out.push_str("\n");
     for (name, at) in [
         (
             "largest deviation",
@@ -150,7 +160,7 @@ fn places(at: [Option<&Cause>; 3]) -> Option<String> {
     Some(places.collect::<Vec<String>>().join(", "))
 }
 
-fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
+fn push_due<S: ContourSink>(out: &mut ReportText, contour: &ProgramContour<S>) {
     let due = contour.due();
     let _ = match &due.at {
         Some(at) => writeln!(
@@ -164,7 +174,7 @@ fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
 }
 
 /// Writes the switches of compensation during a motion of the axis (R1.57).
-fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) {
+fn push_switches(out: &mut ReportText, (switches, more): (&[ContourReversal], u64)) {
     for switch in switches {
         let way = if switch.state == State::Active {
             "on"
@@ -197,7 +207,7 @@ fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) 
 const NOTICEABLE_UM: f64 = 1.0;
 
 /// Reports that an axis outside the plane deviates as well, in a plane that is not shown.
-fn push_beside_the_plane(out: &mut String, axes: &[ContourSummary]) {
+fn push_beside_the_plane(out: &mut ReportText, axes: &[ContourSummary]) {
     let [first, second, further @ ..] = axes else {
         return;
     };
@@ -311,7 +321,7 @@ fn times(count: u64) -> String {
     }
 }
 
-fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
+fn push_worst(out: &mut ReportText, worst: &[ContourReversal], program: &str) {
     if worst.is_empty() {
         return;
     }
@@ -351,8 +361,6 @@ fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
             &format_args!("{block}{why}"),
         ]);
     }
-    let _ = write!(
-        out,
-        "\nworst reversals, glitch in µm, feeds in mm/min\n{table}"
-    );
+    out.push_str("\nworst reversals, glitch in µm, feeds in mm/min\n");
+    out.table(table);
 }

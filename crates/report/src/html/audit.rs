@@ -5,8 +5,8 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id};
+use super::page::{Lead, Page, PagePart, Tone};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, with_code};
 use super::source::Sources;
 use crate::assumptions::rests_on_text;
 use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
@@ -40,16 +40,19 @@ pub fn render_audit(
     let mut page = Page::open(
         out,
         "What the order of programs does",
-        &lead(report),
+        Lead {
+            tone: tone(report),
+            text: &lead(report),
+        },
         &parts,
     )?;
     page.long_part(FINDINGS, |page| {
         findings(page, report, &marks)?;
         for assumption in report.assumptions() {
-            page.push(&html! { p { (assumption) } })?;
+            page.push(&html! { p { (with_code(assumption)) } })?;
         }
         match rests_on_text(&report.rests_on()) {
-            Some(text) => page.push(&html! { p { (text) } }),
+            Some(text) => page.push(&html! { p { (with_code(&text)) } }),
             None => Ok(()),
         }
     })?;
@@ -68,6 +71,15 @@ fn lead(report: &AuditReport) -> String {
     match &report.not_checked {
         Some(programs) => format!("{found}; not checked: {programs}"),
         None => found,
+    }
+}
+
+fn tone(report: &AuditReport) -> Tone {
+    let hazards = report.hazards() + report.possible_hazards();
+    if hazards > 0 || report.has_unknown() || report.not_checked.is_some() {
+        Tone::Warning
+    } else {
+        Tone::Good
     }
 }
 

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
+use super::page::{Lead, Page, PagePart, Tone};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, with_code};
 use crate::circle::{CircleReport, Subject, advice_lines, conditions, table};
 use crate::pictures::{circle, value_curve};
 use crate::svg::Frame;
@@ -27,7 +27,11 @@ const CONDITIONS: PagePart = PagePart::new("conditions", "Conditions");
 pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<()> {
     let chart = circle(report);
     let told = conditions(report);
-    let lead = told.first().map(String::as_str).unwrap_or_default();
+    let glitches = chart.description.split_once(". ").map_or("", |it| it.1);
+    let lead = Lead {
+        tone: Tone::Plain,
+        text: glitches,
+    };
     let lists = lists(report);
     let mut parts = vec![PICTURE, FIGURES, ADVICE, CONDITIONS];
     if !lists.is_empty() {
@@ -40,7 +44,10 @@ pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<(
     if !lists.is_empty() {
         page.part(CURVES, &curves(&lists))?;
     }
-    page.part(CONDITIONS, &html! { @for line in &told { p { (line) } } })?;
+    page.part(
+        CONDITIONS,
+        &html! { @for line in &told { p { (with_code(line)) } } },
+    )?;
     page.close()
 }
 

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, PagePart};
+use super::page::{Lead, Page, PagePart, Tone};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::commission::{AxisVerdict, PlantVerdict, ResultsReport, Round, list_on, parameters};
 use crate::pictures::{friction_of_axis, glitches_by_feed};
@@ -56,7 +56,7 @@ pub fn render_acceptance(
     } else {
         "What depends on the fitted plant is called predicted; every other figure is recorded."
     };
-    let lead = format!(
+    let recorded = format!(
         "Recordings: {}. {figures}",
         given.date.as_deref().unwrap_or("date not stated")
     );
@@ -66,8 +66,13 @@ pub fn render_acceptance(
         .chain(axes.iter().map(|it| it.0))
         .chain([GROUNDS, FILES])
         .collect();
-    let mut page = Page::open(out, &title, &lead, &parts)?;
-    page.part(VERDICT, &verdict(report))?;
+    let (tone, sentence) = judged(report);
+    let lead = Lead {
+        tone,
+        text: &sentence,
+    };
+    let mut page = Page::open(out, &title, lead, &parts)?;
+    page.part(VERDICT, &html! { p { (recorded) } (verdict(report)) })?;
     page.part(CIRCLES, &circles(report))?;
     for (part, axis) in axes {
         page.raw("<div class=\"own-page\">");
@@ -81,19 +86,40 @@ pub fn render_acceptance(
     page.close()
 }
 
+/// Returns the verdict on the last round, in a sentence.
+fn judged(report: &ResultsReport) -> (Tone, String) {
+    match report.rounds.last() {
+        Some(round) if round.is_accepted() => (
+            Tone::Good,
+            format!(
+                "Accepted: at each of the {} recorded feeds the lists of round {} leave no more than there was without \
+                 them. Other feeds were not recorded{}.",
+                round.recorded.len(),
+                round.number,
+                round.limit()
+            ),
+        ),
+        Some(round) if round.against.is_some() => (
+            Tone::Warning,
+            format!(
+                "The lists of round {} are {}; the earlier ones stay.",
+                round.number,
+                round.refusal()
+            ),
+        ),
+        _ => (
+            Tone::Warning,
+            "No list is accepted: the motion with compensation on is not recorded.".to_owned(),
+        ),
+    }
+}
+
 fn verdict(report: &ResultsReport) -> Markup {
     let missing = report.missing();
+    let refused = report.rounds.last().filter(|it| !it.is_accepted());
     html! {
-        @match report.rounds.last().map(|it| (it, it.against.as_deref())) {
-            None | Some((_, None)) => p { "No list is accepted: the motion with compensation on is not recorded." },
-            Some((round, Some(_))) if round.is_accepted() => p {
-                "Accepted: at each of the " (round.recorded.len()) " recorded feeds the lists of round " (round.number)
-                " leave no more than there was without them. Other feeds were not recorded" (round.limit()) "."
-            },
-            Some((round, Some(against))) => {
-                p { "The lists of round " (round.number) " are " (round.refusal()) "; the earlier ones stay." }
-                ul { @for reason in against.iter().chain(&round.not_shown) { li { (reason) } } }
-            }
+        @if let Some((round, against)) = refused.and_then(|it| Some((it, it.against.as_deref()?))) {
+            ul { @for reason in against.iter().chain(&round.not_shown) { li { (reason) } } }
         }
         @if let Some(plant) = report.fitted.verdicts.last().filter(|it| !it.rejected.is_empty()) {
             p { "The plant is rejected by the recordings, and the earlier lists stay:" }

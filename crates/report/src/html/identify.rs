@@ -4,12 +4,12 @@ use std::io::{self, Write};
 
 use maud::html;
 
-use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
-use crate::identify::{IdentifyReport, render_text};
+use super::page::{Lead, Page, PagePart, Tone};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, prose};
+use crate::identify::{IdentifyReport, report_text};
 use crate::pictures::{channels, friction_curve, residuals_over_position, segments_on_trace};
 use crate::svg::Frame;
-use crate::trace::{TraceReport, render_text as render_channels};
+use crate::trace::{TraceReport, report_text as channels_text};
 use frictcomp::diagnostic::Rounded;
 
 const CURVE: PagePart = PagePart::new("curve", "Friction over speed");
@@ -27,10 +27,27 @@ const CHANNELS: PagePart = PagePart::new("channels", "Channels");
 /// Those of `out`.
 pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io::Result<()> {
     let chart = friction_curve(report);
-    let lead = format!("Identified from {}, in {}.", report.name, report.unit());
-    let parts = [FINDINGS, CURVE, SPEEDS, POSITION, SEGMENTS, REPORT];
-    let mut page = Page::open(out, &chart.title, &lead, &parts)?;
     let findings: Vec<_> = report.findings().collect();
+    let text = format!(
+        "Identified from {}, in {}: {}.",
+        report.name,
+        report.unit(),
+        match findings.len() {
+            0 => "nothing is odd".to_owned(),
+            1 => "1 thing to look at".to_owned(),
+            many => format!("{many} things to look at"),
+        }
+    );
+    let lead = Lead {
+        tone: if findings.is_empty() {
+            Tone::Good
+        } else {
+            Tone::Warning
+        },
+        text: &text,
+    };
+    let parts = [FINDINGS, CURVE, SPEEDS, POSITION, SEGMENTS, REPORT];
+    let mut page = Page::open(out, &chart.title, lead, &parts)?;
     page.part(
         FINDINGS,
         &html! {
@@ -75,7 +92,7 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
     page.part(POSITION, &figure(positions))?;
     let segments = segments_on_trace(report).render(Frame::Inside("segments"));
     page.part(SEGMENTS, &figure(segments))?;
-    page.part(REPORT, &html! { pre { (render_text(report)) } })?;
+    page.part(REPORT, &prose(&report_text(report)))?;
     page.close()
 }
 
@@ -85,9 +102,12 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
 /// Those of `out`.
 pub fn render_trace(report: &TraceReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let chart = channels(report);
-    let lead = report.recording.layout().as_str();
+    let lead = Lead {
+        tone: Tone::Plain,
+        text: report.recording.layout().as_str(),
+    };
     let mut page = Page::open(out, &chart.title, lead, &[PICTURE, CHANNELS])?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("channels"))))?;
-    page.part(CHANNELS, &html! { pre { (render_channels(report)) } })?;
+    page.part(CHANNELS, &prose(&channels_text(report)))?;
     page.close()
 }

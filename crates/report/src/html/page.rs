@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use maud::{Markup, PreEscaped, html};
 
+use super::parts::with_code;
 use crate::svg;
 use crate::visible::visible;
 
@@ -32,6 +33,37 @@ pub(super) struct Page<'a> {
     buffer: String,
 }
 
+/// The sentence that opens a page.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lead<'a> {
+    pub(super) tone: Tone,
+    pub(super) text: &'a str,
+}
+
+/// The colour of a sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Tone {
+    /// It judges nothing.
+    Plain,
+    /// Nothing is left to do.
+    Good,
+    /// There is something to look at.
+    Warning,
+    /// Something is wrong, or could not be done.
+    Error,
+}
+
+impl Tone {
+    fn class(self) -> &'static str {
+        match self {
+            Self::Plain => "lead",
+            Self::Good => "lead verdict good",
+            Self::Warning => "lead verdict warning",
+            Self::Error => "lead verdict error",
+        }
+    }
+}
+
 /// A part of the page that the navigation leads to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PagePart {
@@ -50,7 +82,7 @@ impl<'a> Page<'a> {
     pub(super) fn open(
         out: &'a mut dyn Write,
         title: &str,
-        lead: &str,
+        lead: Lead<'_>,
         parts: &[PagePart],
     ) -> io::Result<Self> {
         let mut page = Self {
@@ -60,14 +92,14 @@ impl<'a> Page<'a> {
         page.buffer.push_str(HEAD);
         page.push(&html! {
             title { (title) } "\n"
-            style { (PreEscaped(STYLE)) (PreEscaped(svg::STYLE)) }
+            style { (PreEscaped(svg::COLOURS)) (PreEscaped(STYLE)) (PreEscaped(svg::style())) }
         })?;
         page.buffer.push_str("\n</head>\n<body>\n");
         page.push(&html! {
             a.skip href="#content" { "Skip to the content" } "\n"
             header {
                 h1 { (title) }
-                p.lead { (lead) }
+                p class=(lead.tone.class()) { (with_code(lead.text)) }
                 nav aria-label="Parts of the report" {
                     ul {
                         @for part in parts {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, PagePart};
+use super::page::{Lead, Page, PagePart, Tone};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, Frame, StartUpRelation};
 use frictcomp::comp::State;
@@ -48,7 +48,11 @@ pub struct ReplayReportAxis {
 /// Those of `out`.
 pub fn render_replay(report: &ReplayReport, out: &mut dyn Write) -> io::Result<()> {
     let title = format!("{} compared with the dry run", report.recording);
-    let lead = "Friction compensation as the machine recorded it, compared with the dry run of the programs.";
+    let against = report.axes.iter().any(|axis| !axis.against.is_empty());
+    let lead = Lead {
+        tone: if against { Tone::Warning } else { Tone::Plain },
+        text: "Friction compensation as the machine recorded it, compared with the dry run of the programs.",
+    };
     let mut page = Page::open(out, &title, lead, &[VERDICT, STATES, CHANGES])?;
     page.part(VERDICT, &verdict(report))?;
     page.part(

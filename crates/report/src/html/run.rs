@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 use super::digest::{RunDigest, SummaryDigest};
 use super::given::RunInputs;
-use super::page::{Page, PagePart};
+use super::page::{Lead, Page, PagePart, Tone};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, state_word, with_code};
 use super::source::{self, Sources};
 use super::{assumptions, machine, messages, states};
@@ -39,7 +39,11 @@ pub fn render_run(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let parts = [LEFT, STATES, MESSAGES, SOURCE, MACHINE, CURVES, READING];
-    let mut page = Page::open(out, &title(digest), &lead(digest), &parts)?;
+    let lead = Lead {
+        tone: tone(digest),
+        text: &lead(digest),
+    };
+    let mut page = Page::open(out, &title(digest), lead, &parts)?;
     page.part(LEFT, &left(digest))?;
     page.long_part(STATES, |page| states::render(page, digest))?;
     page.part(MESSAGES, &messages::render(digest))?;
@@ -92,6 +96,21 @@ fn lead(digest: &RunDigest) -> String {
     match &digest.remark {
         Some(remark) => format!("{remark}. {}", counts(digest)),
         None => counts(digest),
+    }
+}
+
+fn tone(digest: &RunDigest) -> Tone {
+    let Some(summary) = &digest.summary else {
+        return Tone::Error;
+    };
+    let has = |severity| summary.counts.get(&severity).is_some_and(|it| *it > 0);
+    if has(Severity::Error) {
+        Tone::Error
+    } else if has(Severity::Warning) || digest.remark.is_some() || !summary.axes.iter().all(is_home)
+    {
+        Tone::Warning
+    } else {
+        Tone::Good
     }
 }
 

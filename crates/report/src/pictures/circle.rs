@@ -24,7 +24,11 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         let paths = side.side.paths.iter();
         let series = paths.map(|(direction, profile)| PolarSeries {
             name: format!("{name} (clockwise in fine dashes)"),
-            look: usize::from(side.name == "off"),
+            look: match side.name {
+                "on" => 0,
+                "off" => 1,
+                _ => 2,
+            },
             stroke: match direction {
                 Direction::Cw => PolarStroke::Fine,
                 _ => PolarStroke::Full,
@@ -42,9 +46,9 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         });
     }
     if let [off, on] = &mut panels[..] {
-        off.label = told.join("; ");
+        off.label.clone_from(&told[0]);
         off.series.extend(on.series.iter().cloned());
-        "compensation on, magnified further".clone_into(&mut on.label);
+        on.label = told[1].replacen("compensation ", "", 1) + ", magnified";
     }
     let (title, radius) = match &report.subject {
         Subject::Simulated { test, .. } => (

@@ -331,7 +331,7 @@ impl ContourPicture {
                 })
                 .collect(),
             panels: panels.collect(),
-            marks: Vec::new(),
+            ..LineChart::default()
         }
     }
 }

@@ -261,6 +261,7 @@ impl CurrentPlot {
                 .flat_map(|axis| axis.panels(several))
                 .collect(),
             marks: self.blocks.clone(),
+            ..LineChart::default()
         }
     }
 }

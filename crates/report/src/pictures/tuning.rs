@@ -1,6 +1,6 @@
 //! The gain from tuning, over the acceleration at a reversal.
 
-use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
+use crate::svg::{ChartAxis, CurveLooks, Drawn, LineChart, Panel, Series};
 use crate::tune::TuneReport;
 use crate::visible::last_part;
 use frictcomp_physics::circle::FeedResult;
@@ -29,6 +29,7 @@ pub fn tuning(reports: &[TuneReport]) -> LineChart {
             .iter()
             .flat_map(|report| panels(report, reports.len()))
             .collect(),
+        looks: CurveLooks::OnAndOff,
         ..LineChart::default()
     }
 }
@@ -79,13 +80,13 @@ fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
     [
         panel(
             "largest glitch in \u{b5}m, peak to peak: before and after",
-            vec![off, pairs, on()],
+            vec![on(), off, pairs],
         ),
         panel(
             "the same after tuning, with less and more friction",
             vec![
-                unseen,
                 on(),
+                unseen,
                 series("tuned, friction \u{2212}20 %", |it| {
                     it.glitch_friction_minus20_um
                 }),

@@ -185,11 +185,11 @@ fn draw_band(canvas: &mut Canvas<'_>, band: &Band, area: Area) {
     let word = band.state.as_str();
     if band.state != BandState::One(State::Unconfigured) && text_width(word) + 10.0 < area.width {
         let class = match band.relation {
-            StartUpRelation::Away => "fc-on-away",
-            StartUpRelation::StartUp => "",
+            StartUpRelation::Away => format!("fc-away {}", band.state.side()),
+            StartUpRelation::StartUp => String::new(),
         };
         let place = (area.x + 6.0, area.y + BAR / 2.0 + 4.0);
-        canvas.text(class, place, Anchor::Start, word);
+        canvas.text(&class, place, Anchor::Start, word);
     }
     canvas.close_link(href);
 }

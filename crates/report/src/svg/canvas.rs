@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use unicode_width::UnicodeWidthStr;
 
 use super::escape::push_escaped;
-use super::frame::{Frame, STYLE};
+use super::frame::{Frame, style};
 
 /// The width of every chart in units of the picture.
 pub(super) const WIDTH: f64 = 860.0;
@@ -138,8 +138,8 @@ impl<'a> Canvas<'a> {
     pub(super) fn marker(&mut self, series: usize, (x, y): (f64, f64)) {
         let class = format!("fc-m{}", series % SERIES);
         match series % SERIES {
-            0 => self.circle(&class, (x, y), 3.4),
-            1 => self.rect(
+            0 | 2 => self.circle(&class, (x, y), 3.4),
+            1 | 3 => self.rect(
                 &class,
                 Area {
                     x: x - 3.2,
@@ -148,7 +148,7 @@ impl<'a> Canvas<'a> {
                     height: 6.4,
                 },
             ),
-            2 => self.path(
+            4 => self.path(
                 &class,
                 [(x, y - 4.4), (x + 4.2, y + 3.2), (x - 4.2, y + 3.2)],
             ),
@@ -233,7 +233,7 @@ impl<'a> Canvas<'a> {
         out.push_str("</desc>\n");
         if alone {
             // Nothing in it ends the element: it is a constant of this crate.
-            let _ = writeln!(out, "<style>\n{STYLE}</style>");
+            let _ = writeln!(out, "<style>\n{}</style>", style());
         }
         let _ = writeln!(
             out,
@@ -250,7 +250,7 @@ impl<'a> Canvas<'a> {
 }
 
 /// Number of series that look different.
-pub(super) const SERIES: usize = 4;
+pub(super) const SERIES: usize = 6;
 
 /// The class of the curve of the series with this number.
 pub(super) fn curve_class(series: usize) -> String {

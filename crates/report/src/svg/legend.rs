@@ -45,8 +45,10 @@ impl<'a> Legend<'a> {
     /// Draws the rows from a height on; returns where the room below them begins.
     pub(super) fn draw(&self, canvas: &mut Canvas<'_>, top: f64) -> f64 {
         let (mut x, mut y) = (MARGIN, top);
+        // Columns of one width.
+        let widths = self.items.iter().map(|(_, name)| widest_text(name));
+        let width = SAMPLE + 14.0 + widths.fold(0.0, f64::max);
         for (sample, name) in &self.items {
-            let width = SAMPLE + 6.0 + widest_text(name) + 8.0;
             if x > MARGIN && x + width > WIDTH - 10.0 {
                 (x, y) = (MARGIN, y + ROW);
             }

@@ -88,6 +88,28 @@ pub struct XMark {
     pub name: String,
 }
 
+/// The looks of the curves of a chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum CurveLooks {
+    /// Those of quantities, none of which stands for a state.
+    #[default]
+    Quantities,
+    /// The first curve is with compensation, the second without.
+    OnAndOff,
+}
+
+impl CurveLooks {
+    /// Returns the look of the curve with a number: the first two are those of on and off.
+    fn of(self, number: usize) -> usize {
+        match self {
+            Self::Quantities => 2 + number % (SERIES - 2),
+            Self::OnAndOff if number < 2 => number,
+            Self::OnAndOff => 3 + (number - 2) % (SERIES - 3),
+        }
+    }
+}
+
 /// Panels, and states above them, over one x axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LineChart {
@@ -101,6 +123,8 @@ pub struct LineChart {
     pub bands: Vec<BandRow>,
     /// The panels from top to bottom.
     pub panels: Vec<Panel>,
+    /// The looks of their curves.
+    pub looks: CurveLooks,
     /// Names along the x axis, below its values.
     pub marks: Vec<XMark>,
 }
@@ -189,7 +213,7 @@ impl LineChart {
                 area,
             };
             axes.draw_grid(&mut canvas);
-            panel.draw(&mut canvas, &axes);
+            panel.draw(&mut canvas, &axes, self.looks);
             area.y = area.bottom();
         }
         let floor = if self.marks.is_empty() {
@@ -239,7 +263,8 @@ impl LineChart {
     fn name_curves<'a>(&'a self, legend: &mut Legend<'a>) {
         let named = |panel: &&Panel| panel.numbered().any(|(number, _)| number > 0);
         let all = self.panels.iter().filter(named).flat_map(Panel::numbered);
-        for (look, series) in all.filter(|(_, series)| !series.drawn.belongs_to_another()) {
+        for (number, series) in all.filter(|(_, series)| !series.drawn.belongs_to_another()) {
+            let look = self.looks.of(number);
             legend.name(series.drawn.in_legend(look), series.name.as_str());
         }
     }
@@ -277,7 +302,7 @@ impl Panel {
         )
     }
 
-    /// The series with the numbers of their looks.
+    /// The series with their numbers.
     fn numbered(&self) -> impl Iterator<Item = (usize, &Series)> {
         let mut next: usize = 0;
         self.series.iter().map(move |series| {
@@ -288,8 +313,9 @@ impl Panel {
         })
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>, axes: &PanelAxes<'_>) {
+    fn draw(&self, canvas: &mut Canvas<'_>, axes: &PanelAxes<'_>, looks: CurveLooks) {
         for (number, series) in self.numbered() {
+            let number = looks.of(number);
             let class = match series.drawn {
                 Drawn::Plain => "fc-curve fc-axis".to_owned(),
                 Drawn::Held => curve_class(number) + " fc-held",
@@ -304,10 +330,7 @@ impl Panel {
                 Drawn::Notches => {
                     for piece in places.split(|place| !place.0.is_finite() || !place.1.is_finite())
                     {
-                        canvas.path(
-                            &format!("fc-f{}", number % SERIES),
-                            below(axes.area.y, piece),
-                        );
+                        canvas.path("fc-f2", below(axes.area.y, piece));
                     }
                     canvas.path(&class, steps(&places));
                 }

@@ -24,8 +24,9 @@ mod shape;
 mod ticks;
 
 pub use bands::{Band, BandChart, BandRow};
-pub use frame::{Frame, STYLE};
-pub use line::{CurveNote, Drawn, LineChart, Panel, PanelHeight, Series, XMark};
+pub(crate) use frame::COLOURS;
+pub use frame::{Frame, style};
+pub use line::{CurveLooks, CurveNote, Drawn, LineChart, Panel, PanelHeight, Series, XMark};
 pub use plane::{PlaneChart, PlaneMark, PlanePoint, Stroke};
 pub use polar::{PolarChart, PolarPanel, PolarSeries, PolarStroke};
 pub use reduce::Curve;

@@ -21,6 +21,9 @@ const ROOM: Area = Area {
 /// The drawn length of the largest deviation.
 const LARGEST: f64 = 34.0;
 
+/// The deviation in mm, below what a machine resolves, that is not magnified further.
+const NOTHING_MM: f64 = 1e-4;
+
 /// Points that are closer together in the picture are drawn as one.
 const SEEN: f64 = 0.7;
 
@@ -36,7 +39,7 @@ const PATH_BAR: f64 = 70.0;
 /// The looks of stretches that are drawn as curves.
 const COMPENSATED: usize = 0;
 const UNCOMPENSATED: usize = 1;
-const LEFT_OUT: usize = 3;
+const LEFT_OUT: usize = 4;
 
 /// How a stretch of the path is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -128,11 +131,8 @@ impl PlaneFit {
         let inner = (ROOM.width - 2.0 * LARGEST, ROOM.height - 2.0 * LARGEST);
         let scale = (inner.0 / size(0)).min(inner.1 / size(1));
         let width = size(0) * scale;
-        let magnification = if largest > 0.0 {
-            round_step(LARGEST / (largest * scale) / 2.0).max(1.0)
-        } else {
-            1.0
-        };
+        let largest = largest.max(NOTHING_MM);
+        let magnification = round_step(LARGEST / (largest * scale) / 2.0).max(1.0);
         Self {
             from: least,
             scale,

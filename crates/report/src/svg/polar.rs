@@ -177,7 +177,7 @@ impl Magnified {
             .map(|point| point[1].abs())
             .filter(|deviation| deviation.is_finite())
             .fold(0.0, f64::max)
-            .clamp(1e-6, 1e12);
+            .clamp(0.1, 1e12);
         let step = round_step(largest / 3.0);
         let rings = (largest / step).ceil();
         Self {

@@ -25,6 +25,14 @@ impl BandState {
         Self::Changing,
     ];
 
+    /// Returns the class of the colours of what is only on or off.
+    pub(super) fn side(self) -> &'static str {
+        match self {
+            Self::One(State::Active) => "fc-on",
+            _ => "fc-off",
+        }
+    }
+
     /// The word in and below the bars.
     pub fn as_str(self) -> &'static str {
         match self {
@@ -88,16 +96,6 @@ impl BarShape {
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Area) {
         let middle = area.y + area.height / 2.0;
         let along = [(area.x, middle), (area.right(), middle)];
-        if self.relation == StartUpRelation::Away {
-            canvas.rect("fc-away", area);
-            let class = if area.height < BAR {
-                "fc-stripes fc-low"
-            } else {
-                "fc-stripes"
-            };
-            canvas.line(class, along[0], along[1]);
-            return;
-        }
         match self.state {
             BandState::One(State::Active) => canvas.rect("fc-active", area),
             BandState::One(State::Inactive) => canvas.rect("fc-inactive", area),
@@ -117,6 +115,11 @@ impl BarShape {
             }
             BandState::One(State::Unknown) => canvas.rect("fc-unknown", area),
             BandState::Changing => canvas.rect("fc-mixed", area),
+        }
+        if self.relation == StartUpRelation::Away {
+            let low = if area.height < BAR { " fc-low" } else { "" };
+            let side = self.state.side();
+            canvas.line(&format!("fc-stripes {side}{low}"), along[0], along[1]);
         }
     }
 }

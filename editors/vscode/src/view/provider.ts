@@ -55,7 +55,7 @@ export class TimelineView implements vscode.WebviewViewProvider, vscode.Disposab
     });
     view.webview.html = pageShell(view.webview, this.extension, {
       title: "Compensation",
-      styles: ["media/timeline.css"],
+      styles: ["dist/picture.css", "media/timeline.css"],
       script: "dist/timeline.js",
     });
   }

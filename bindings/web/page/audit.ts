@@ -52,7 +52,13 @@ function lead(found: Audit): string {
   return `${programs}; no axis moves outside its start-up state because of what another program left.`;
 }
 
-function axes({ axes: all }: Audit["machines"][number]): HTMLElement {
+/** A name of a table that is unique among those of several machines. */
+function named(words: string, { origin }: Audit["machines"][number]): string {
+  return origin === null ? words : `${words}: ${origin}`;
+}
+
+function axes(machine: Audit["machines"][number]): HTMLElement {
+  const all = machine.axes;
   const rows = all.map((axis) =>
     h("tr", {},
       h("th", { scope: "row" }, axis.axis),
@@ -60,7 +66,7 @@ function axes({ axes: all }: Audit["machines"][number]): HTMLElement {
         h("td", { class: "num" }, String(count))),
       h("td", { class: "cure" }, CURES[axis.cure] ?? axis.cure)));
   const titles = ["axis", "leave it away", "inherit it", "unknown", "hazardous pairs", "cheapest cure"];
-  return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Axes" }, h("table", {},
+  return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": named("Axes", machine) }, h("table", {},
     h("caption", { class: "unseen" }, "Axes"),
     h("thead", {}, h("tr", {}, ...titles.map((title) => h("th", { scope: "col" }, title)))),
     h("tbody", {}, ...rows)));
@@ -74,7 +80,7 @@ function programs(
       h("th", { scope: "row" },
         h("button", { class: "place", onclick: () => { open(program.file, 1); } }, program.file)),
       ...program.cells.map((cell) => h("td", {}, told(cell, program.file, open)))));
-  return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Programs and axes" }, h("table", { class: "programs" },
+  return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": named("Programs and axes", machine) }, h("table", { class: "programs" },
     h("caption", { class: "unseen" }, "Programs and axes"),
     h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "program"),
       ...machine.axes.map((axis) => h("th", { scope: "col" }, axis.axis)))),

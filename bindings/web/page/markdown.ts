@@ -7,7 +7,7 @@ export function withCode(text: string): (HTMLElement | string)[] {
   return text.split("`").map((piece, at) => (at % 2 === 0 ? piece : h("code", {}, piece)));
 }
 
-/** A page of headings, paragraphs, lists, tables and examples, under headings from the fourth level on. */
+/** A page of headings, paragraphs, lists, tables and examples. */
 export function page(text: string): HTMLElement[] {
   const blocks: HTMLElement[] = [];
   const lines = text.trim().split("\n");
@@ -25,7 +25,7 @@ export function page(text: string): HTMLElement[] {
       lines.shift();
     } else if (first.startsWith("#")) {
       lines.shift();
-      blocks.push(h("h4", {}, ...withCode(first.replace(/^#+ /, ""))));
+      blocks.push(h("h3", {}, ...withCode(first.replace(/^#+ /, ""))));
     } else if (first.startsWith("    ")) {
       blocks.push(h("pre", {}, taken((line) => line.startsWith("    ")).map((line) => line.slice(4)).join("\n")));
     } else if (first.startsWith("|")) {

@@ -3,6 +3,7 @@
 
 import type { Axis, BlockItem, Item, Overview, States, View } from "./answers";
 import { fill, grouped, h } from "./dom";
+import { withCode } from "./markdown";
 import type { Session } from "./session";
 import { listed, word } from "./states";
 import { type Window, firstLine, height, isSquashed, scrollOf } from "./window";
@@ -199,7 +200,7 @@ export class Timeline {
           "tr", { class: `message ${severity}`, "aria-rowindex": index },
           h("td", {}),
           h("td", { colspan: axes.length + 1, title: text },
-            h("span", { class: "sev" }, `${severity} ${code}`), " ", text),
+            h("span", { class: "sev" }, `${severity} ${code}`), " ", ...withCode(text)),
         );
       }
       case "start":

@@ -325,7 +325,7 @@ const tests = {
     assert.equal(told(await download.path()), told(report));
     await page.locator("#panel-contour").getByLabel("axes start at").fill("Q0");
     await page.getByRole("button", { name: "Drive", exact: true }).click();
-    await page.getByRole("alert").getByText("no axis `Q`").waitFor();
+    await page.getByRole("alert").getByText("no axis Q").waitFor();
     await close(page);
   },
 

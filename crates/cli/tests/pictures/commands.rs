@@ -78,7 +78,7 @@ fn commands_draw_what_they_compute() {
     for wanted in [
         "compensation off (clockwise in fine dashes)",
         "compensation on (clockwise in fine dashes)",
-        "compensation on, magnified further",
+        "on: largest glitch 1.8 \u{b5}m, magnified",
         "X+",
         "Y\u{2212}",
     ] {

@@ -316,7 +316,12 @@ fn the_example_of_the_page_begins_with_a_path() {
     let first = example.split("[\"example/").nth(1).expect("a file");
     assert!(first.starts_with("contour/plate.nc\""), "{first}");
     let tests = read("bindings/web/tests/browser.mjs");
-    for shown in ["#contour img", "the folder is empty", "#channels img", ".field-error"] {
+    for shown in [
+        "#contour img",
+        "the folder is empty",
+        "#channels img",
+        ".field-error",
+    ] {
         assert!(tests.contains(shown), "{shown}");
     }
 }

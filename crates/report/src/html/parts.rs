@@ -133,7 +133,7 @@ pub(super) fn prose(text: &ReportText) -> Markup {
                 ReportPart::Lines(lines) => {
                     @let tabled = matches!(parts.get(at + 1), Some(ReportPart::Table(_)));
                     @let caption = caption(lines).filter(|_| tabled);
-                    @let lines = lines.trim_end_matches(|it| it == '\n');
+                    @let lines = lines.trim_end_matches('\n');
                     @let lines = caption.map_or(lines, |it| lines.strip_suffix(it).unwrap_or(lines));
                     @for line in lines.lines().filter(|line| !line.trim().is_empty()) {
                         p { (with_code(line.trim())) }
@@ -161,9 +161,12 @@ fn caption(lines: &str) -> Option<&str> {
 fn text_table(table: &Table, caption: Option<&str>) -> Markup {
     let columns: Vec<ColumnHeading<'_>> = table
         .headings()
-        .map(|(name, is_number)| match is_number {
-            true => ColumnHeading::Number(name),
-            false => ColumnHeading::Text(name),
+        .map(|(name, is_number)| {
+            if is_number {
+                ColumnHeading::Number(name)
+            } else {
+                ColumnHeading::Text(name)
+            }
         })
         .collect();
     let first = table.headings().next().map_or("", |(name, _)| name);

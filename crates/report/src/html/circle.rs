@@ -27,13 +27,12 @@ const CONDITIONS: PagePart = PagePart::new("conditions", "Conditions");
 pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<()> {
     let chart = circle(report);
     let told = conditions(report);
-    let lead = told.first().map(String::as_str).unwrap_or_default();
     let lists = lists(report);
     let mut parts = vec![PICTURE, FIGURES, ADVICE, CONDITIONS];
     if !lists.is_empty() {
         parts.insert(3, CURVES);
     }
-    let mut page = Page::open(out, &chart.title, lead, &parts)?;
+    let mut page = Page::open(out, &chart.title, &report.headline(), &parts)?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("circle"))))?;
     page.part(FIGURES, &figures(report))?;
     page.part(ADVICE, &advice(report))?;

@@ -52,14 +52,13 @@ pub fn render_acceptance(
             .unwrap_or("a machine without a name")
     );
     let figures = if report.fitted.verdicts.is_empty() {
-        "Every figure is recorded, none is predicted."
+        "Every figure is recorded, none is predicted"
     } else {
-        "What depends on the fitted plant is called predicted; every other figure is recorded."
+        "What depends on the fitted plant is called predicted; every other figure is recorded"
     };
-    let lead = format!(
-        "Recordings: {}. {figures}",
-        given.date.as_deref().unwrap_or("date not stated")
-    );
+    let mut lead = report.headline();
+    let date = given.date.as_deref().unwrap_or("date not stated");
+    lead.text = format!("{}. Recordings: {date}. {figures}", lead.text);
     let axes: Vec<(PagePart, &AxisVerdict)> = AXES.into_iter().zip(&report.axes).collect();
     let parts: Vec<PagePart> = [VERDICT, CIRCLES]
         .into_iter()

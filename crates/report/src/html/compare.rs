@@ -26,7 +26,7 @@ pub fn render_versions(report: &VersionsReport, out: &mut dyn Write) -> io::Resu
     let contours = report.contours.as_ref();
     let mut parts = vec![RESULT, CHANGES];
     parts.extend(contours.map(|_| CONTOURS));
-    let mut page = Page::open(out, &title, &lead(report), &parts)?;
+    let mut page = Page::open(out, &title, &report.headline(), &parts)?;
     page.part(RESULT, &result(report))?;
     page.part(CHANGES, &changes(report))?;
     if let Some(contours) = contours {
@@ -100,16 +100,6 @@ fn change_row(report: &ContoursReport, change: &BlockChange) -> HtmlRow {
         &format!("{}:{}", change.block.file, change.block.line),
         cells,
     )
-}
-
-fn lead(report: &VersionsReport) -> String {
-    let verdict = report.verdict();
-    let (first, rest) = verdict.split_at(1);
-    let switched = format!("{}{rest}.", first.to_ascii_uppercase());
-    match &report.contours {
-        Some(contours) => format!("{switched} Contour: {}.", contours.verdict()),
-        None => switched,
-    }
 }
 
 fn result(report: &VersionsReport) -> Markup {

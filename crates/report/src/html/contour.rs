@@ -9,7 +9,8 @@ use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use super::reversed::ReversedFiles;
 use super::source::Sources;
-use crate::contour::{ContourRecorder, ContourSubject, render_text};
+use crate::contour::{ContourRecorder, ContourSubject, headline, render_text};
+use crate::diagnostics::Detail;
 use crate::pictures::ContourPicture;
 use crate::svg::Frame;
 use frictcomp::comp::State;
@@ -34,15 +35,16 @@ pub fn render_contour(
     sources: &mut dyn Sources,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let text = render_text(contour, subject);
-    let (lead, figures) = text.split_once('\n').unwrap_or((&text, ""));
+    let headline = headline(contour);
+    let text = render_text(contour, subject, Detail::Full);
+    let (_, figures) = text.split_once("\n\n").unwrap_or((&text, ""));
     let name = subject.heading(contour);
     let is_whole = contour.is_whole();
     let reversals = contour.sink().reversals();
     let files = ReversedFiles::of(reversals);
     let chart = picture.linked_chart(&name, |file, line| files.link(file, line));
     let parts = [PICTURE, FIGURES, REVERSALS, SOURCE];
-    let mut page = Page::open(out, &chart.title, lead, &parts)?;
+    let mut page = Page::open(out, &chart.title, &headline, &parts)?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("contour"))))?;
     page.part(
         FIGURES,

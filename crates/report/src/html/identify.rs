@@ -27,9 +27,8 @@ const CHANNELS: PagePart = PagePart::new("channels", "Channels");
 /// Those of `out`.
 pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io::Result<()> {
     let chart = friction_curve(report);
-    let lead = format!("Identified from {}, in {}.", report.name, report.unit());
     let parts = [FINDINGS, CURVE, SPEEDS, POSITION, SEGMENTS, REPORT];
-    let mut page = Page::open(out, &chart.title, &lead, &parts)?;
+    let mut page = Page::open(out, &chart.title, &report.headline(), &parts)?;
     let findings: Vec<_> = report.findings().collect();
     page.part(
         FINDINGS,
@@ -85,8 +84,7 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
 /// Those of `out`.
 pub fn render_trace(report: &TraceReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let chart = channels(report);
-    let lead = report.recording.layout().as_str();
-    let mut page = Page::open(out, &chart.title, lead, &[PICTURE, CHANNELS])?;
+    let mut page = Page::open(out, &chart.title, &report.headline(), &[PICTURE, CHANNELS])?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("channels"))))?;
     page.part(CHANNELS, &html! { pre { (render_channels(report)) } })?;
     page.close()

@@ -4,6 +4,8 @@ use std::io::{self, Write};
 
 use maud::{Markup, PreEscaped, html};
 
+use super::parts::with_code;
+use crate::headline::Headline;
 use crate::svg;
 use crate::visible::visible;
 
@@ -46,11 +48,11 @@ impl PagePart {
 }
 
 impl<'a> Page<'a> {
-    /// Opens a page with its title, its lead and links to its parts.
+    /// Opens a page with its title, the verdict and links to its parts.
     pub(super) fn open(
         out: &'a mut dyn Write,
         title: &str,
-        lead: &str,
+        headline: &Headline,
         parts: &[PagePart],
     ) -> io::Result<Self> {
         let mut page = Self {
@@ -67,7 +69,7 @@ impl<'a> Page<'a> {
             a.skip href="#content" { "Skip to the content" } "\n"
             header {
                 h1 { (title) }
-                p.lead { (lead) }
+                p class={ "lead " (headline.standing.as_str()) } { (with_code(&headline.sentence())) }
                 nav aria-label="Parts of the report" {
                     ul {
                         @for part in parts {

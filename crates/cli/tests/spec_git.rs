@@ -191,6 +191,7 @@ fn switches_are_compared_with_a_revision() {
     );
     assert_eq!(bench.status(&["diff", "--git", "HEAD"]), Some(1));
     let text = bench.stdout(&["diff", "--git", "HEAD", "a.nc"]);
+    // R18.22
     assert!(
         text.starts_with("Y is now inactive at the end (before: active); "),
         "{text}"

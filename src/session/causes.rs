@@ -69,21 +69,22 @@ pub struct Causes {
 }
 
 impl Causes {
-    /// Adds the messages of one program.
-    pub fn add(&mut self, findings: Findings) {
-        findings.into_diagnostics().for_each(|said| self.say(said));
+    /// Adds the messages of one program; returns their positions among [`diagnostics`](Self::diagnostics).
+    pub fn add(&mut self, findings: Findings) -> Vec<usize> {
+        let said = findings.into_diagnostics();
+        said.map(|said| self.say(said)).collect()
     }
 
-    /// Adds one message, for example about a list.
-    pub fn say(&mut self, said: Diagnostic) {
+    /// Adds one message, for example about a list; returns its position.
+    pub fn say(&mut self, said: Diagnostic) -> usize {
         let next = self.said.len();
         let at = *self.known.entry(CauseKey::of(&said)).or_insert(next);
         let Some(known) = self.said.get_mut(at) else {
             self.said.push(said);
-            return;
+            return at;
         };
         if known.place != said.place {
-            return;
+            return at;
         }
         known.reached_from.append(&said.reached_from);
         if said.times > known.times {
@@ -91,6 +92,7 @@ impl Causes {
         }
         // The changes that remain serve all the programs.
         known.fixes.retain(|fix| said.fixes.contains(fix));
+        at
     }
 
     /// The messages, in the order in which they were said first.

@@ -126,7 +126,9 @@ impl GivenMessages {
             if !listed.contains(&found.loaded.origin) {
                 listed.push(found.loaded.origin.clone());
                 let errors = found.loaded.errors().cloned();
-                errors.for_each(|error| causes.say(error));
+                for error in errors {
+                    causes.say(error);
+                }
             }
             if is_main {
                 causes.add(found.findings);

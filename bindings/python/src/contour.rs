@@ -12,6 +12,7 @@ use frictcomp_host::{
 use frictcomp_physics::contour::{ContourLimits, ContourOptions};
 use frictcomp_physics::motion::PlannerOptions;
 use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_report::Detail;
 use frictcomp_report::contour::{ContourRecorder, ContourSubject, contour_remarks, document};
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
@@ -148,7 +149,7 @@ impl ContourJob {
         Ok(Driven {
             record: document(&mut contour, &ContourLimits::default()),
             svg: chart.render(Frame::Alone),
-            remarks: contour_remarks(&contour),
+            remarks: contour_remarks(&contour, Detail::Full),
             said: GivenMessages::of_trace(contour.diagnostics(), &loaded),
         })
     }

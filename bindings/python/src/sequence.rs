@@ -5,6 +5,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{Step, StepAxis};
 use frictcomp_host::AuditOptions;
+use frictcomp_report::Detail;
 use frictcomp_report::audit::{sequence_records, sequence_text};
 use frictcomp_report::counted;
 use pyo3::prelude::*;
@@ -59,7 +60,7 @@ pub(crate) fn audit_sequence(
     Ok(PyAuditSequence {
         table: table(&steps),
         records: Value::from(sequence_records(&steps)).to_string(),
-        text: sequence_text(&steps),
+        text: sequence_text(&steps, Detail::Full),
         messages: Py::new(py, PyMessages::new(said))?,
         has_warnings: axes.any(|axis| axis.left_by.is_some()),
     })

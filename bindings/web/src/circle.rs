@@ -11,7 +11,7 @@ use frictcomp_report::circle::{CircleReport, ListOrigin, render_text};
 use frictcomp_report::html::render_circle;
 use frictcomp_report::pictures::circle;
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{FALLBACK_WIDTH, fitted};
+use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 use serde::{Deserialize, Serialize};
 
 use crate::dropped::Dropped;
@@ -107,7 +107,7 @@ pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result
     let (report, lists) = simulate(dropped, settings)?;
     Ok(json(&CircleAnswer {
         svg: circle(&report).render(Frame::Alone),
-        text: fitted(&render_text(&report), FALLBACK_WIDTH),
+        text: fitted(&render_text(&report, Detail::Full), FALLBACK_WIDTH),
         lists,
     }))
 }

@@ -12,7 +12,7 @@ use frictcomp_report::contour::{ContourRecorder, ContourSubject, render_text};
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{FALLBACK_WIDTH, fitted};
+use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
@@ -116,7 +116,10 @@ pub(crate) fn answer(
     let has_moved = contour.machine_time_s() > 0.0;
     let picture = contour.sink().take_picture().filter(|_| has_moved);
     let chart = picture.map(|picture| picture.chart(&subject.heading(&contour)));
-    let text = fitted(&render_text(&mut contour, &subject), FALLBACK_WIDTH);
+    let text = fitted(
+        &render_text(&mut contour, &subject, Detail::Full),
+        FALLBACK_WIDTH,
+    );
     Ok(json(&ContourAnswer {
         svg: chart.map(|chart| chart.render(Frame::Alone)),
         text,

@@ -12,7 +12,7 @@ use frictcomp_report::pictures::tuning;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::tune::{TuneReport, render_text};
 use frictcomp_report::value_lists::render_tuned;
-use frictcomp_report::{FALLBACK_WIDTH, fitted};
+use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
@@ -50,7 +50,7 @@ pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let [axis, _] = &report.tuned.axes;
     Ok(json(&TuningAnswer {
         svg: tuning(reports).render(Frame::Alone),
-        text: fitted(&render_text(reports), FALLBACK_WIDTH),
+        text: fitted(&render_text(reports, Detail::Full), FALLBACK_WIDTH),
         list: render_tuned(&report, axis, None, &ListHead::default()),
     }))
 }

@@ -44,6 +44,8 @@ use frictcomp_report::{counted, fitted};
 /// Each program runs twice, once with every configured axis in its start-up state and once with every one away
 /// from it. This shows what it does after any other program.
 #[derive(Debug, Args)]
+// Each is a separate switch on the command line.
+#[allow(clippy::struct_excessive_bools)]
 pub(super) struct AuditArgs {
     /// Programs and folders of programs
     #[arg(value_name = "PATH", default_value = ".")]
@@ -67,6 +69,9 @@ pub(super) struct AuditArgs {
     /// Show long tables and lists in full
     #[arg(long)]
     all: bool,
+    /// Print only the verdict
+    #[arg(long, short, conflicts_with_all = ["sequence", "all", "format", "diff"])]
+    quiet: bool,
     /// The number of programs to run at once; by default the number of processors
     #[arg(long, short, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -129,6 +134,7 @@ enum AuditFormat {
 
 /// Runs the command.
 pub(super) fn run(args: &AuditArgs, console: Console) -> Result<u8, Failure> {
+    let console = if args.quiet { console.quiet() } else { console };
     Failures::of(console, |failures| match &args.sequence {
         Some(order) => args.follow(order, console, failures),
         None => args.audit(console, failures),
@@ -177,8 +183,13 @@ impl AuditArgs {
         let report = report(&auditor, archives, found.left_out.in_words());
         let width = target.look.width;
         let printed = target.text(&match self.format {
-            AuditFormat::Text if self.all => fitted(&render_text(&report, Length::Whole), width),
-            AuditFormat::Text => fitted(&render_text(&report, Length::Folded), width),
+            AuditFormat::Text if self.quiet => fitted(&format!("{}\n", report.headline()), width),
+            AuditFormat::Text if self.all => {
+                fitted(&render_text(&report, Length::Whole, console.detail), width)
+            }
+            AuditFormat::Text => {
+                fitted(&render_text(&report, Length::Folded, console.detail), width)
+            }
             AuditFormat::Csv => render_csv(&report),
             AuditFormat::Json => document(&records(&report)),
             AuditFormat::Ndjson => lines(&records(&report)),
@@ -266,7 +277,9 @@ impl AuditArgs {
         target.text(&match self.format {
             AuditFormat::Json => document(&sequence_records(&steps)),
             AuditFormat::Ndjson => lines(&sequence_records(&steps)),
-            AuditFormat::Text | AuditFormat::Csv => fitted(&sequence_text(&steps), width),
+            AuditFormat::Text | AuditFormat::Csv => {
+                fitted(&sequence_text(&steps, console.detail), width)
+            }
         })?;
         outputs.finish()?;
         self.machine.say_unread(&machines, &registry, console);

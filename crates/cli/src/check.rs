@@ -32,7 +32,7 @@ use frictcomp_host::{
     main_programs, processors, run_alone,
 };
 use frictcomp_report::assumptions::rests_on_text;
-use frictcomp_report::{ListingFormat, command_line, wrap};
+use frictcomp_report::{ListingFormat, ProgramResult, command_line, wrap};
 
 /// Print all messages of all programs, and mend what is safe
 ///
@@ -170,8 +170,18 @@ fn check(
     list_missed(missed, &mut listing, &mut baseline);
     let read: BTreeSet<String> = registry.files().iter().map(|it| shown_path(it)).collect();
     let is_checked = |file: &str| read.contains(file) || !Path::new(file).exists();
-    if let Some(record) = baseline.finish(console, is_checked)? {
-        listing.record(&record);
+    let known = baseline.finish(console, is_checked)?;
+    if let Some(record) = &known {
+        listing.record(record);
+    }
+    let name = inputs.first().map(|it| it.name(Naming::AsGiven));
+    if let (Some(name), false) = (name, args.baseline.is_written()) {
+        let mut headline = listing.tally().on_programs(&name);
+        if known.is_some() {
+            headline.text.push_str(" beyond the baseline");
+        }
+        let assumed = machines.loaded().filter_map(|it| it.machine.assumption());
+        listing.headline(headline.assuming(assumed));
     }
     let printed = listing.finish()?;
     if printed == Printed::Unread && failures.is_empty() {
@@ -182,18 +192,12 @@ fn check(
         console.remark(&remark);
     }
     args.machine.say_unread(&machines, &registry, console);
-    if args.listing.format == ListingFormat::Text
-        && listing.tally().files > 0
-        && !args.baseline.is_written()
-    {
-        let beside = in_callers_remark(in_callers) + &passed_over(found.left_out.others());
-        console.remark(&(total(listing.tally()) + &beside));
+    if args.listing.format == ListingFormat::Text && !args.baseline.is_written() {
         listing.hint().iter().for_each(|hint| console.remark(hint));
-        for assumption in machines.loaded().filter_map(|it| it.machine.assumption()) {
-            console.remark(&assumption);
-        }
+        let beside = in_callers_remark(in_callers) + &passed_over(found.left_out.others());
+        console.detail(&(total(listing.tally()) + &beside));
         if let Some(said) = rests_on_text(&listing.tally().rests_on) {
-            console.remark(&said);
+            console.detail(&said);
         }
     }
     say_left_out(&mut found.left_out, &registry, console);
@@ -211,9 +215,7 @@ fn list_missed(
 ) {
     for mut said in missed {
         said.reword(Some(command_line));
-        if list((listing, baseline), &said).is_break() {
-            break;
-        }
+        list((listing, baseline), &said);
     }
 }
 
@@ -312,6 +314,7 @@ impl CheckArgs {
     ) -> usize {
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
         let mut causes = Causes::default();
+        let mut programs = Vec::new();
         let checked = self.checked(jobs, failures);
         let mains = self.mains(&checked);
         for (CheckedProgram { loaded, found, .. }, is_main) in checked.into_iter().zip(&mains) {
@@ -325,8 +328,7 @@ impl CheckArgs {
             if !is_main {
                 continue;
             }
-            listing.file();
-            causes.add(found.findings);
+            programs.push((causes.add(found.findings), found.unknown.is_empty()));
             for (axis, moves) in found.uncompensated {
                 listing.feed_moves(axis, &moves);
             }
@@ -337,8 +339,20 @@ impl CheckArgs {
             }
         }
         // Only now is it known which programs reach a message.
-        let mut said = causes.diagnostics().iter();
-        let _ = said.try_for_each(|said| list((listing, baseline), said));
+        let results: Vec<ProgramResult> = causes
+            .diagnostics()
+            .iter()
+            .map(|said| list((listing, baseline), said))
+            .collect();
+        for (said, is_known) in programs {
+            let certain = if is_known {
+                ProgramResult::Clean
+            } else {
+                ProgramResult::Depends
+            };
+            let results = said.iter().map(|at| results[*at]);
+            listing.program(results.chain([certain]).min().unwrap_or(certain));
+        }
         mains.iter().filter(|is_main| !**is_main).count()
     }
 
@@ -384,15 +398,14 @@ impl CheckArgs {
     }
 }
 
-/// Lists a message that is not in the baseline.
-fn list(
-    (listing, baseline): (&mut Lister<'_>, &mut Baseline),
-    said: &Diagnostic,
-) -> ControlFlow<()> {
-    if baseline.lists(said) {
-        listing.diagnostic(said)?;
+/// Lists a message that is not in the baseline, and returns the result that it gives a program.
+fn list((listing, baseline): (&mut Lister<'_>, &mut Baseline), said: &Diagnostic) -> ProgramResult {
+    if !baseline.lists(said) {
+        return ProgramResult::Clean;
     }
-    ControlFlow::Continue(())
+    // A writer that accepts no more is found at the end.
+    let _ = listing.diagnostic(said);
+    ProgramResult::of(said)
 }
 
 /// Returns the remark on programs that were checked only in their callers.

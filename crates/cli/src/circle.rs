@@ -129,7 +129,7 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         CircleReport::recorded(recording)
     };
     let text = match args.result.format {
-        CircleFormat::Text => fitted(&render_text(&report), result.look.width),
+        CircleFormat::Text => fitted(&render_text(&report, console.detail), result.look.width),
         CircleFormat::Json => render_json(&report),
         CircleFormat::Csv => render_csv(&report),
     };

@@ -13,7 +13,7 @@ use super::progress::{OverProgress, clear};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp_host::Replaces;
 use frictcomp_report::{
-    FALLBACK_WIDTH, Look, Paint, command_line, fitted, leading, render, visible, wrap,
+    Detail, FALLBACK_WIDTH, Look, Paint, command_line, fitted, leading, render, visible, wrap,
 };
 
 /// Widths that text can be laid out for.
@@ -38,6 +38,8 @@ pub(super) struct Console {
     /// Value of `--width`.
     width: Option<usize>,
     remarks: RemarkOutput,
+    /// Extent of text.
+    pub(super) detail: Detail,
     written: OutputContents,
     /// Files that every output may replace by `--force`.
     forced: Option<Replaces>,
@@ -101,6 +103,7 @@ impl Console {
             color,
             width,
             remarks: RemarkOutput::Said,
+            detail: Detail::Brief,
             written: OutputContents::Text,
             forced: None,
         }
@@ -109,6 +112,11 @@ impl Console {
     /// Returns the console with the setting of `--force`.
     pub(super) fn forcing(self, forced: Option<Replaces>) -> Self {
         Self { forced, ..self }
+    }
+
+    /// Returns the console with the extent of text set.
+    pub(super) fn detailed(self, detail: Detail) -> Self {
+        Self { detail, ..self }
     }
 
     /// Returns the files that an output may replace.
@@ -150,6 +158,7 @@ impl Console {
         Look {
             paint,
             width: self.width(None),
+            detail: self.detail,
         }
     }
 
@@ -162,6 +171,7 @@ impl Console {
             look: Look {
                 paint: paint(choice),
                 width,
+                detail: self.detail,
             },
             // Old Windows consoles need their own calls; elsewhere nothing is in between.
             writer: match (self.code_page(&stdout), paint(choice)) {
@@ -215,6 +225,13 @@ impl Console {
         }
     }
 
+    /// Writes a line to stderr if the user asked for full detail.
+    pub(super) fn detail(self, line: &str) {
+        if self.detail == Detail::Full {
+            self.remark(line);
+        }
+    }
+
     /// Shows diagnostics on stderr.
     pub(super) fn show(self, diagnostics: &[Diagnostic]) {
         let stderr = io::stderr();
@@ -222,6 +239,7 @@ impl Console {
         let look = Look {
             paint: paint(choice),
             width: self.width(terminal_size::terminal_size_of(&stderr)),
+            detail: self.detail,
         };
         let mut writer = self::stderr(choice);
         for diagnostic in diagnostics {
@@ -239,6 +257,7 @@ impl Console {
         let look = Look {
             paint: paint(choice),
             width: self.width(terminal_size::terminal_size_of(&stderr)),
+            detail: self.detail,
         };
         let mut writer = self::stderr(choice);
         let (bold, plain) = match look.paint {

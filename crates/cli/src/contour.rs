@@ -106,7 +106,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     };
     pictures.draw(&mut contour, &subject)?;
     let text = match args.result.format {
-        ContourFormat::Text => fitted(&render_text(&mut contour, &subject), width),
+        ContourFormat::Text => fitted(&render_text(&mut contour, &subject, console.detail), width),
         ContourFormat::Json => document(&mut contour, &limits),
         ContourFormat::Ndjson => {
             let mut record = summary_record(&contour, &limits);
@@ -119,8 +119,12 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let has_moved = contour.machine_time_s() > 0.0;
     // A row has no place for remarks on the whole program.
     let remarks = match args.result.format {
-        ContourFormat::Csv if limits.any() => contour_remarks(&contour),
-        ContourFormat::Csv => [why_not_judged(&contour), contour_remarks(&contour)].concat(),
+        ContourFormat::Csv if limits.any() => contour_remarks(&contour, console.detail),
+        ContourFormat::Csv => [
+            why_not_judged(&contour),
+            contour_remarks(&contour, console.detail),
+        ]
+        .concat(),
         _ => Vec::new(),
     };
     let exceeded = exceeded(&contour, &limits);

@@ -8,7 +8,7 @@ use super::console::{Console, Printed};
 use super::exit;
 use super::failure::Failure;
 use super::failures::Failures;
-use super::listing::{ListingArgs, total};
+use super::listing::ListingArgs;
 use super::named_lists::NamedLists;
 use super::outputs::Outputs;
 use super::painted::parts;
@@ -18,7 +18,7 @@ use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_drives::{XmlError, read_devices, read_network};
 use frictcomp_host::{Disk, FileRegistry, read_list};
-use frictcomp_report::drives::render_drives;
+use frictcomp_report::drives::{drives_headline, render_drives};
 use frictcomp_report::{ListingFormat, command_line};
 
 /// Check that the torque of compensation reaches the drives
@@ -180,6 +180,9 @@ fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<
     codes.sift(&mut said);
     outputs.check()?;
     let mut listing = args.listing.lister(target)?;
+    if !reports.is_empty() {
+        listing.headline(drives_headline(&reports));
+    }
     for _ in &files {
         listing.file();
     }
@@ -195,14 +198,13 @@ fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<
         return Ok(exit::CLEAN);
     }
     if args.listing.format == ListingFormat::Text {
-        let mut table = String::new();
+        let mut table = String::from("\n");
         render_drives(&reports, &mut table)
             .map_err(|_| Failure::new("the table of the drives cannot be written"))?;
         console.print_painted(&table, parts)?;
     }
     outputs.finish()?;
-    if args.listing.format == ListingFormat::Text && listing.tally().files > 0 {
-        console.remark(&total(listing.tally()));
+    if args.listing.format == ListingFormat::Text {
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
     Ok(listing.status())

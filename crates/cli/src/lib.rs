@@ -88,7 +88,7 @@ use sole_file::Meant;
 
 use frictcomp::syntax::bound_reading;
 use frictcomp_host::{Replaces, clean_up_when_stopped, survive_file_size_limit};
-use frictcomp_report::{visible, visible_line};
+use frictcomp_report::{Detail, visible, visible_line};
 
 /// Dry-run ISG and TwinCAT CNC programs and show, block by block, which axes have friction
 /// compensation active.
@@ -106,6 +106,9 @@ struct Arguments {
     /// Let an output take the place of a program, a list or frictcomp.toml
     #[arg(long, global = true, help_heading = "Terminal")]
     force: bool,
+    /// Add conditions, assumed limits, readings of the documents and totals to the text
+    #[arg(long, short, global = true, help_heading = "Terminal")]
+    verbose: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -196,6 +199,11 @@ fn status_of(tool: clap::Command, arguments: Vec<OsString>) -> u8 {
     let forced = arguments.force.then_some(Replaces::Anything);
     let console = Console::new(arguments.color, arguments.width);
     let console = console.writing(written).forcing(forced);
+    let console = console.detailed(if arguments.verbose {
+        Detail::Full
+    } else {
+        Detail::Brief
+    });
     dispatch(&arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
         exit::FAILED

@@ -20,7 +20,7 @@ use frictcomp::lists::{AxisType, Origin, Parameter};
 use frictcomp::machine::AxisReport;
 use frictcomp::timeline::{FeedMoves, ReadingsInForce};
 use frictcomp_report::drives::drive_record;
-use frictcomp_report::{Listing, ListingFormat, Tally, feed_moves_text};
+use frictcomp_report::{Headline, Listing, ListingFormat, ProgramResult, Tally, feed_moves_text};
 
 /// Options for listing diagnostics.
 #[derive(Debug, Clone, Args)]
@@ -87,6 +87,7 @@ impl ListingArgs {
             counts: BTreeMap::new(),
             uncompensated: BTreeMap::new(),
             unknown: BTreeSet::new(),
+            headline: None,
         })
     }
 }
@@ -103,6 +104,8 @@ pub(super) struct Lister<'a> {
     uncompensated: BTreeMap<String, Uncompensated>,
     /// States that are not known.
     unknown: BTreeSet<String>,
+    /// The verdict.
+    headline: Option<Headline>,
 }
 
 /// The feed moves of an axis without compensation, in all programs (R13.12).
@@ -128,6 +131,17 @@ impl Lister<'_> {
     /// Counts a file that was examined.
     pub(super) fn file(&mut self) {
         self.listing.file();
+    }
+
+    /// Counts a program with its result.
+    pub(super) fn program(&mut self, result: ProgramResult) {
+        self.listing.program(result);
+    }
+
+    /// Writes the verdict as the last line of a text (R18.20).
+    pub(super) fn headline(&mut self, headline: Headline) {
+        self.listing.headline(&headline);
+        self.headline = Some(headline);
     }
 
     /// Lists a diagnostic. `Break` when the writer accepts no more.
@@ -200,7 +214,8 @@ impl Lister<'_> {
                 .map(|((code, severity), count)| row(*code, *severity, *count));
             let costs = self.uncompensated.iter();
             let costs = costs.filter_map(|(axis, of)| cost(axis, of));
-            let text: String = rows.chain(costs).collect();
+            let headline = self.headline.iter().map(|it| format!("{it}\n"));
+            let text: String = rows.chain(costs).chain(headline).collect();
             let values = counts.iter();
             let values = values.map(|((code, severity), count)| record(*code, *severity, *count));
             let costs = self.uncompensated.iter();

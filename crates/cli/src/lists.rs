@@ -8,7 +8,7 @@ use super::console::{Console, Printed};
 use super::exit;
 use super::failure::Failure;
 use super::failures::Failures;
-use super::listing::{ListingArgs, total};
+use super::listing::ListingArgs;
 use super::named_lists::NamedLists;
 use super::outputs::{Outputs, write_text};
 use super::painted::parts;
@@ -18,7 +18,7 @@ use frictcomp_host::FileRegistry;
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::pictures::value_curves;
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{ListingFormat, command_line};
+use frictcomp_report::{ListingFormat, Tally, command_line};
 
 /// Check axis, value, channel and start-up lists
 ///
@@ -68,15 +68,6 @@ fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
         .with_help("leave `--svg` out to see why"));
     }
     Ok(value_curves(&accepted).render(Frame::Alone))
-}
-
-/// Returns the remark on named lists that do not exist.
-fn lacking(missing: usize) -> String {
-    match missing {
-        0 => String::new(),
-        1 => ", 1 list is missing".to_owned(),
-        several => format!(", {several} lists are missing"),
-    }
 }
 
 /// Runs the command.
@@ -129,6 +120,18 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
         write_text(&mut outputs.file("--svg", path)?, &draw(&reports)?)?;
     }
     let mut listing = args.listing.lister(target)?;
+    let mut tally = Tally::default();
+    for report in &reports {
+        tally.files += u64::try_from(report.files.len()).unwrap_or(u64::MAX);
+        tally.missing += u64::try_from(report.missing).unwrap_or(u64::MAX);
+        report
+            .diagnostics
+            .iter()
+            .for_each(|it| tally.count(it.severity));
+    }
+    if tally.files > 0 {
+        listing.headline(tally.on_lists());
+    }
     for report in &reports {
         for _ in &report.files {
             listing.file();
@@ -146,11 +149,11 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
     if printed == Printed::Unread && failures.is_empty() {
         return Ok(exit::CLEAN);
     }
-    console.print_painted(&table, parts)?;
+    if !table.is_empty() {
+        console.print_painted(&format!("\n{table}"), parts)?;
+    }
     outputs.finish()?;
-    if args.listing.format == ListingFormat::Text && listing.tally().files > 0 {
-        let missing = reports.iter().map(|report| report.missing).sum();
-        console.remark(&(total(listing.tally()) + &lacking(missing)));
+    if args.listing.format == ListingFormat::Text {
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
     Ok(listing.status())

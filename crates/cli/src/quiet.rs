@@ -1,4 +1,4 @@
-//! `run --quiet`: only the messages that count for the exit status (R9.72).
+//! `run --quiet`: the messages that count for the exit status, and the verdict (R9.72).
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -6,13 +6,15 @@ use std::ops::ControlFlow;
 use super::console::DataTarget;
 use super::fail_on::FailOn;
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::timeline::{Record, Sink};
-use frictcomp_report::{Listing, ListingFormat, Report};
+use frictcomp::timeline::{EndedBy, Record, Sink};
+use frictcomp_report::{Listing, ListingFormat, Report, headline};
 
-/// Lists the diagnostics that give the exit status.
+/// Lists the diagnostics that give the exit status, then the verdict.
 pub(super) struct Quiet {
     listing: Listing<Box<dyn Write + Send>>,
     fail_on: FailOn,
+    /// The end of the last program.
+    ended: Option<EndedBy>,
 }
 
 impl Quiet {
@@ -21,6 +23,7 @@ impl Quiet {
         Self {
             listing: Listing::new(target.writer, ListingFormat::Text, target.look),
             fail_on,
+            ended: None,
         }
     }
 
@@ -40,11 +43,19 @@ impl Sink for Quiet {
         match record {
             Record::Machine(said) => self.say([*said]),
             Record::Block(row) => self.say(row.diagnostics),
-            Record::End(end) => self.say(end.notes.iter().map(|note| &note.diagnostic)),
-            Record::Session { .. }
-            | Record::Program { .. }
-            | Record::Join(_)
-            | Record::Summary(_) => ControlFlow::Continue(()),
+            Record::End(end) => {
+                self.ended = Some(end.by);
+                self.say(end.notes.iter().map(|note| &note.diagnostic))
+            }
+            Record::Summary(summary) => {
+                if let Some(headline) = headline(summary, self.ended) {
+                    self.listing.headline(&headline);
+                }
+                ControlFlow::Continue(())
+            }
+            Record::Session { .. } | Record::Program { .. } | Record::Join(_) => {
+                ControlFlow::Continue(())
+            }
         }
     }
 }

@@ -228,7 +228,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         write_text(&mut svg, &tuning(&reports).render(Frame::Alone))?;
     }
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&reports), target.look.width),
+        ResultFormat::Text => fitted(&render_text(&reports, console.detail), target.look.width),
         ResultFormat::Json => render_json(&reports),
     })?;
     outputs.finish()?;

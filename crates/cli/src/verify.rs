@@ -90,7 +90,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
         exit::FOUND
     };
     result.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report), result.look.width),
+        ResultFormat::Text => fitted(&render_text(&report, console.detail), result.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

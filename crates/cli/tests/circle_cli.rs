@@ -58,6 +58,23 @@ fn the_document_has_the_promised_keys() {
 
 /// R5.26: three turns, of which the last one leaves more; two turns that are alike.
 #[test]
+fn the_verdict_comes_first_and_conditions_with_v() {
+    // R18.20, R18.26
+    let text = |arguments: &[&str]| String::from_utf8(tool(arguments).stdout).expect("text");
+    let brief = text(&["circle"]);
+    let verdict = "largest glitch 1.2 µm at X- with compensation, 14.8 µm without";
+    assert_eq!(brief.lines().next(), Some(verdict));
+    assert!(
+        !brief.contains("14.843") && !brief.contains("reading:"),
+        "{brief}"
+    );
+    assert!(text(&["circle", "-v"]).contains("reading:"));
+    let document = json(&["circle", "--format", "json"]);
+    assert_eq!(document["headline"]["text"], verdict);
+    assert_eq!(document["headline"]["standing"], "good");
+}
+
+#[test]
 fn a_worse_turn_of_a_recording_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("turns.csv");
@@ -420,7 +437,7 @@ fn stiction_compensation_is_reported_in_place_of_a_list() {
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         String::from_utf8(output.stdout).expect("text")
     };
-    let text = said(call("circle", &[]));
+    let text = said(call("circle", &["-v"]));
     let flat: Vec<&str> = text.split_whitespace().collect();
     let flat = flat.join(" ");
     for part in [
@@ -440,12 +457,12 @@ fn stiction_compensation_is_reported_in_place_of_a_list() {
     let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\n\
                 frict_comp.table[0].in 0\nfrict_comp.table[0].out 100\n";
     fs::write(path("v.lis"), list).expect("written");
-    let listed = said(call("circle", &["--value-list", &path("v.lis")]));
+    let listed = said(call("circle", &["-v", "--value-list", &path("v.lis")]));
     assert!(
         listed.contains("v.lis, 1 points") && !listed.contains("MP1511"),
         "{listed}"
     );
-    let text = said(call("tune", &[]));
+    let text = said(call("tune", &["-v"]));
     assert!(text.contains("sets of parameters tried\n"), "{text}");
     let document: Value =
         serde_json::from_str(&said(call("tune", &["--format", "json"]))).expect("JSON");

@@ -81,7 +81,11 @@ fn a_change_that_guesses_is_not_made() {
     );
     // There is nothing left to change.
     let (code, shown, said) = status(&bench, &["check", "--fix", "b.nc"]);
-    assert_eq!((code, shown.as_str()), (Some(0), ""), "{said}");
+    assert_eq!(
+        (code, shown.as_str()),
+        (Some(0), "b.nc is clean\n"),
+        "{said}"
+    );
     assert!(!said.contains("fixed"), "{said}");
 }
 

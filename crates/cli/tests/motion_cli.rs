@@ -65,7 +65,7 @@ fn the_current_follows_the_state_of_the_axis() {
     let folder = tempfile::tempdir().expect("a folder");
     let output = current(
         folder.path(),
-        &["a.nc", "--axis", "X", "--columns", "comp,line"],
+        &["a.nc", "-v", "--axis", "X", "--columns", "comp,line"],
     );
     let rows = rows(&output);
     assert_eq!(
@@ -404,7 +404,7 @@ fn a_list_that_does_not_fit_has_its_status() {
         (
             1.0,
             0,
-            "the list fits the recorded torque from 1.00 to 50.00 mm/s",
+            "v.lis fits the recorded torque from 1.00 to 50.00 mm/s\n",
         ),
         (1.0, 0, "not judged: 50.00 to 166.67 mm/s"),
         (0.8, 1, "the list is 25 % high from"),

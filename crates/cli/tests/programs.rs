@@ -253,7 +253,7 @@ fn timelines_are_as_reviewed() {
     settings.bind(|| {
         insta::glob!("../../../programs", "**/*.nc", |path| {
             let program = shown(path);
-            let mut arguments = vec!["run"];
+            let mut arguments = vec!["run", "-v"];
             arguments.extend(["--max-blocks", MAX_BLOCKS]);
             arguments.extend(seen_machine(&program));
             arguments.push(&program);
@@ -291,7 +291,7 @@ fn a_session_is_as_reviewed() {
             ],
         ] {
             let folder = first.rsplit('/').nth(1).expect("a folder");
-            let output = frictcomp(&["run", first, second]);
+            let output = frictcomp(&["run", "-v", first, second]);
             insta::assert_snapshot!(format!("session@{folder}"), transcript(&output));
         }
     });

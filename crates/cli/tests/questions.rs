@@ -290,7 +290,7 @@ fn the_current_follows_the_selected_readings() {
     let readings = "[reading]\n\"R4.6\" = \"zero\"\n\"R4.2\" = \"step\"\n";
     bench.write("a.nc", "N10 G90 G01 F600 X0\nN20 X1\nN30 X0\nN40 M30\n");
     let said = |arguments: &[&str]| {
-        let all = ["current", "a.nc", "--axis", "X", "--start", "X0"];
+        let all = ["current", "-v", "a.nc", "--axis", "X", "--start", "X0"];
         let output = bench.call(&[&all, arguments].concat());
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(0), "{text}");

@@ -204,7 +204,7 @@ fn what_is_not_known_is_left_out_and_counted() {
     assert!(!picture(&self::bench("G01 X10 Y5 F1000\nM30\n")).contains("left out"));
     let found = contour(&bench, &[]);
     assert!(number(&found["left_out"]) >= 1.0, "{found}");
-    let said = bench.call(&["contour", "part.nc", "--plant", "mid"]);
+    let said = bench.call(&["contour", "-v", "part.nc", "--plant", "mid"]);
     let said = String::from_utf8(said.stdout).expect("text");
     assert_eq!(said.matches("not modelled:").count(), 1, "{said}");
     assert!(said.contains("left out:"), "{said}");
@@ -327,7 +327,7 @@ fn wrong_arguments_are_refused() {
 fn the_list_of_each_axis_is_said() {
     // R11.1
     let bench = bench(&circle("G03", "OFF"));
-    let said = bench.stdout(&["contour", "part.nc", "--start", "X25,Y0"]);
+    let said = bench.stdout(&["contour", "-v", "part.nc", "--start", "X25,Y0"]);
     assert!(
         said.contains("compensation of X: the friction curve of the plant"),
         "{said}"

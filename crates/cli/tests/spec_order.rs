@@ -303,13 +303,16 @@ fn what_is_not_known_has_its_reason_or_its_ways() {
 
 #[test]
 fn what_may_be_left_is_no_all_clear() {
-    // R10.2, R10.5
+    // R10.2, R10.5, R18.23
     let maybe = "X[COMP ON FRICT]\n$IF V.E.SENSOR == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30\n";
     let bench = bench(&[("maybe.nc", maybe), ("moves.nc", "X1\nM30\n")]);
     let output = bench.call(&["audit", "--fail-on", "warning"]);
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8(output.stdout).expect("text");
-    assert!(said.contains("; 1 hazard:"), "{said}");
+    assert!(
+        said.contains("1 program leaves X off, 1 runs with it off"),
+        "{said}"
+    );
     text(&bench, &["audit", "--fix=smaller"]);
     assert!(
         bench

@@ -28,6 +28,24 @@ pub enum Paint {
     Styled,
 }
 
+/// Extent of text output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum Detail {
+    /// The verdict, the findings and the tables.
+    #[default]
+    Brief,
+    /// Conditions, readings, methods and totals, too (R18.20, R18.21).
+    Full,
+}
+
+impl Detail {
+    /// Returns a text that is shown in full detail only.
+    pub(crate) fn full<T>(self, text: T) -> Option<T> {
+        (self == Self::Full).then_some(text)
+    }
+}
+
 /// Appearance of text output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Look {
@@ -35,6 +53,8 @@ pub struct Look {
     pub paint: Paint,
     /// Columns that may be used.
     pub width: usize,
+    /// Extent.
+    pub detail: Detail,
 }
 
 impl Default for Look {
@@ -42,6 +62,7 @@ impl Default for Look {
         Self {
             paint: Paint::Plain,
             width: AGREED_WIDTH,
+            detail: Detail::Brief,
         }
     }
 }
@@ -300,7 +321,13 @@ error[P-ERR-70495]: not configured
         let mut diagnostic = at(line, "X[COMP ON]").with_help("\u{9b}31m");
         diagnostic.message = "\u{9b}31m\u{1b}[31m".to_owned();
         for paint in [Paint::Plain, Paint::Styled] {
-            let text = render(&diagnostic, Look { paint, width: 80 });
+            let text = render(
+                &diagnostic,
+                Look {
+                    paint,
+                    ..Look::default()
+                },
+            );
             let c1 = text.contains(|letter: char| ('\u{80}'..='\u{9f}').contains(&letter));
             assert!(!c1 && !text.contains("\u{1b}[31m"), "{text:?}");
         }

@@ -4,9 +4,49 @@ use std::fmt::{self, Write};
 
 use serde_json::{Value, json};
 
+use crate::advice::listed;
+use crate::headline::{Headline, Standing};
 use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::drive_interface::{DriveReport, Presence, Signal};
+
+/// Returns the verdict on the drives of the axes with friction compensation.
+pub fn drives_headline(reports: &[DriveReport]) -> Headline {
+    let named = |of: fn(&Presence) -> bool| {
+        let reports = reports
+            .iter()
+            .filter(|it| it.configured && of(&it.additive_torque));
+        let names: Vec<&str> = reports.map(|it| it.axis.as_str()).collect();
+        listed(&names)
+    };
+    let reached = named(|it| matches!(it, Presence::Present { .. }));
+    let missed = named(|it| matches!(it, Presence::Missing { .. }));
+    let open = named(|it| matches!(it, Presence::Unknown { .. }));
+    let standing = match (&missed, &open) {
+        (Some(_), _) => Standing::Bad,
+        (None, Some(_)) => Standing::Open,
+        (None, None) => Standing::Good,
+    };
+    let parts = [
+        (missed, "does not reach the drive of"),
+        (open, "may not reach the drive of"),
+        (reached, "reaches the drive of"),
+    ];
+    let parts = parts
+        .into_iter()
+        .filter_map(|(axes, how)| Some(format!("{how} {}", axes?)));
+    let parts: Vec<String> = parts.collect();
+    if parts.is_empty() {
+        return Headline::new(
+            Standing::Open,
+            "no drive of an axis with friction compensation is described",
+        );
+    }
+    Headline::new(
+        standing,
+        format!("the compensation torque {}", parts.join("; it ")),
+    )
+}
 
 /// Writes what is known about the drive of each axis.
 ///

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::findings::write_findings;
+use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::report_text::ReportText;
@@ -36,6 +37,33 @@ impl IdentifyReport {
             .chain(&self.identified.findings)
     }
 
+    /// The verdict: the friction over the speeds, and the first fault of the recording (R18.20).
+    pub fn headline(&self) -> Headline {
+        let found = &self.identified;
+        let axis = self.axis.as_deref();
+        let axis = axis.map_or(String::new(), |axis| format!(" of {axis}"));
+        let fault = self.findings().find(|it| it.severity == Severity::Warning);
+        let (standing, fault) = match fault {
+            Some(fault) => (
+                Standing::Open,
+                format!("; {}: {}", fault.code, fault.message),
+            ),
+            None => (Standing::Good, String::new()),
+        };
+        let (Some(slowest), Some(fastest)) = (found.pairs.first(), found.pairs.last()) else {
+            return Headline::new(Standing::Bad, format!("no friction{axis} is found{fault}"));
+        };
+        let text = format!(
+            "friction{axis} from {:.2} to {:.2} mm/s: {} to {} {}{fault}",
+            slowest.speed,
+            fastest.speed,
+            Rounded(slowest.friction, 3),
+            Rounded(fastest.friction, 3),
+            self.unit(),
+        );
+        Headline::new(standing, text)
+    }
+
     /// Returns the faults of the recording, one line each for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let faults = self
@@ -57,24 +85,19 @@ impl IdentifyReport {
 
 /// Speeds, curve and points, then the findings.
 pub fn render_text(report: &IdentifyReport) -> String {
-    report_text(report).to_string()
+    format!("{}\n{}", report.headline(), report_text(report))
 }
 
-/// Returns the identification as sentences and tables.
+/// Returns what follows the verdict as sentences and tables.
 pub(crate) fn report_text(report: &IdentifyReport) -> ReportText {
     let mut out = ReportText::default();
     let found = &report.identified;
-    let axis = report
-        .axis
-        .as_deref()
-        .map(|axis| format!(" of axis {}", visible_line(axis)));
     let track = &report.recording.track;
     let length = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);
     let _ = writeln!(
         out,
-        "{}: friction{}, {} segments of constant speed in {length:.1} s\n",
+        "{}: {} segments of constant speed in {length:.1} s\n",
         visible_line(&report.name),
-        axis.unwrap_or_default(),
         found.segments.len()
     );
     if report.findings().next().is_some() {

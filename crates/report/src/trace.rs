@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::strings::to_pretty;
+use super::headline::{Headline, Standing};
+use super::strings::{counted, to_pretty};
 use super::visible::visible_line;
 use crate::report_text::ReportText;
 use crate::table::Table;
@@ -19,22 +20,25 @@ pub struct TraceReport<'a> {
     pub recording: &'a TraceRecording,
 }
 
+impl TraceReport<'_> {
+    /// The verdict: the layout and the number of channels, and the first thing that is odd (R18.20).
+    pub fn headline(&self) -> Headline {
+        let recording = self.recording;
+        let channels = counted(recording.channels().len(), "channel");
+        let text = format!("{}: {}, {channels}", self.name, recording.layout().as_str());
+        Headline::new(Standing::Good, text)
+    }
+}
+
 /// The channels for people, one per line, then their oddities.
 pub fn render_text(report: &TraceReport<'_>) -> String {
-    report_text(report).to_string()
+    format!("{}\n\n{}", report.headline(), report_text(report))
 }
 
 /// Returns the channels as a table, with their oddities.
 pub(crate) fn report_text(report: &TraceReport<'_>) -> ReportText {
     let mut out = ReportText::default();
     let recording = report.recording;
-    let _ = writeln!(
-        out,
-        "{}: {}, {} channels\n",
-        visible_line(&report.name),
-        recording.layout().as_str(),
-        recording.channels().len()
-    );
     let table = Table::of_numbers(["samples", "every ms", "length s", "least", "greatest"]);
     let mut table = table.left("unit").left("channel");
     for summary in recording.summaries() {

@@ -6,6 +6,8 @@ use serde::Serialize;
 
 use super::assumptions::not_modelled_line;
 use super::circle::stiction_line;
+use super::diagnostics::Detail;
+use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::table::Table;
@@ -89,13 +91,50 @@ fn checked(tuned: &Tuned) -> String {
     out
 }
 
-/// The parameters and the glitches before and after, for people.
-pub fn render_text(reports: &[TuneReport]) -> String {
+impl TuneReport {
+    /// The verdict: the largest glitch that is left, and that without compensation (R18.20).
+    pub fn headline(&self) -> Headline {
+        let feeds = self.tuned.feeds.iter();
+        let [least, most] = feeds.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], it| {
+            [least.min(it.feed_mm_per_min), most.max(it.feed_mm_per_min)]
+        });
+        let feeds = self.tuned.feeds.iter().map(|it| it.glitch_off_um);
+        let (on, off) = (self.tuned.worst_um(), feeds.fold(0.0, f64::max));
+        let standing = if on < off {
+            Standing::Good
+        } else {
+            Standing::Bad
+        };
+        let range = if least < most {
+            format!("from {least:.0} to {most:.0} mm/min")
+        } else {
+            format!("at {most:.0} mm/min")
+        };
+        Headline::new(
+            standing,
+            format!("largest glitch {on:.1} µm {range} ({off:.1} µm without compensation)"),
+        )
+    }
+}
+
+/// The verdict, the parameters and the glitches before and after, for people.
+pub fn render_text(reports: &[TuneReport], detail: Detail) -> String {
     let mut out = String::new();
     for (at, report) in reports.iter().enumerate() {
         if at > 0 {
             out.push('\n');
         }
+        if reports.len() > 1 {
+            let _ = write!(out, "plant {}: ", visible_line(&report.plant));
+        }
+        let _ = writeln!(out, "{}", report.headline());
+        push_report(&mut out, report, detail);
+    }
+    out
+}
+
+fn push_report(out: &mut String, report: &TuneReport, detail: Detail) {
+    if detail == Detail::Full {
         let _ = writeln!(
             out,
             "plant {}, friction {}, {} {} tried\nreading: {}",
@@ -109,49 +148,50 @@ pub fn render_text(reports: &[TuneReport]) -> String {
             },
             report.reading
         );
-        let [x, y] = &report.tuned.axes;
-        if x == y {
-            parameters(&mut out, "", x);
-        } else {
-            parameters(&mut out, "X: ", x);
-            parameters(&mut out, "Y: ", y);
-        }
+    }
+    let [x, y] = &report.tuned.axes;
+    if x == y {
+        parameters(out, "", x);
+    } else {
+        parameters(out, "X: ", x);
+        parameters(out, "Y: ", y);
+    }
+    if detail == Detail::Full {
         let _ = writeln!(
             out,
-            "{}; beyond that the glitch is not known\n{}{}\n",
+            "{}; beyond that the glitch is not known\n{}{}",
             tuned_range(&report.tuned),
             checked(&report.tuned),
             not_modelled_line(&report.not_modelled)
         );
-        let headings = [
-            "v\u{b2}/R mm/s\u{b2}",
-            "feed mm/min",
-            "radius mm",
-            "glitch \u{b5}m off",
-            "on",
-            "friction -20 %",
-            "friction +20 %",
-        ];
-        let mut table = Table::of_numbers(headings);
-        let mut rows: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
-        rows.sort_by(|one, other| {
-            let by = |it: &FeedResult| it.acceleration_mm_per_s2;
-            by(one).total_cmp(&by(other))
-        });
-        for row in rows {
-            table.row(&[
-                &format_args!("{:.3}", row.acceleration_mm_per_s2),
-                &short(row.feed_mm_per_min),
-                &short(row.radius_mm),
-                &format_args!("{:.3}", row.glitch_off_um),
-                &format_args!("{:.3}", row.glitch_on_um),
-                &format_args!("{:.3}", row.glitch_friction_minus20_um),
-                &format_args!("{:.3}", row.glitch_friction_plus20_um),
-            ]);
-        }
-        let _ = write!(out, "{table}");
     }
-    out
+    let headings = [
+        "v\u{b2}/R mm/s\u{b2}",
+        "feed mm/min",
+        "radius mm",
+        "glitch \u{b5}m off",
+        "on",
+        "friction -20 %",
+        "friction +20 %",
+    ];
+    let mut table = Table::of_numbers(headings);
+    let mut rows: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
+    rows.sort_by(|one, other| {
+        let by = |it: &FeedResult| it.acceleration_mm_per_s2;
+        by(one).total_cmp(&by(other))
+    });
+    for row in rows {
+        table.row(&[
+            &format_args!("{:.3}", row.acceleration_mm_per_s2),
+            &short(row.feed_mm_per_min),
+            &short(row.radius_mm),
+            &format_args!("{:.1}", row.glitch_off_um),
+            &format_args!("{:.1}", row.glitch_on_um),
+            &format_args!("{:.1}", row.glitch_friction_minus20_um),
+            &format_args!("{:.1}", row.glitch_friction_plus20_um),
+        ]);
+    }
+    let _ = write!(out, "\n{table}");
 }
 
 /// A feed or a radius with a decimal, if it has one.
@@ -192,6 +232,7 @@ struct TuneDocument<'a> {
 #[derive(Serialize)]
 struct PlantRecord<'a> {
     plant: &'a str,
+    headline: Headline,
     model: &'static str,
     reading: &'a str,
     not_modelled: &'a [&'static str],
@@ -278,6 +319,7 @@ impl<'a> PlantRecord<'a> {
         let [x, y] = &report.tuned.axes;
         Self {
             plant: &report.plant,
+            headline: report.headline(),
             model: report.model,
             reading: &report.reading,
             not_modelled: &report.not_modelled,

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::diagnostics::Detail;
 use super::findings::write_findings;
+use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::table::Table;
@@ -24,26 +26,39 @@ pub struct VerifyReport {
     pub verified: Verified,
 }
 
-/// The verdict, then the figures that it is based on.
-pub fn render_text(report: &VerifyReport) -> String {
-    let mut out = String::new();
-    let verified = &report.verified;
-    let _ = writeln!(
-        out,
-        "{} against {}\n",
-        visible_line(&report.trace),
-        visible_line(&report.list)
-    );
-    let ends = [verified.ranges.first(), verified.ranges.last()];
-    if let [Some(first), Some(last)] = ends
-        && verified.fits()
-    {
-        let (from, to) = (first.from, last.to);
-        let _ = writeln!(
-            out,
-            "the list fits the recorded torque from {from:.2} to {to:.2} mm/s"
-        );
+impl VerifyReport {
+    /// The verdict: whether the list fits, and at which speeds (R18.20).
+    pub fn headline(&self) -> Headline {
+        let verified = &self.verified;
+        let mut said = verified.verdict();
+        if let Timing::Other(_) = verified.timing {
+            said.push(verified.timing.sentence());
+        }
+        let ends = [verified.ranges.first(), verified.ranges.last()];
+        match ends {
+            [Some(first), Some(last)] if verified.fits() => Headline::new(
+                if verified.not_judged.is_empty() {
+                    Standing::Good
+                } else {
+                    Standing::Open
+                },
+                format!(
+                    "{} fits the recorded torque from {:.2} to {:.2} mm/s",
+                    self.list, first.from, last.to
+                ),
+            ),
+            _ => Headline::new(
+                Standing::Bad,
+                format!("{} does not fit: {}", self.list, said.join("; ")),
+            ),
+        }
     }
+}
+
+/// The verdict, then the figures that it is based on.
+pub fn render_text(report: &VerifyReport, detail: Detail) -> String {
+    let verified = &report.verified;
+    let mut out = format!("{}\n", report.headline());
     for gap in &verified.not_judged {
         let _ = writeln!(
             out,
@@ -52,10 +67,9 @@ pub fn render_text(report: &VerifyReport) -> String {
             gap.end()
         );
     }
-    for line in verified.verdict() {
-        let _ = writeln!(out, "{line}");
+    if !matches!(verified.timing, Timing::Other(_)) {
+        let _ = writeln!(out, "{}", verified.timing.sentence());
     }
-    let _ = writeln!(out, "{}", verified.timing.sentence());
     let mut table = Table::of_numbers(["from mm/s", "to mm/s", "recorded/predicted"]);
     for range in &verified.ranges {
         table.row(&[
@@ -72,7 +86,7 @@ pub fn render_text(report: &VerifyReport) -> String {
         Rounded(verified.inertia, 6),
         verified.residual
     );
-    if verified.is_away_from_reversals && !verified.reversals.is_empty() {
+    if detail == Detail::Full && verified.is_away_from_reversals && !verified.reversals.is_empty() {
         let _ = writeln!(
             out,
             "the scales are those of the motion from {CONTACT_MM} mm after each reversal on: nearer, the contact still \
@@ -105,6 +119,7 @@ pub fn render_text(report: &VerifyReport) -> String {
 #[derive(Serialize)]
 struct VerifyDocument<'a> {
     schema: u32,
+    headline: Headline,
     verdict: Vec<String>,
     scale: f64,
     ranges: Vec<RangeRecord>,
@@ -150,6 +165,7 @@ pub fn render_json(report: &VerifyReport) -> String {
     });
     to_pretty(&VerifyDocument {
         schema: 1,
+        headline: report.headline(),
         verdict: verified.verdict(),
         scale: verified.scale,
         ranges: ranges.collect(),

@@ -95,9 +95,9 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     }
     say_left_out(currents.left_out());
     say_table(&names, currents.sink());
-    Console::talk(&format!("reading: {reading}"));
+    console.detail(&format!("reading: {reading}"));
     if let Some(text) = rests_on_text(currents.rests_on()) {
-        Console::talk(&text);
+        console.detail(&text);
     }
     for (name, cycles) in names.iter().zip(currents.saturated()) {
         say_saturated(&format!(" of axis {name}"), cycles);

@@ -1,6 +1,6 @@
 //! The result of `frictcomp replay` as a page.
 
-use super::shown::{against, at_place, remarks, verdict_of, word};
+use super::shown::{against, at_place, headline, remarks, verdict_of, word};
 use frictcomp_host::replay::{RecordedAxis, Replayed, ReplayedAxis, StateRecording};
 use frictcomp_report::html::{ReplayReport, ReplayReportAxis};
 
@@ -13,6 +13,7 @@ pub(super) fn report(
     let axes = replayed.axes.iter().zip(&recording.axes);
     ReplayReport {
         recording: recorded,
+        headline: headline(replayed),
         verdicts: remarks(replayed),
         axes: axes
             .map(|(axis, recorded)| of_axis(axis, recorded, replayed))

@@ -7,11 +7,40 @@ use serde_json::{Map, Value, json};
 use frictcomp_host::replay::{
     Disagreement, MatchedChange, ReplayPlace, Replayed, ReplayedAxis, ReplayedBy, TriedCondition,
 };
-use frictcomp_report::visible_line;
+use frictcomp_report::{Headline, Standing, counted, visible_line};
+
+/// Returns the verdict: the first axis that disagrees, or that all agree (R18.20).
+pub(super) fn headline(replayed: &Replayed) -> Headline {
+    let mut against = replayed.axes.iter();
+    let against = against.find_map(|axis| Some((axis, axis.disagreement.as_ref()?)));
+    if let Some((axis, found)) = against {
+        let first = self::against(found).into_iter().next();
+        let count = counted(axis.changes.len(), "change");
+        let text = format!(
+            "the machine did not do what the dry run says: {} differs after {count}, at {:.3} s, {}",
+            axis.name,
+            found.t_s,
+            first.unwrap_or_default()
+        );
+        return Headline::new(Standing::Bad, text);
+    }
+    let count = counted(replayed.changes(), "change");
+    let axes: Vec<&str> = replayed.axes.iter().map(|it| it.name.as_str()).collect();
+    let axes = axes.join(" ");
+    if replayed.is_conditional() || !replayed.agrees() {
+        let verdict = verdict(replayed);
+        return Headline::new(
+            Standing::Open,
+            format!("the machine {verdict}: {count} of {axes}"),
+        );
+    }
+    let text = format!("the machine did what the dry run says: {count} of {axes}");
+    Headline::new(Standing::Good, text)
+}
 
 /// Returns the result as text.
 pub(super) fn text(replayed: &Replayed) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n", headline(replayed));
     for axis in &replayed.axes {
         write_axis(&mut text, axis, replayed);
     }
@@ -160,6 +189,7 @@ pub(super) fn document(replayed: &Replayed) -> Value {
         .collect();
     let mut document = json!({
         "schema": 1,
+        "headline": headline(replayed),
         "agrees": replayed.agrees(),
         "conditional": replayed.is_conditional(),
         "changes": replayed.changes(),

@@ -51,7 +51,7 @@ const START: [&str; 2] = ["--start", "X5,Y-10,Z0"];
 
 /// The exit status, standard output and standard error.
 fn contour(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let fixed = ["contour", "part.nc", "--width", "400"];
+    let fixed = ["contour", "-v", "part.nc", "--width", "400"];
     let output = bench.call(&[&fixed[..], &START, arguments].concat());
     let text = |bytes| String::from_utf8(bytes).expect("text");
     (

@@ -229,7 +229,7 @@ fn what_links_hide_is_said() {
         said.contains("not checked: 2 programs in linked folders, 1 link"),
         "{said}"
     );
-    let said = stderr(&bench.call(&["check", "linked.nc"]));
+    let said = stderr(&bench.call(&["check", "-v", "linked.nc"]));
     assert!(
         said.contains("1 file checked") && !said.contains("not checked"),
         "{said}"

@@ -26,7 +26,7 @@ fn changed(difference: &str) -> Vec<String> {
 
 fn hazards(bench: &Bench) -> String {
     let shown = text(bench, &["audit", "."]);
-    let last = shown.lines().rfind(|line| line.contains("programs;"));
+    let last = shown.lines().last();
     last.unwrap_or_default().to_owned()
 }
 
@@ -55,7 +55,7 @@ fn one_block_in_a_subprogram_mends_its_callers() {
         assert_eq!(bench.read("tool.nc"), mended);
         assert_eq!(bench.read("a.nc"), caller);
         assert!(
-            hazards(&bench).contains("no order of these"),
+            hazards(&bench).contains("in no order does one"),
             "{}",
             hazards(&bench)
         );

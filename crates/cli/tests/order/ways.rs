@@ -34,7 +34,10 @@ fn a_program_that_leaves_an_axis_off_on_some_ways_is_a_hazard_that_says_when() {
         let bench = bench(&[("a.nc", main), ("sub.nc", sub), MOVER]);
         let shown = text(&bench, &["audit", "a.nc", "moves.nc"]);
         assert!(shown.contains(&format!("    {says}")), "{shown}");
-        assert!(shown.contains("1 hazard"), "{shown}");
+        assert!(
+            shown.contains("1 program leaves X off, 1 runs with it off"),
+            "{shown}"
+        );
         assert_eq!(of_x(&bench, "a.nc", &[])["effect"], "depends");
         let strict = bench.call(&["audit", "--fail-on", "warning", "a.nc", "moves.nc"]);
         assert_eq!(strict.status.code(), Some(1));

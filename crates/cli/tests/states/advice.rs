@@ -21,8 +21,8 @@ fn the_advice_of_a_lint_is_not_repeated() {
             let text = shown(program, arguments);
             assert_eq!(text.matches(code).count(), 1, "{text}");
             assert_eq!(text.matches("X[COMP ON FRICT]").count(), 1, "{text}");
-            assert!(!text.contains("stays inactive"), "{text}");
-            assert!(!text.contains("Nothing to do"), "{text}");
+            assert!(!text.contains("write X[COMP"), "{text}");
+            assert!(!text.contains("nothing to do"), "{text}");
         }
     }
 }
@@ -34,9 +34,9 @@ fn an_allowed_lint_takes_the_axis_out_of_the_advice() {
         let allowed = format!("; frictcomp: allow {code} known\nX[COMP OFF FRICT]");
         let text = shown(&program.replace("X[COMP OFF FRICT]", &allowed), &[]);
         assert!(!text.contains(&format!("[{code}]")), "{text}");
-        assert!(!text.contains("stays inactive"), "{text}");
+        assert!(!text.contains("write X[COMP"), "{text}");
         assert!(
-            !text.contains("Nothing to do"),
+            !text.contains("nothing to do"),
             "X is not in its start-up state: {text}"
         );
         assert!(!text.contains("FC490"), "{text}");
@@ -50,8 +50,8 @@ fn an_allowed_lint_stays_allowed_in_the_state_file() {
     let bench = Bench::new(&[("a.nc", allowed), ("b.nc", "Y1\nM30\n")]);
     bench.stdout(&["run", "--state", "s", "a.nc"]);
     let text = bench.stdout(&["run", "--state", "s", "b.nc"]);
-    assert!(!text.contains("stays inactive"), "{text}");
-    assert!(!text.contains("Nothing to do"), "{text}");
+    assert!(!text.contains("write X[COMP"), "{text}");
+    assert!(!text.contains("nothing to do"), "{text}");
 }
 
 #[test]
@@ -62,9 +62,9 @@ fn what_no_lint_says_is_advised() {
         text.contains("is left inactive after the error in line 2"),
         "{text}"
     );
-    assert!(!text.contains("X stays inactive"), "{text}");
+    assert!(!text.contains("write X[COMP"), "{text}");
     let text = shown("X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n", &[]);
-    assert!(text.contains("Nothing to do"), "{text}");
+    assert!(text.contains("nothing to do"), "{text}");
 }
 
 #[test]

@@ -152,7 +152,7 @@ fn two_processes_take_turns() {
                     assert_eq!(bench.status(command), Some(0));
                     let shown = bench.read("s.json-out");
                     assert!(
-                        shown.contains("Summary") && shown.ends_with('\n'),
+                        shown.contains("end by M30") && shown.ends_with('\n'),
                         "{shown}"
                     );
                 }

@@ -495,6 +495,7 @@ fn where_threads_cannot_start_the_work_goes_on() {
             &limit,
             &[
                 "check",
+                "-v",
                 "-j",
                 "64",
                 "--fail-on",
@@ -547,7 +548,7 @@ fn more_messages_than_are_said_are_counted_in_little_memory() {
         assert_eq!(output.status.code(), Some(1), "{format}: {}", said(&output));
     }
     for format in LISTINGS {
-        let call = ["check", "-j", "1", "--format", format, "many.nc"];
+        let call = ["check", "-v", "-j", "1", "--format", format, "many.nc"];
         let output = limited(&bench, "ulimit -v 65536", &call)
             .output()
             .expect("the tool starts");

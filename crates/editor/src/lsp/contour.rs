@@ -25,7 +25,7 @@ use frictcomp_physics::simulation::{FrictionModel, Preset};
 use frictcomp_report::contour::{ContourRecorder, ContourSubject, render_text};
 use frictcomp_report::pictures::{ContourPicture, FollowedContour};
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{FALLBACK_WIDTH, fitted};
+use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 
 /// Cycles of the control that are driven as the user types: half an hour of cycles of 1 ms.
 const MOST_CYCLES: u64 = 2_000_000;
@@ -129,7 +129,10 @@ pub(super) fn contour(view: &RequestView, params: &ContourParams) -> Result<Cont
     let has_moved = driven.machine_time_s() > 0.0;
     let heading = subject.heading(&driven);
     let picture = driven.sink().take_picture().filter(|_| has_moved);
-    let figures = fitted(&render_text(&mut driven, &subject), FALLBACK_WIDTH);
+    let figures = fitted(
+        &render_text(&mut driven, &subject, Detail::Full),
+        FALLBACK_WIDTH,
+    );
     let shown = picture.map(|picture| picture.followed(&heading));
     Ok(Contour::of(view, shown, (figures, remarks)))
 }

@@ -2,6 +2,8 @@
 
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
+use frictcomp::comp::{Kind, State};
+
 use super::obstacle::Obstacle;
 use super::switch::{Switch, SwitchIdentity};
 use super::version::Version;
@@ -52,12 +54,39 @@ frictcomp::words! {
 pub struct VersionComparison {
     pairs: Vec<PairedSwitch>,
     obstacles: [Option<Obstacle>; 2],
+    ends: Vec<ChangedEnd>,
+}
+
+/// State of an axis at the program end that differs between the versions.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ChangedEnd {
+    /// Name of the axis.
+    pub axis: String,
+    /// The kind of compensation.
+    pub kind: Kind,
+    /// The state at the end of the old version.
+    pub old: State,
+    /// The state at the end of the new version.
+    pub new: State,
 }
 
 impl VersionComparison {
     /// Compares two versions.
     pub fn new(old: Version, new: Version) -> Self {
+        let end = |((axis, kind), new): (&(String, Kind), &State)| {
+            let old = *old.end.get(&(axis.clone(), *kind))?;
+            let (axis, kind, new) = (axis.clone(), *kind, *new);
+            let changed = ChangedEnd {
+                axis,
+                kind,
+                old,
+                new,
+            };
+            (old != new).then_some(changed)
+        };
         Self {
+            ends: new.end.iter().filter_map(end).collect(),
             pairs: pair(old.switches, new.switches),
             obstacles: [old.obstacle, new.obstacle],
         }
@@ -66,6 +95,11 @@ impl VersionComparison {
     /// The switches of both versions in their order.
     pub fn pairs(&self) -> &[PairedSwitch] {
         &self.pairs
+    }
+
+    /// The states at the program end that differ.
+    pub fn ends(&self) -> &[ChangedEnd] {
+        &self.ends
     }
 
     /// The switches of only one version.

@@ -29,7 +29,7 @@ mod obstacle;
 mod switch;
 mod version;
 
-pub use comparison::{Agreement, PairedSwitch, VersionComparison, Which};
+pub use comparison::{Agreement, ChangedEnd, PairedSwitch, VersionComparison, Which};
 pub use contour::{BlockChange, ContourAgreement, ContourComparison, VersionContour};
 pub use obstacle::{Obstacle, Reason};
 pub use switch::Switch;

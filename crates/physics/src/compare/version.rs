@@ -1,10 +1,11 @@
 //! One version of a program: its switches, and where they cease to be known.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use super::obstacle::{Obstacle, Reason};
 use super::switch::Switch;
-use frictcomp::comp::{KindSet, State};
+use frictcomp::comp::{Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::timeline::{EndedBy, Record, Row, Sink};
 
@@ -18,6 +19,8 @@ pub struct Version {
     pub(super) obstacle: Option<Obstacle>,
     /// The file of the program.
     file: String,
+    /// The states at its end.
+    pub(super) end: BTreeMap<(String, Kind), State>,
 }
 
 impl Version {
@@ -29,6 +32,7 @@ impl Version {
             candidate: None,
             obstacle: None,
             file: String::new(),
+            end: BTreeMap::new(),
         }
     }
 
@@ -77,6 +81,12 @@ impl Sink for Version {
             Record::Program { file, .. } => (*file).clone_into(&mut self.file),
             Record::Block(row) => self.block(row),
             Record::End(end) => {
+                for (axis, name) in end.state.axes() {
+                    let kinds = Kind::ALL.iter().filter(|kind| self.kinds.contains(**kind));
+                    let states =
+                        kinds.map(|kind| ((name.to_owned(), *kind), end.state.state(axis, *kind)));
+                    self.end.extend(states);
+                }
                 for note in end.notes {
                     self.judge(&note.diagnostic);
                 }

@@ -6,14 +6,16 @@ use serde_json::{Map, Value, json};
 
 use super::subject::axis_name;
 use crate::assumptions::rests_on_text;
+use crate::diagnostics::Detail;
 use crate::visible::visible_line;
 use frictcomp::audit::{Step, StepAxis};
 use frictcomp::timeline::SCHEMA;
 
 /// The programs of the order, one line each, and the readings on which their states rest.
-pub fn sequence_text(steps: &[Step]) -> String {
+pub fn sequence_text(steps: &[Step], detail: Detail) -> String {
     let lines = steps.iter().map(step_line);
-    let rests_on = steps.last().and_then(|last| rests_on_text(&last.rests_on));
+    let last = detail.full(steps.last()).flatten();
+    let rests_on = last.and_then(|last| rests_on_text(&last.rests_on));
     let lines = lines.chain(rests_on).map(|line| line + "\n");
     lines.collect()
 }

@@ -1,5 +1,7 @@
 //! The subject of the report: archives by machine, and the words for effects of programs.
 
+use crate::headline::{Headline, Standing};
+use crate::strings::counted;
 use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
 use frictcomp::comp::Kind;
 use frictcomp::machine::Machine;
@@ -44,7 +46,64 @@ impl MachineAudit {
     }
 }
 
+/// "33 programs leave X off, 262 run with it off"
+fn cause(finding: &AxisFinding) -> String {
+    let counts = [finding.leavers.len(), finding.inheritors.len()];
+    let verb = |count, one: &'static str, several| if count == 1 { one } else { several };
+    let away = if finding.on_at_start_up { "off" } else { "on" };
+    let programs = if counts[0] == 1 {
+        "program"
+    } else {
+        "programs"
+    };
+    format!(
+        "{} {programs} {} {} {away}, {} {} with it {away}",
+        counts[0],
+        verb(counts[0], "leaves", "leave"),
+        axis_name(&finding.axis, finding.kind),
+        counts[1],
+        verb(counts[1], "runs", "run"),
+    )
+}
+
+/// Axes that the verdict names; further ones are counted.
+const NAMED: usize = 3;
+
 impl AuditReport {
+    /// The verdict: how many programs leave an axis away from its start-up state, and how many run with it
+    /// (R10.2, R18.23).
+    pub fn headline(&self) -> Headline {
+        let programs = counted(self.programs(), "program");
+        let hazards = self.findings().filter(|it| it.hazards() > 0);
+        let mut said: Vec<String> = hazards.map(cause).collect();
+        let more = said.len().saturating_sub(NAMED);
+        said.truncate(NAMED);
+        if more > 0 {
+            said.push(format!("and {more} more of the axes"));
+        }
+        let (standing, text) = if self.findings().next().is_none() {
+            let text = format!("{programs}: no axis is configured for friction compensation");
+            (Standing::Open, text)
+        } else if !said.is_empty() {
+            (Standing::Bad, said.join("; "))
+        } else if self.possible_hazards() > 0 {
+            let text = format!(
+                "{programs}: in some order, one may move an axis that another left away from its start-up state"
+            );
+            (Standing::Open, text)
+        } else if self.has_unknown() {
+            let text = format!("{programs}: of some it is not known what they leave or inherit");
+            (Standing::Open, text)
+        } else {
+            let text = format!(
+                "{programs}: in no order does one move an axis that another left away from its start-up state"
+            );
+            (Standing::Good, text)
+        };
+        let assumptions = self.assumptions().map(str::to_owned);
+        Headline::new(standing, text).assuming(assumptions)
+    }
+
     pub(super) fn findings(&self) -> impl Iterator<Item = &AxisFinding> {
         self.machines.iter().flat_map(|machine| &machine.findings)
     }

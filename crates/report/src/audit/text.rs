@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::subject::{AuditReport, MachineAudit, Word, axis_name, is_shown};
 use crate::assumptions::rests_on_text;
+use crate::diagnostics::Detail;
 use crate::strings::counted;
 use crate::table::Table;
 use crate::visible::visible_line;
@@ -33,8 +34,8 @@ impl Length {
     }
 }
 
-/// The table, the findings and the cure of every machine.
-pub fn render_text(report: &AuditReport, length: Length) -> String {
+/// The table, the findings and the cure of every machine; the verdict is the last line (R18.20).
+pub fn render_text(report: &AuditReport, length: Length, detail: Detail) -> String {
     let mut out = String::new();
     for machine in &report.machines {
         if let Some(origin) = report.origin_among_several(machine) {
@@ -47,39 +48,11 @@ pub fn render_text(report: &AuditReport, length: Length) -> String {
         }
         out.push('\n');
     }
-    let _ = writeln!(out, "{}", total(report));
-    for assumption in report.assumptions() {
-        let _ = writeln!(out, "{}", visible_line(assumption));
-    }
-    if let Some(text) = rests_on_text(&report.rests_on()) {
+    if let Some(text) = detail.full(rests_on_text(&report.rests_on())).flatten() {
         let _ = writeln!(out, "{text}");
     }
+    let _ = writeln!(out, "{}", report.headline());
     out
-}
-
-fn total(report: &AuditReport) -> String {
-    let programs = counted(length_of(report.programs()), "program");
-    let hazards = report.hazards();
-    if report.findings().next().is_none() {
-        return format!("{programs}; no axis is configured for friction compensation");
-    }
-    let what = match hazards {
-        0 if report.possible_hazards() > 0 => {
-            let pairs = counted(report.possible_hazards(), "possible hazard");
-            format!("no certain hazard, but {pairs}: a program that leaves an axis away from its start-up state, and one that may move it in that state")
-        }
-        0 if report.has_unknown() => {
-            "no certain hazard, but programs of which it is not known what they leave or inherit".to_owned()
-        }
-        0 => "no order of these programs moves an axis outside its start-up state because of what another left"
-            .to_owned(),
-        1 => "1 hazard: a program that leaves an axis away from its start-up state, and one that inherits it"
-            .to_owned(),
-        more => format!(
-            "{more} hazards: ordered pairs of a program that leaves an axis away from its start-up state and one that inherits it"
-        ),
-    };
-    format!("{programs}; {what}")
 }
 
 /// A count that follows another one, if it is not zero.
@@ -154,12 +127,10 @@ fn push_finding(out: &mut String, machine: &MachineAudit, finding: &AxisFinding,
     let away = if finding.on_at_start_up { "off" } else { "on" };
     let _ = writeln!(
         out,
-        "{}: {} it {away}, {} in that state, {}{}{}",
+        "{}: {} it {away}, {} in that state{}",
         visible_line(&name),
         verb(finding.leavers.len(), finding, ("leaves", "leave")),
         verb(finding.inheritors.len(), finding, ("moves", "move")),
-        counted(finding.hazards(), "hazard"),
-        more(finding.possible_hazards(), "possible one"),
         more(length_of(finding.unknown.len()), "unknown program"),
     );
     let mut list = |title: &str, programs: &[usize], say: &dyn Fn(&ProgramAudit) -> String| {

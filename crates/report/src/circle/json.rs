@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::super::assumptions::not_modelled;
+use super::super::headline::Headline;
 use super::super::strings::to_pretty;
 use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast, round};
 use frictcomp_physics::circle::{
@@ -14,6 +15,7 @@ use frictcomp_physics::stiction::StictionParameters;
 #[derive(Serialize)]
 struct CircleDocument<'a> {
     schema: u32,
+    headline: Headline,
     #[serde(flatten)]
     conditions: ConditionsRecord<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -266,6 +268,7 @@ pub fn render_json(report: &CircleReport) -> String {
     };
     let document = CircleDocument {
         schema: 1,
+        headline: report.headline(),
         conditions,
         off: side("off"),
         on: side("on"),

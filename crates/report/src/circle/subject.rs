@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+use super::text::{advice_lines, no_glitches};
+use crate::headline::{Headline, Standing};
+
 use frictcomp_physics::circle::{
     Circle, CircularTest, Comparison, Diagnosis, RecordedCircle, Recording, Side, diagnose,
     diagnose_comparison,
@@ -108,6 +111,45 @@ impl CircleReport {
 }
 
 impl CircleReport {
+    /// The verdict: the largest glitch, without and with compensation or in the recording, and its cure (R18.20).
+    pub fn headline(&self) -> Headline {
+        let worst = |side: &NamedSide| {
+            let figures = &side.side.figures;
+            let paths = [&figures.ccw, &figures.cw].into_iter().flatten();
+            let glitches = paths.filter_map(|path| path.shape.as_ref());
+            let glitches = glitches.flat_map(|shape| shape.glitches.iter());
+            let worst = glitches.max_by(|one, other| one.height_um.total_cmp(&other.height_um));
+            worst.map(|it| (it.height_um, it.crossing))
+        };
+        let worsts: Option<Vec<_>> = self.sides.iter().map(worst).collect();
+        match (worsts.as_deref(), &self.subject) {
+            (Some([(off, _), (on, at)]), _) => Headline::new(
+                if on < off {
+                    Standing::Good
+                } else {
+                    Standing::Bad
+                },
+                format!("largest glitch {on:.1} µm at {at} with compensation, {off:.1} µm without"),
+            ),
+            (Some([(um, at)]), _) => {
+                let advice = self.sides.iter().flat_map(|side| advice_lines(self, side));
+                let advice: Vec<String> = advice.take(1).collect();
+                let (standing, advice) = match advice.as_slice() {
+                    [] => (Standing::Good, String::new()),
+                    said => (Standing::Bad, format!("; {}", said.join("; "))),
+                };
+                Headline::new(
+                    standing,
+                    format!("largest glitch {um:.1} µm at {at}{advice}"),
+                )
+            }
+            _ => Headline::new(
+                Standing::Open,
+                no_glitches(self).unwrap_or_else(|| "no glitch can be measured".to_owned()),
+            ),
+        }
+    }
+
     /// The radius in mm, and the feed in mm/min if it is known.
     pub(super) fn driven(&self) -> (f64, Option<f64>) {
         match &self.subject {

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::super::assumptions::{not_modelled, not_modelled_line};
+use super::super::diagnostics::Detail;
 use super::super::stiction::guideline;
 use super::super::table::Table;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
@@ -14,10 +15,16 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::stiction::StictionParameters;
 
-/// The report for people.
-pub fn render_text(report: &CircleReport) -> String {
-    let mut out = String::new();
-    for line in conditions(report) {
+/// The report for people: the verdict, then the figures.
+pub fn render_text(report: &CircleReport, detail: Detail) -> String {
+    let mut out = format!("{}\n", report.headline());
+    let shown = match &report.subject {
+        Subject::Recorded(recording) => recorded_conditions(recording),
+        Subject::Simulated {
+            saturated_cycles, ..
+        } => saturation(*saturated_cycles).into_iter().collect(),
+    };
+    for line in detail.full(conditions(report)).unwrap_or(shown) {
         let _ = writeln!(out, "{line}");
     }
     let columns = columns(report);
@@ -25,17 +32,18 @@ pub fn render_text(report: &CircleReport) -> String {
         .iter()
         .map(PathColumn::name)
         .fold(Table::default().left("µm"), Table::right);
+    let decimals = match report.subject {
+        Subject::Simulated { .. } => SIMULATED,
+        Subject::Recorded(_) => RECORDED,
+    };
     for row in figure_rows(&columns) {
-        table.cells(row.cells());
+        table.cells(row.cells(decimals));
     }
     table.cells(Vec::new());
     for row in shape_rows(&columns) {
-        table.cells(row.cells());
+        table.cells(row.cells(decimals));
     }
     let _ = write!(out, "\n{table}");
-    if let Some(line) = no_glitches(report) {
-        let _ = writeln!(out, "{line}");
-    }
     for side in &report.sides {
         let lines = advice_lines(report, side);
         if !lines.is_empty() {
@@ -47,6 +55,10 @@ pub fn render_text(report: &CircleReport) -> String {
     }
     out
 }
+
+/// Decimals of a simulated figure in µm (R18.26), and of a recorded one.
+const SIMULATED: usize = 1;
+const RECORDED: usize = 3;
 
 /// The figures of all paths, in µm.
 pub(crate) struct FigureTable {
@@ -170,6 +182,13 @@ pub(crate) fn no_glitches(report: &CircleReport) -> Option<String> {
     ))
 }
 
+/// Returns the cycles in which a force was limited, if there are any.
+fn saturation(cycles: u64) -> Option<String> {
+    (cycles > 0).then(|| {
+        format!("the drives reached their largest force in {cycles} cycles of the speed loop")
+    })
+}
+
 fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64) -> Vec<String> {
     let circle = &test.circle;
     let mut lines = vec![
@@ -195,11 +214,7 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
     lines.push(format!(
         "centre: the commanded one for F and D; {TREATMENT}"
     ));
-    if saturated > 0 {
-        lines.push(format!(
-            "the drives reached their largest force in {saturated} cycles of the speed loop"
-        ));
-    }
+    lines.extend(saturation(saturated));
     lines.push(not_modelled_line(&not_modelled([
         &test.plant.x,
         &test.plant.y,
@@ -420,9 +435,9 @@ impl FigureRow {
         self.values.iter().any(Option::is_some)
     }
 
-    fn cells(&self) -> Vec<String> {
+    fn cells(&self, decimals: usize) -> Vec<String> {
         let values = self.values.iter();
-        let values = values.map(|value| value.map(|value| Rounded(value, 3).to_string()));
+        let values = values.map(|value| value.map(|value| Rounded(value, decimals).to_string()));
         let name = [self.name.clone()].into_iter();
         name.chain(values.map(Option::unwrap_or_default)).collect()
     }

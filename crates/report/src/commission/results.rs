@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::plants::{PlantVerdict, Plants, push_plants};
 use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
+use crate::headline::{Headline, Standing};
 use crate::strings::{counted, to_pretty};
 use crate::table::Table;
 use crate::visible::visible_line;
@@ -138,6 +139,50 @@ impl Round {
 }
 
 impl ResultsReport {
+    /// The verdict: whether the lists of the last round are accepted, and what speaks against them (R18.20).
+    pub fn headline(&self) -> Headline {
+        let missing = match self.missing().as_slice() {
+            [] => String::new(),
+            files => format!("; not recorded, or not usable: {}", files.join(", ")),
+        };
+        let plant = self.fitted.verdicts.last();
+        let rejected = plant.and_then(|plant| plant.rejected.first());
+        let (standing, text) = match self.rounds.last().map(|it| (it, it.against.as_deref())) {
+            None | Some((_, None)) => (
+                Standing::Open,
+                "no list is accepted yet: the motion with compensation on is not recorded"
+                    .to_owned(),
+            ),
+            Some((round, Some(_))) if round.is_accepted() => (
+                if self.is_complete() {
+                    Standing::Good
+                } else {
+                    Standing::Open
+                },
+                format!(
+                    "the lists of round {} are accepted: at each of the {} recorded feeds they leave no more than \
+                     there was without them{}",
+                    round.number,
+                    round.recorded.len(),
+                    round.limit()
+                ),
+            ),
+            Some((round, Some(against))) => {
+                let reason = against.iter().chain(&round.not_shown).next();
+                let reason = reason.map_or(String::new(), |it| format!(": {it}"));
+                let text = format!(
+                    "the lists of round {} are {}{reason}",
+                    round.number,
+                    round.refusal()
+                );
+                (Standing::Bad, text)
+            }
+        };
+        let rejected =
+            rejected.map_or(String::new(), |it| format!("; the plant is rejected: {it}"));
+        Headline::new(standing, format!("{text}{rejected}{missing}"))
+    }
+
     /// The programs of stage 1 and of the last round that have no usable recording.
     pub fn missing(&self) -> Vec<String> {
         let last = self.plans.len().saturating_sub(1);
@@ -183,7 +228,7 @@ impl ResultsReport {
 
 /// The recordings, what is missing, the lists, and the circles before and after.
 pub fn render_results(report: &ResultsReport) -> String {
-    let mut out = String::new();
+    let mut out = format!("{}\n\n", report.headline());
     let _ = writeln!(
         out,
         "{}, {} of them known from an earlier run\n",
@@ -225,11 +270,6 @@ pub fn render_results(report: &ResultsReport) -> String {
     }
     if report.rounds.iter().any(|it| it.against.is_some()) {
         push_plants(&mut out, &report.fitted);
-    }
-    if report.rounds.iter().all(|it| it.against.is_none()) {
-        out.push_str(
-            "\nno list is accepted: stage 2, the same motion with it on, is not recorded\n",
-        );
     }
     out
 }

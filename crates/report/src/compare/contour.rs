@@ -108,7 +108,6 @@ pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
     if left > 0 {
         let _ = writeln!(out, "… {left} more blocks");
     }
-    let _ = writeln!(out, "{}", report.verdict());
     for (which, obstacle) in comparison.obstacles() {
         let _ = writeln!(
             out,

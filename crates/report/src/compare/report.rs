@@ -6,8 +6,10 @@ use serde::Serialize;
 use unicode_width::UnicodeWidthStr;
 
 use super::contour::{ContourRecord, ContoursReport, push_contours};
+use crate::headline::{Headline, Standing};
 use crate::strings::to_pretty;
 use crate::visible::visible_line;
+use frictcomp::comp::{Kind, State};
 use frictcomp_physics::compare::{Agreement, Obstacle, Reason, Switch, VersionComparison, Which};
 
 /// A comparison, and its subjects.
@@ -26,8 +28,31 @@ pub struct VersionsReport {
 }
 
 impl VersionsReport {
+    /// The verdict: what changes at the end of the program, then whether the versions switch alike (R18.20, R18.22).
+    pub fn headline(&self) -> Headline {
+        let is_known = self.comparison.agreement() != Agreement::NotComparable;
+        let ends = self.comparison.ends().iter().filter(|_| is_known);
+        let ends = ends.map(|end| {
+            let kind = match end.kind {
+                Kind::Frict => String::new(),
+                kind => format!(" {kind}"),
+            };
+            let [old, new] = [end.old, end.new].map(State::as_str);
+            format!("{}{kind} is now {new} at the end (before: {old})", end.axis)
+        });
+        let standing = match self.comparison.agreement() {
+            Agreement::Same => Standing::Good,
+            Agreement::Different => Standing::Bad,
+            Agreement::NotComparable => Standing::Open,
+        };
+        let contours = self.contours.iter();
+        let contours = contours.map(|it| format!("contour: {}", it.verdict()));
+        let parts: Vec<String> = ends.chain([self.verdict()]).chain(contours).collect();
+        Headline::new(standing, parts.join("; "))
+    }
+
     /// Returns the result of the comparison, a sentence without its end.
-    pub(crate) fn verdict(&self) -> String {
+    fn verdict(&self) -> String {
         match self.comparison.agreement() {
             Agreement::Same => {
                 let count = self.comparison.common();
@@ -57,11 +82,12 @@ pub fn render_text(report: &VersionsReport) -> String {
     if let Some(remark) = &report.remark {
         let _ = writeln!(out, "{}\n", visible_line(remark));
     }
+    let _ = writeln!(out, "{}", report.headline());
     let comparison = &report.comparison;
     let differences: Vec<_> = comparison.differences().collect();
     if !differences.is_empty() {
         let (old, new) = (visible_line(&report.old), visible_line(&report.new));
-        let _ = writeln!(out, "--- {old}\n+++ {new}");
+        let _ = writeln!(out, "\n--- {old}\n+++ {new}");
     }
     let places = differences.iter().map(|(_, switch)| switch.place().width());
     let width = places.max().unwrap_or_default().max(LINE);
@@ -75,9 +101,6 @@ pub fn render_text(report: &VersionsReport) -> String {
         let told = obstacle.to_string();
         let _ = writeln!(out, "not comparable: {}", visible_line(&told));
     }
-    if comparison.agreement() == Agreement::Same {
-        let _ = writeln!(out, "{}", report.verdict());
-    }
     if let Some(contours) = &report.contours {
         push_contours(&mut out, contours);
     }
@@ -90,6 +113,7 @@ struct ComparisonDocument<'a> {
     old: &'a str,
     new: &'a str,
     remark: Option<&'a str>,
+    headline: Headline,
     verdict: &'static str,
     common: usize,
     differences: Vec<DifferenceRecord<'a>>,
@@ -167,6 +191,7 @@ pub fn render_json(report: &VersionsReport) -> String {
         old: &report.old,
         new: &report.new,
         remark: report.remark.as_deref(),
+        headline: report.headline(),
         verdict: comparison.agreement().as_str(),
         common: comparison.common(),
         differences: comparison

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::places::record;
 use super::recorder::ContourRecorder;
 use super::records::{reversal_record, rounded};
+use super::text::headline;
 use crate::assumptions::not_modelled;
 use frictcomp_physics::contour::{
     ContourLimits, ContourOptions, ContourReversal, ContourSink, ContourSummary, ContourVerdict,
@@ -110,6 +111,7 @@ pub fn summary_record(
     let axes = axes.map(|axis| axis_record(axis, contour.options()));
     json!({
         "schema": 1,
+        "headline": headline(contour),
         "machine_time": rounded(contour.machine_time_s(), 6),
         "verdict": verdict.map(ContourVerdict::as_str),
         "not_judged": reasons.collect::<Vec<String>>(),

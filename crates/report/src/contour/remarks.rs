@@ -2,6 +2,7 @@
 
 use super::places::ProgramBlock;
 use crate::assumptions::rests_on_text;
+use crate::diagnostics::Detail;
 use crate::limits::assumed_limits;
 use crate::visible::visible_line;
 use frictcomp_physics::contour::{
@@ -12,14 +13,17 @@ use frictcomp_physics::motion::{Departure, Transitions};
 
 /// The programmed feed and the reached one, the assumed limits, and lists that do not belong to the
 /// plant: one line each (R11.23, R11.25).
-pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
+pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>, detail: Detail) -> Vec<String> {
     let mut lines: Vec<String> = feed(contour).into_iter().collect();
+    let assumed = detail.full(assumed_limits(contour.assumed_limits()));
+    let assumed = assumed.into_iter().flatten();
+    let rests_on = detail.full(rests_on_text(contour.rests_on())).flatten();
     lines.extend(transitions(&contour.transitions()));
-    lines.extend(assumed_limits(contour.assumed_limits()));
+    lines.extend(assumed);
     let options = contour.options();
     let axes = options.axes.iter();
     lines.extend(axes.filter_map(|axis| misfit(axis, options)));
-    lines.extend(rests_on_text(contour.rests_on()));
+    lines.extend(rests_on);
     lines
 }
 

@@ -6,8 +6,11 @@ use super::places::ProgramBlock;
 use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
 use crate::assumptions::{not_modelled, not_modelled_line};
+use crate::diagnostics::Detail;
 use crate::glitch::glitch_in_words;
+use crate::headline::{Headline, Standing};
 use crate::report_text::ReportText;
+use crate::strings::counted;
 use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::comp::State;
@@ -36,25 +39,107 @@ impl ContourSubject {
     }
 }
 
-/// The figures of the three runs, a sentence for each axis, the worst reversals, and what is not
-/// modelled.
+/// The verdict: the reversals without compensation and what they cost, or what is not judged (R18.11, R18.20,
+/// R18.26).
+pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
+    let missing = contour.axes().iter().filter(|axis| axis.uncompensated > 0);
+    let costs = |axis: &&ContourSummary| {
+        let dearest = axis.dearest.as_ref();
+        dearest.is_some_and(|it| it.figure == GlitchFigure::Measured)
+    };
+    let any_cost = missing.clone().any(|axis| costs(&axis));
+    let missing = missing.filter(|axis| costs(axis) || !any_cost);
+    let missing = missing.map(|axis| {
+        let reversals = counted(axis.uncompensated, "reversal");
+        let cost = axis
+            .dearest
+            .as_ref()
+            .filter(|_| any_cost)
+            .map_or(String::new(), |dearest| {
+                format!(
+                    ": {:.1} µm at {}, {:.1} µm with compensation",
+                    dearest.glitch_um.programmed,
+                    ProgramBlock::from(dearest).words(),
+                    dearest.glitch_um.all_on,
+                )
+            });
+        format!("{} is not compensated at {reversals}{cost}", axis.axis)
+    });
+    let missing: Vec<String> = missing.collect();
+    let worst = contour.axes().iter().filter_map(|axis| axis.worst.as_ref());
+    let worst = worst.max_by(|one, other| {
+        one.glitch_um
+            .programmed
+            .total_cmp(&other.glitch_um.programmed)
+    });
+    let (standing, found) = if !missing.is_empty() {
+        (Standing::Bad, missing.join("; "))
+    } else if let Some(worst) = worst
+        && worst.glitch_um.all_on > worst.glitch_um.all_off
+    {
+        let text = format!(
+            "compensation makes {} worse: {:.1} µm at {}, {:.1} µm without compensation",
+            worst.axis,
+            worst.glitch_um.programmed,
+            ProgramBlock::from(worst).words(),
+            worst.glitch_um.all_off
+        );
+        (Standing::Bad, text)
+    } else if let Some(worst) = worst {
+        let text = format!(
+            "every reversal that was driven is compensated: {} leaves at most {:.1} µm, at {}",
+            worst.axis,
+            worst.glitch_um.programmed,
+            ProgramBlock::from(worst).words()
+        );
+        (Standing::Good, text)
+    } else if contour.deviations().programmed.max_at().is_some() {
+        (Standing::Good, "no axis reverses while cutting".to_owned())
+    } else {
+        (
+            Standing::Open,
+            "no path was driven while cutting".to_owned(),
+        )
+    };
+    let obstacles = contour.obstacles();
+    match (obstacles.first(), standing) {
+        (None, _) => Headline::new(standing, found),
+        (Some(first), standing) => {
+            let standing = if standing == Standing::Bad {
+                standing
+            } else {
+                Standing::Open
+            };
+            Headline::new(standing, format!("not judged as a whole: {first}; {found}"))
+        }
+    }
+}
+
+/// The verdict, the figures of the three runs, a sentence for each axis and the worst reversals; in full detail
+/// the conditions, too.
 pub fn render_text(
     contour: &mut ProgramContour<ContourRecorder<'_>>,
     subject: &ContourSubject,
+    detail: Detail,
 ) -> String {
-    report_text(contour, subject).to_string()
+    format!(
+        "{}\n{}",
+        headline(contour),
+        report_text(contour, subject, detail)
+    )
 }
 
-/// Returns the report as sentences and tables.
+/// Returns what follows the verdict as sentences and tables.
 pub(crate) fn report_text(
     contour: &mut ProgramContour<ContourRecorder<'_>>,
     subject: &ContourSubject,
+    detail: Detail,
 ) -> ReportText {
     let mut out = ReportText::default();
     let axes = &contour.options().axes;
     let _ = writeln!(
         out,
-        "{}: contour in the plane {}{}, {:.3} s of machine time, plant {}\n",
+        "\n{}: contour in the plane {}{}, {:.3} s of machine time, plant {}\n",
         visible_line(&subject.program),
         axes[0].name,
         axes[1].name,
@@ -74,7 +159,7 @@ pub(crate) fn report_text(
     } else {
         out.push_str("no path was driven while cutting: there are no deviations to report\n");
     }
-    for line in contour_remarks(contour) {
+    for line in contour_remarks(contour, detail) {
         let _ = writeln!(out, "{line}");
     }
     out.push_str("\n");
@@ -85,12 +170,14 @@ pub(crate) fn report_text(
     push_switches(&mut out, contour.sink().switches());
     push_beside_the_plane(&mut out, contour.axes());
     push_worst(&mut out, contour.sink().worst(), &subject.program);
-    out.push_str("\n");
-    for axis in &contour.options().axes {
-        let _ = writeln!(out, "{}", compensation(axis));
+    if detail == Detail::Full {
+        out.push_str("\n");
+        for axis in &contour.options().axes {
+            let _ = writeln!(out, "{}", compensation(axis));
+        }
+        let drives = contour.options().axes.iter().map(|axis| &axis.drive);
+        let _ = writeln!(out, "{}", not_modelled_line(&not_modelled(drives)));
     }
-    let drives = contour.options().axes.iter().map(|axis| &axis.drive);
-    let _ = writeln!(out, "{}", not_modelled_line(&not_modelled(drives)));
     let unknown = contour.time_not_of_the_machine_s();
     if unknown > 0.0 {
         let _ = writeln!(
@@ -123,7 +210,7 @@ fn push_figures<S: ContourSink>(out: &mut ReportText, contour: &ProgramContour<S
         ("innermost", runs.map(|run| run.innermost_um)),
         ("root mean square", runs.map(Deviations::rms_um)),
     ] {
-        let [programmed, on, off] = values.map(|value| format!("{:.2}", value + 0.0));
+        let [programmed, on, off] = values.map(|value| format!("{:.1}", value + 0.0));
         table.row(&[&name, &programmed, &on, &off]);
     }
     out.table(table);
@@ -165,7 +252,7 @@ fn push_due<S: ContourSink>(out: &mut ReportText, contour: &ProgramContour<S>) {
     let _ = match &due.at {
         Some(at) => writeln!(
             out,
-            "missing compensation costs up to {:.2} µm, at {}",
+            "missing compensation costs up to {:.1} µm, at {}",
             due.um,
             ProgramBlock::from(&**at).words()
         ),
@@ -336,7 +423,7 @@ fn push_worst(out: &mut ReportText, worst: &[ContourReversal], program: &str) {
         let glitches = [glitch.programmed, glitch.all_on, glitch.all_off];
         let [programmed, all_on, all_off] = glitches.map(|um| {
             if is_measured {
-                format!("{um:.2}")
+                format!("{um:.1}")
             } else {
                 "-".to_owned()
             }

@@ -5,11 +5,12 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Lead, Page, PagePart, Tone};
+use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, with_code};
 use super::source::Sources;
 use crate::assumptions::rests_on_text;
 use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use crate::headline::Headline;
 use crate::strings::counted;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
 
@@ -40,10 +41,7 @@ pub fn render_audit(
     let mut page = Page::open(
         out,
         "What the order of programs does",
-        Lead {
-            tone: tone(report),
-            text: &lead(report),
-        },
+        &lead(report),
         &parts,
     )?;
     page.long_part(FINDINGS, |page| {
@@ -66,42 +64,12 @@ pub fn render_audit(
     page.close()
 }
 
-fn lead(report: &AuditReport) -> String {
-    let found = found(report);
-    match &report.not_checked {
-        Some(programs) => format!("{found}; not checked: {programs}"),
-        None => found,
+fn lead(report: &AuditReport) -> Headline {
+    let mut headline = report.headline();
+    if let Some(programs) = &report.not_checked {
+        headline.text = format!("{}; not checked: {programs}", headline.text);
     }
-}
-
-fn tone(report: &AuditReport) -> Tone {
-    let hazards = report.hazards() + report.possible_hazards();
-    if hazards > 0 || report.has_unknown() || report.not_checked.is_some() {
-        Tone::Warning
-    } else {
-        Tone::Good
-    }
-}
-
-fn found(report: &AuditReport) -> String {
-    let programs = counted(
-        u64::try_from(report.programs()).unwrap_or(u64::MAX),
-        "program",
-    );
-    let hazards = report.hazards();
-    match hazards {
-        0 if report.has_unknown() => {
-            format!("{programs}; of some it is not known what they leave or inherit")
-        }
-        0 if report.possible_hazards() > 0 => format!(
-            "{programs}, {}",
-            counted(report.possible_hazards(), "possible hazard")
-        ),
-        0 => format!(
-            "{programs}; no axis moves outside its start-up state because of what another program left"
-        ),
-        _ => format!("{programs}, {}", counted(hazards, "hazard")),
-    }
+    headline
 }
 
 /// The relevant lines, by file.

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Lead, Page, PagePart, Tone};
+use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, with_code};
 use crate::circle::{CircleReport, Subject, advice_lines, conditions, table};
 use crate::pictures::{circle, value_curve};
@@ -27,17 +27,12 @@ const CONDITIONS: PagePart = PagePart::new("conditions", "Conditions");
 pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<()> {
     let chart = circle(report);
     let told = conditions(report);
-    let glitches = chart.description.split_once(". ").map_or("", |it| it.1);
-    let lead = Lead {
-        tone: Tone::Plain,
-        text: glitches,
-    };
     let lists = lists(report);
     let mut parts = vec![PICTURE, FIGURES, ADVICE, CONDITIONS];
     if !lists.is_empty() {
         parts.insert(3, CURVES);
     }
-    let mut page = Page::open(out, &chart.title, lead, &parts)?;
+    let mut page = Page::open(out, &chart.title, &report.headline(), &parts)?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("circle"))))?;
     page.part(FIGURES, &figures(report))?;
     page.part(ADVICE, &advice(report))?;

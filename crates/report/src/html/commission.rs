@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Lead, Page, PagePart, Tone};
+use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::commission::{AxisVerdict, PlantVerdict, ResultsReport, Round, list_on, parameters};
 use crate::pictures::{friction_of_axis, glitches_by_feed};
@@ -52,26 +52,19 @@ pub fn render_acceptance(
             .unwrap_or("a machine without a name")
     );
     let figures = if report.fitted.verdicts.is_empty() {
-        "Every figure is recorded, none is predicted."
+        "Every figure is recorded, none is predicted"
     } else {
-        "What depends on the fitted plant is called predicted; every other figure is recorded."
+        "What depends on the fitted plant is called predicted; every other figure is recorded"
     };
-    let recorded = format!(
-        "Recordings: {}. {figures}",
-        given.date.as_deref().unwrap_or("date not stated")
-    );
+    let date = given.date.as_deref().unwrap_or("date not stated");
+    let recorded = format!("Recordings: {date}. {figures}.");
     let axes: Vec<(PagePart, &AxisVerdict)> = AXES.into_iter().zip(&report.axes).collect();
     let parts: Vec<PagePart> = [VERDICT, CIRCLES]
         .into_iter()
         .chain(axes.iter().map(|it| it.0))
         .chain([GROUNDS, FILES])
         .collect();
-    let (tone, sentence) = judged(report);
-    let lead = Lead {
-        tone,
-        text: &sentence,
-    };
-    let mut page = Page::open(out, &title, lead, &parts)?;
+    let mut page = Page::open(out, &title, &report.headline(), &parts)?;
     page.part(VERDICT, &html! { p { (recorded) } (verdict(report)) })?;
     page.part(CIRCLES, &circles(report))?;
     for (part, axis) in axes {
@@ -84,34 +77,6 @@ pub fn render_acceptance(
     page.part(FILES, &files(report))?;
     page.raw("</div>\n");
     page.close()
-}
-
-/// Returns the verdict on the last round, in a sentence.
-fn judged(report: &ResultsReport) -> (Tone, String) {
-    match report.rounds.last() {
-        Some(round) if round.is_accepted() => (
-            Tone::Good,
-            format!(
-                "Accepted: at each of the {} recorded feeds the lists of round {} leave no more than there was without \
-                 them. Other feeds were not recorded{}.",
-                round.recorded.len(),
-                round.number,
-                round.limit()
-            ),
-        ),
-        Some(round) if round.against.is_some() => (
-            Tone::Warning,
-            format!(
-                "The lists of round {} are {}; the earlier ones stay.",
-                round.number,
-                round.refusal()
-            ),
-        ),
-        _ => (
-            Tone::Warning,
-            "No list is accepted: the motion with compensation on is not recorded.".to_owned(),
-        ),
-    }
 }
 
 fn verdict(report: &ResultsReport) -> Markup {

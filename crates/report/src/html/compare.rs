@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Lead, Page, PagePart, Tone};
+use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, with_code};
 use crate::compare::{ContoursReport, VersionsReport, sign};
 use crate::contour::places::ProgramBlock;
@@ -24,13 +24,9 @@ const MAX_CHANGES: usize = 4000;
 pub fn render_versions(report: &VersionsReport, out: &mut dyn Write) -> io::Result<()> {
     let title = format!("{} and {}", report.old, report.new);
     let contours = report.contours.as_ref();
-    let lead = Lead {
-        tone: Tone::Plain,
-        text: &lead(report),
-    };
     let mut parts = vec![RESULT, CHANGES];
     parts.extend(contours.map(|_| CONTOURS));
-    let mut page = Page::open(out, &title, lead, &parts)?;
+    let mut page = Page::open(out, &title, &report.headline(), &parts)?;
     page.part(RESULT, &result(report))?;
     page.part(CHANGES, &changes(report))?;
     if let Some(contours) = contours {
@@ -104,16 +100,6 @@ fn change_row(report: &ContoursReport, change: &BlockChange) -> HtmlRow {
         &format!("{}:{}", change.block.file, change.block.line),
         cells,
     )
-}
-
-fn lead(report: &VersionsReport) -> String {
-    let verdict = report.verdict();
-    let (first, rest) = verdict.split_at(1);
-    let switched = format!("{}{rest}.", first.to_ascii_uppercase());
-    match &report.contours {
-        Some(contours) => format!("{switched} Contour: {}.", contours.verdict()),
-        None => switched,
-    }
 }
 
 fn result(report: &VersionsReport) -> Markup {

@@ -5,12 +5,12 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Lead, Page, PagePart, Tone};
+use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, prose};
 use super::reversed::ReversedFiles;
 use super::source::Sources;
-use crate::contour::places::ProgramBlock;
-use crate::contour::{ContourRecorder, ContourSubject, report_text};
+use crate::contour::{ContourRecorder, ContourSubject, headline, report_text};
+use crate::diagnostics::Detail;
 use crate::pictures::ContourPicture;
 use crate::svg::Frame;
 use frictcomp::comp::State;
@@ -35,19 +35,15 @@ pub fn render_contour(
     sources: &mut dyn Sources,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let figures = prose(&report_text(contour, subject));
-    let (tone, sentence) = judged(contour);
-    let lead = Lead {
-        tone,
-        text: &sentence,
-    };
+    let headline = headline(contour);
+    let figures = prose(&report_text(contour, subject, Detail::Full));
     let name = subject.heading(contour);
     let is_whole = contour.is_whole();
     let reversals = contour.sink().reversals();
     let files = ReversedFiles::of(reversals);
     let chart = picture.linked_chart(&name, |file, line| files.link(file, line));
     let parts = [PICTURE, FIGURES, REVERSALS, SOURCE];
-    let mut page = Page::open(out, &chart.title, lead, &parts)?;
+    let mut page = Page::open(out, &chart.title, &headline, &parts)?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("contour"))))?;
     page.part(FIGURES, &figures)?;
     page.part(REVERSALS, &table(reversals, &files))?;
@@ -57,33 +53,6 @@ pub fn render_contour(
         _ => files.render(page, sources),
     })?;
     page.close()
-}
-
-/// Cost of missing compensation in µm from which it is worth a look.
-const NOTICEABLE_UM: f64 = 1.0;
-
-/// Returns whether compensation is missing, in a sentence.
-fn judged(contour: &ProgramContour<ContourRecorder<'_>>) -> (Tone, String) {
-    let driven = contour.deviations().programmed.max_at().is_some();
-    let due = contour.due();
-    match &due.at {
-        _ if !driven => (Tone::Error, "No path was driven while cutting.".to_owned()),
-        Some(at) if due.um >= NOTICEABLE_UM => (
-            Tone::Warning,
-            format!(
-                "Missing compensation costs up to {:.1} \u{b5}m, at {}.",
-                due.um,
-                ProgramBlock::from(&**at).words()
-            ),
-        ),
-        _ if !contour.obstacles().is_empty() => {
-            (Tone::Warning, "The contour is not judged.".to_owned())
-        }
-        _ => (
-            Tone::Good,
-            "No compensation is missing on the driven path.".to_owned(),
-        ),
-    }
 }
 
 /// The reversals of each line, the lines with the worst first.

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use maud::html;
 
-use super::page::{Lead, Page, PagePart, Tone};
+use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, prose};
 use crate::identify::{IdentifyReport, report_text};
 use crate::pictures::{channels, friction_curve, residuals_over_position, segments_on_trace};
@@ -28,26 +28,8 @@ const CHANNELS: PagePart = PagePart::new("channels", "Channels");
 pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io::Result<()> {
     let chart = friction_curve(report);
     let findings: Vec<_> = report.findings().collect();
-    let text = format!(
-        "Identified from {}, in {}: {}.",
-        report.name,
-        report.unit(),
-        match findings.len() {
-            0 => "nothing is odd".to_owned(),
-            1 => "1 thing to look at".to_owned(),
-            many => format!("{many} things to look at"),
-        }
-    );
-    let lead = Lead {
-        tone: if findings.is_empty() {
-            Tone::Good
-        } else {
-            Tone::Warning
-        },
-        text: &text,
-    };
     let parts = [FINDINGS, CURVE, SPEEDS, POSITION, SEGMENTS, REPORT];
-    let mut page = Page::open(out, &chart.title, lead, &parts)?;
+    let mut page = Page::open(out, &chart.title, &report.headline(), &parts)?;
     page.part(
         FINDINGS,
         &html! {
@@ -102,11 +84,7 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
 /// Those of `out`.
 pub fn render_trace(report: &TraceReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let chart = channels(report);
-    let lead = Lead {
-        tone: Tone::Plain,
-        text: report.recording.layout().as_str(),
-    };
-    let mut page = Page::open(out, &chart.title, lead, &[PICTURE, CHANNELS])?;
+    let mut page = Page::open(out, &chart.title, &report.headline(), &[PICTURE, CHANNELS])?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("channels"))))?;
     page.part(CHANNELS, &prose(&channels_text(report)))?;
     page.close()

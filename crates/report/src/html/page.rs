@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use maud::{Markup, PreEscaped, html};
 
 use super::parts::with_code;
+use crate::headline::Headline;
 use crate::svg;
 use crate::visible::visible;
 
@@ -33,37 +34,6 @@ pub(super) struct Page<'a> {
     buffer: String,
 }
 
-/// The sentence that opens a page.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Lead<'a> {
-    pub(super) tone: Tone,
-    pub(super) text: &'a str,
-}
-
-/// The colour of a sentence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Tone {
-    /// It judges nothing.
-    Plain,
-    /// Nothing is left to do.
-    Good,
-    /// There is something to look at.
-    Warning,
-    /// Something is wrong, or could not be done.
-    Error,
-}
-
-impl Tone {
-    fn class(self) -> &'static str {
-        match self {
-            Self::Plain => "lead",
-            Self::Good => "lead verdict good",
-            Self::Warning => "lead verdict warning",
-            Self::Error => "lead verdict error",
-        }
-    }
-}
-
 /// A part of the page that the navigation leads to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PagePart {
@@ -78,11 +48,11 @@ impl PagePart {
 }
 
 impl<'a> Page<'a> {
-    /// Opens a page with its title, its lead and links to its parts.
+    /// Opens a page with its title, the verdict and links to its parts.
     pub(super) fn open(
         out: &'a mut dyn Write,
         title: &str,
-        lead: Lead<'_>,
+        headline: &Headline,
         parts: &[PagePart],
     ) -> io::Result<Self> {
         let mut page = Self {
@@ -99,7 +69,7 @@ impl<'a> Page<'a> {
             a.skip href="#content" { "Skip to the content" } "\n"
             header {
                 h1 { (title) }
-                p class=(lead.tone.class()) { (with_code(lead.text)) }
+                p class={ "lead " (headline.standing.as_str()) } { (with_code(&headline.sentence())) }
                 nav aria-label="Parts of the report" {
                     ul {
                         @for part in parts {

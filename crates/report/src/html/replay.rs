@@ -4,8 +4,9 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Lead, Page, PagePart, Tone};
+use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
+use crate::headline::Headline;
 use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, Frame, StartUpRelation};
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Rounded;
@@ -19,6 +20,8 @@ const CHANGES: PagePart = PagePart::new("changes", "Changes");
 pub struct ReplayReport {
     /// Name of the recording.
     pub recording: String,
+    /// The verdict.
+    pub headline: Headline,
     /// The verdicts on the whole, in sentences.
     pub verdicts: Vec<String>,
     /// Each axis of the recording.
@@ -48,12 +51,7 @@ pub struct ReplayReportAxis {
 /// Those of `out`.
 pub fn render_replay(report: &ReplayReport, out: &mut dyn Write) -> io::Result<()> {
     let title = format!("{} compared with the dry run", report.recording);
-    let against = report.axes.iter().any(|axis| !axis.against.is_empty());
-    let lead = Lead {
-        tone: if against { Tone::Warning } else { Tone::Plain },
-        text: "Friction compensation as the machine recorded it, compared with the dry run of the programs.",
-    };
-    let mut page = Page::open(out, &title, lead, &[VERDICT, STATES, CHANGES])?;
+    let mut page = Page::open(out, &title, &report.headline, &[VERDICT, STATES, CHANGES])?;
     page.part(VERDICT, &verdict(report))?;
     page.part(
         STATES,

@@ -7,13 +7,14 @@ use maud::{Markup, html};
 
 use super::digest::{RunDigest, SummaryDigest};
 use super::given::RunInputs;
-use super::page::{Lead, Page, PagePart, Tone};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, state_word, with_code};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, state_word};
 use super::source::{self, Sources};
 use super::{assumptions, machine, messages, states};
-use crate::advice::{all_home, axis_advice, error_advice, is_home};
+use crate::advice::FinalStates;
 use crate::assumptions::SessionFacts;
 use crate::feed_moves::feed_moves_text;
+use crate::headline::{Headline, Standing};
 use crate::strings::counted;
 use crate::visible::last_part;
 use frictcomp::comp::Kind;
@@ -39,11 +40,7 @@ pub fn render_run(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let parts = [LEFT, STATES, MESSAGES, SOURCE, MACHINE, CURVES, READING];
-    let lead = Lead {
-        tone: tone(digest),
-        text: &lead(digest),
-    };
-    let mut page = Page::open(out, &title(digest), lead, &parts)?;
+    let mut page = Page::open(out, &title(digest), &lead(digest), &parts)?;
     page.part(LEFT, &left(digest))?;
     page.long_part(STATES, |page| states::render(page, digest))?;
     page.part(MESSAGES, &messages::render(digest))?;
@@ -91,26 +88,29 @@ fn title(digest: &RunDigest) -> String {
     title
 }
 
-/// Renders the text under the title, starting with the remark that no machine is described (R1.37).
-fn lead(digest: &RunDigest) -> String {
-    match &digest.remark {
-        Some(remark) => format!("{remark}. {}", counts(digest)),
-        None => counts(digest),
-    }
-}
-
-fn tone(digest: &RunDigest) -> Tone {
+/// Returns the verdict, after the remark that no machine is described (R1.37).
+fn lead(digest: &RunDigest) -> Headline {
     let Some(summary) = &digest.summary else {
-        return Tone::Error;
+        return Headline::new(Standing::Open, NOT_ENDED);
     };
-    let has = |severity| summary.counts.get(&severity).is_some_and(|it| *it > 0);
-    if has(Severity::Error) {
-        Tone::Error
-    } else if has(Severity::Warning) || digest.remark.is_some() || !summary.axes.iter().all(is_home)
-    {
-        Tone::Warning
-    } else {
-        Tone::Good
+    let count = |severity| summary.counts.get(&severity).copied().unwrap_or_default();
+    let axes = summary.axes.iter();
+    let states = FinalStates {
+        axes: axes
+            .map(|axis| (digest.axis_name(axis.axis), axis))
+            .collect(),
+        assumed: &summary.assumed,
+        errors: count(Severity::Error),
+        warnings: count(Severity::Warning),
+        by: digest.ended(),
+        assumption: digest.assumption.clone(),
+        is_described: digest.remark.is_none(),
+    };
+    let found = states.headline();
+    let found = found.unwrap_or_else(|| Headline::new(Standing::Open, counts(digest)));
+    match &digest.remark {
+        Some(remark) => Headline::new(found.standing, format!("{remark}. {}", found.text)),
+        None => found,
     }
 }
 
@@ -128,11 +128,11 @@ fn counts(digest: &RunDigest) -> String {
     )
 }
 
-const NOT_ENDED: &str = "The session did not run to its end.";
+const NOT_ENDED: &str = "the session did not run to its end";
 
 fn left(digest: &RunDigest) -> Markup {
     let Some(summary) = &digest.summary else {
-        return html! { p { (NOT_ENDED) } };
+        return html! {};
     };
     let table = HtmlTable {
         caption: Caption::Heard(LEFT.title),
@@ -162,7 +162,8 @@ fn left(digest: &RunDigest) -> Markup {
              and remains so."
         }
         (table.render(rows))
-        (advice(digest, summary))
+        p { (counts(digest)) "." }
+        (uncompensated(digest, summary))
         @if !summary.opaque.is_empty() {
             p {
                 "Passed over: "
@@ -175,35 +176,16 @@ fn left(digest: &RunDigest) -> Markup {
     }
 }
 
-fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
-    let count = |severity| summary.counts.get(&severity).copied().unwrap_or_default();
-    let [errors, warnings] = [Severity::Error, Severity::Warning].map(count);
-    let mut advice: Vec<String> = (summary.axes.iter())
-        .filter_map(|axis| {
-            let name = digest.axis_name(axis.axis);
-            axis_advice(axis, name).map(|text| format!("{name}{text}"))
-        })
-        .collect();
-    advice.extend(error_advice(errors, digest.ended()).map(str::to_owned));
-    let uncompensated: Vec<String> = (summary.axes.iter())
-        .filter_map(|axis| {
-            let of = digest.axes.get(axis.axis.get())?;
-            let text = feed_moves_text(&axis.feed_moves, of.axis_type)?;
-            Some(format!("{}{text}.", of.name))
-        })
-        .collect();
-    let is_all_home = digest.remark.is_none() && summary.axes.iter().all(is_home);
+fn uncompensated(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
+    let moves = summary.axes.iter().filter_map(|axis| {
+        let of = digest.axes.get(axis.axis.get())?;
+        let text = feed_moves_text(&axis.feed_moves, of.axis_type)?;
+        Some(format!("{}{text}.", of.name))
+    });
+    let moves: Vec<String> = moves.collect();
     html! {
-        @if !advice.is_empty() {
-            div.to-do { ul { @for text in &advice { li { (text) } } } }
-        } @else if is_all_home {
-            p { (all_home(&summary.axes, &summary.assumed, warnings)) }
-        }
-        @if let Some(assumption) = &digest.assumption {
-            p { (with_code(assumption)) "." }
-        }
-        @if !uncompensated.is_empty() {
-            div.to-do { ul { @for text in &uncompensated { li { (text) } } } }
+        @if !moves.is_empty() {
+            div.to-do { ul { @for text in &moves { li { (text) } } } }
         }
     }
 }

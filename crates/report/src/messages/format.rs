@@ -59,7 +59,7 @@ macro_rules! formats {
 
 formats! {
     #[default]
-    Text "text" "Source lines with carets, for people" Records |look| Box::new(Carets(look));
+    Text "text" "Source lines with carets, for people" Records |look| Box::new(Carets::new(look));
     Concise "concise" "One line per message" Records |_| Box::new(Concise);
     Json "json" "One JSON document" Records |_| Box::new(Objects::document());
     Ndjson "ndjson" "One JSON object per line" Records |_| Box::new(Objects::lines());

@@ -4,13 +4,14 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 use crate::diagnostics::Look;
+use crate::headline::Headline;
 use crate::output::Output;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::timeline::ReadingsInForce;
 
 use super::format::ListingFormat;
 use super::message_format::MessageFormat;
-use super::tally::Tally;
+use super::tally::{ProgramResult, Tally};
 
 /// Writes diagnostics one after another, then their totals.
 #[derive(Debug)]
@@ -36,6 +37,17 @@ impl<W: Write> Listing<W> {
     /// Counts an examined file.
     pub fn file(&mut self) {
         self.tally.files += 1;
+    }
+
+    /// Counts a program with its result.
+    pub fn program(&mut self, result: ProgramResult) {
+        self.tally.files += 1;
+        *self.tally.programs.entry(result).or_default() += 1;
+    }
+
+    /// Writes the verdict on everything, in text only (R18.20).
+    pub fn headline(&mut self, headline: &Headline) {
+        self.format.headline(&mut self.output.bytes, headline);
     }
 
     /// Counts diagnostics that are not written (R2.85).

@@ -7,6 +7,7 @@ use serde_json::Value;
 use frictcomp::diagnostic::Diagnostic;
 
 use super::tally::Tally;
+use crate::headline::Headline;
 
 /// Writer of messages: a beginning, a part for each message, an end.
 pub(super) trait MessageFormat: fmt::Debug {
@@ -18,6 +19,9 @@ pub(super) trait MessageFormat: fmt::Debug {
 
     /// Appends a record of another kind, if the format has records.
     fn record(&mut self, _out: &mut Vec<u8>, _record: &Value) {}
+
+    /// Appends the verdict on everything, if the format is for people.
+    fn headline(&mut self, _out: &mut Vec<u8>, _headline: &Headline) {}
 
     /// Appends the text after the last message.
     fn close(&mut self, _out: &mut Vec<u8>, _tally: &Tally) {}

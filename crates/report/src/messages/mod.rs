@@ -14,4 +14,4 @@ mod tally;
 pub use concise::concise_line;
 pub use format::ListingFormat;
 pub use listing::Listing;
-pub use tally::Tally;
+pub use tally::{ProgramResult, Tally};

@@ -5,14 +5,17 @@ mod columns;
 mod line;
 mod summary;
 
+pub use summary::headline;
+
 use std::io::Write;
 use std::ops::ControlFlow;
 
-use frictcomp::comp::{Change, Kind};
+use frictcomp::comp::{Change, Kind, State};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::timeline::{End, EndedBy, Record, Row, Sink, StateView};
 
-use super::diagnostics::{Look, render, wrap};
+use super::advice::listed;
+use super::diagnostics::{Detail, Look, render, wrap};
 use super::output::{Gathered, Output};
 use super::strings::grouped;
 use super::view::{Blocks, View};
@@ -84,6 +87,8 @@ pub struct Text<W> {
     columns: AxisColumns,
     version: Option<u64>,
     quiet: Quiet,
+    /// The head of a program, which waits for its first event.
+    opening: Vec<u8>,
     /// The file of the last printed block.
     file: String,
     /// The end of the last program.
@@ -111,6 +116,7 @@ impl<W: Write> Text<W> {
             columns: AxisColumns::default(),
             version: None,
             quiet: Quiet::default(),
+            opening: Vec::new(),
             file: String::new(),
             ended: None,
             possible: Vec::new(),
@@ -122,6 +128,7 @@ impl<W: Write> Text<W> {
     }
 
     fn program(&mut self, file: &str, name: Option<&str>, state: StateView<'_>) {
+        let begin = self.output.bytes.len();
         let mut line = self.line();
         line.styled(BOLD, &leading(file));
         if let Some(name) = name {
@@ -135,6 +142,48 @@ impl<W: Write> Text<W> {
         self.header();
         self.state_line("at start", state);
         file.clone_into(&mut self.file);
+        if self.options.runs == Runs::Folded && self.options.look.detail == Detail::Brief {
+            self.opening = self.output.bytes.split_off(begin);
+        }
+    }
+
+    /// Writes a program in which nothing changes and of which nothing is said as one line. `false` if it is none.
+    fn is_folded(&mut self, end: &End<'_>) -> bool {
+        let is_event = !end.changes.is_empty()
+            || !end.notes.is_empty()
+            || !end.repeated.is_empty()
+            || !end.state.possible.is_empty()
+            || matches!(end.by, EndedBy::Error | EndedBy::Budget);
+        if self.opening.is_empty() || is_event {
+            return false;
+        }
+        self.opening.clear();
+        let blocks = match std::mem::take(&mut self.quiet.count) {
+            0 => "no change".to_owned(),
+            1 => "1 block without a change".to_owned(),
+            count => format!("{} blocks without a change", grouped(count)),
+        };
+        let mut text = format!("{}: {blocks}", self.file);
+        let states = [
+            State::Active,
+            State::Ineffective,
+            State::Inactive,
+            State::Unknown,
+            State::Unconfigured,
+        ];
+        let mut separator = "; ";
+        for state in states {
+            let axes = end.state.axes();
+            let axes = axes.filter(|(axis, _)| end.state.state(*axis, Kind::Frict) == state);
+            let names: Vec<&str> = axes.map(|(_, name)| name).collect();
+            if let Some(names) = listed(&names) {
+                text.extend([separator, &names, " ", state.as_str()]);
+                separator = ", ";
+            }
+        }
+        let line = Paragraph::new(anstyle::Style::new(), &text);
+        line.write(&mut self.output.bytes, self.options.look);
+        true
     }
 
     /// Writes the text above everything else.
@@ -223,6 +272,7 @@ impl<W: Write> Text<W> {
 
     /// Writes the run of blocks without a change that ends here.
     fn release(&mut self) {
+        self.output.bytes.append(&mut self.opening);
         match std::mem::take(&mut self.quiet.count) {
             0 => {}
             1 => {
@@ -322,8 +372,12 @@ impl<W: Write> Text<W> {
     }
 
     fn end(&mut self, end: &End<'_>) {
-        self.release();
         self.ended = Some(end.by);
+        let grown = self.take_version(end.state);
+        if !grown && self.is_folded(end) {
+            return;
+        }
+        self.release();
         let label = match end.by {
             EndedBy::M30 => "end by M30",
             EndedBy::M02 => "end by M02",
@@ -331,7 +385,7 @@ impl<W: Write> Text<W> {
             EndedBy::Error => "stopped by the error",
             EndedBy::Budget => "stopped by a budget",
         };
-        if self.take_version(end.state) {
+        if grown {
             self.columns = AxisColumns::new(end.state, self.options.look.width);
             self.header();
         }

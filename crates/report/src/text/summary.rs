@@ -3,12 +3,13 @@
 use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
-use crate::advice::{all_home, axis_advice, error_advice, is_home, left_off};
+use crate::advice::FinalStates;
 use crate::assumptions::rests_on_text;
-use crate::diagnostics::Look;
+use crate::diagnostics::{Detail, Look};
 use crate::feed_moves::feed_moves_text;
+use crate::headline::{Headline, Standing};
 use crate::strings::grouped;
-use crate::visible::{last_part, visible_line};
+use crate::visible::last_part;
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Severity;
 use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, ReadingsInForce, Summary};
@@ -24,26 +25,54 @@ const CHANGED: usize = 11;
 /// Columns of a state in the summary.
 const STATE: usize = 14;
 
-/// Appends the summary of a session, with the end of its last program.
+/// Appends the summary of a session, with the end of its last program; the verdict is the last line (R18.20).
 pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
-    let counts = format!(
-        "Summary  {}, {}, {}, {}",
-        count(u64::from(summary.programs), "program"),
-        count(summary.blocks, "block"),
-        count(summary.count(Severity::Error), "error"),
-        count(summary.count(Severity::Warning), "warning"),
-    );
-    Paragraph::new(BOLD, &counts).write(out, look);
-    table(out, summary, look);
-    opaque(out, summary, look);
+    let is_long = look.detail == Detail::Full;
+    if is_long {
+        let counts = format!(
+            "Summary  {}, {}, {}, {}",
+            count(u64::from(summary.programs), "program"),
+            count(summary.blocks, "block"),
+            count(summary.count(Severity::Error), "error"),
+            count(summary.count(Severity::Warning), "warning"),
+        );
+        Paragraph::new(BOLD, &counts).write(out, look);
+    }
+    if is_long || (summary.programs > 1 && summary.axes.iter().any(|axis| axis.changes > 0)) {
+        table(out, summary, look);
+        out.push(b'\n');
+    }
+    if is_long {
+        opaque(out, summary, look);
+    }
     advice(out, summary, by, look);
+}
+
+/// Returns the verdict on a session.
+pub fn headline(summary: &Summary<'_>, by: Option<EndedBy>) -> Option<Headline> {
+    let machine = summary.state.machine;
+    let axes = summary.axes.iter();
+    let states = FinalStates {
+        axes: axes
+            .map(|axis| (summary.state.name(axis.axis), axis))
+            .collect(),
+        assumed: &summary.assumed,
+        errors: summary.count(Severity::Error),
+        warnings: summary.count(Severity::Warning),
+        by,
+        assumption: machine.assumption(),
+        is_described: machine.is_described(),
+    };
+    states.headline()
 }
 
 fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     if summary.axes.is_empty() {
         return;
     }
-    out.push(b'\n');
+    if look.detail == Detail::Full {
+        out.push(b'\n');
+    }
     let name = |axis: &AxisSummary| summary.state.name(axis.axis);
     let names = summary.axes.iter().map(|axis| name(axis).width());
     let first = 4 + names.max().unwrap_or_default().max("axis".len());
@@ -148,7 +177,6 @@ fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     if summary.opaque.is_empty() {
         return;
     }
-    out.push(b'\n');
     let lead = "Passed over:";
     let mut line = TextLine::new(out, look.paint);
     line.plain(lead);
@@ -173,46 +201,24 @@ fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
 }
 
 fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
-    if summary.axes.is_empty() {
-        return;
-    }
-    let before = out.len();
-    out.push(b'\n');
-    let bare = out.len();
-    for axis in &summary.axes {
-        let name = summary.state.name(axis.axis);
-        let Some(text) = axis_advice(axis, name) else {
-            continue;
-        };
-        Paragraph::new(style(axis.end), &format!("{name}{text}")).write(out, look);
-    }
-    let is_all_home = summary.state.machine.is_described() && summary.axes.iter().all(is_home);
-    if let Some(text) = error_advice(summary.count(Severity::Error), by) {
-        Paragraph::new(Style::new(), text).write(out, look);
-    } else if out.len() == bare && is_all_home {
-        let warnings = summary.count(Severity::Warning);
-        Paragraph::new(DIM, &all_home(&summary.axes, &summary.assumed, warnings)).write(out, look);
-    }
-    if let Some(text) = summary.state.machine.assumption() {
-        let text = text.replacen("assuming", "Assuming", 1) + ".";
-        Paragraph::new(DIM, &visible_line(&text)).write(out, look);
-    }
     let rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
-    if let Some(text) = rests_on_text(&rests_on) {
+    if let Some(text) = look.detail.full(rests_on_text(&rests_on)).flatten() {
         Paragraph::new(DIM, &text).write(out, look);
     }
     for axis in &summary.axes {
         let of = summary.state.machine.axis(axis.axis);
         if let Some(text) = feed_moves_text(&axis.feed_moves, of.axis_type) {
-            let text = format!("{}{text}.", of.name);
+            let text = format!("{}{text}", of.name);
             Paragraph::new(style(State::Inactive), &text).write(out, look);
         }
     }
-    if let Some(text) = left_off(summary) {
-        Paragraph::new(style(State::Inactive), &text).write(out, look);
-    }
-    if out.len() == bare {
-        out.truncate(before);
+    if let Some(headline) = headline(summary, by) {
+        let style = match headline.standing {
+            Standing::Good => style(State::Active),
+            Standing::Bad => style(State::Inactive),
+            Standing::Open => style(State::Unknown),
+        };
+        Paragraph::new(style, &headline.text).write(out, look);
     }
 }
 

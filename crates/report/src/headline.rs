@@ -1,0 +1,76 @@
+//! The verdict on a result in one or two sentences that a user can quote (R18.20).
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::visible::{leading, visible_line};
+
+/// Whether a result is as it should be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Standing {
+    /// It is.
+    Good,
+    /// It is not.
+    Bad,
+    /// It depends on what is not known.
+    #[default]
+    Open,
+}
+
+impl Standing {
+    /// Returns the word of a record, and the class of a sentence in HTML.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Bad => "bad",
+            Self::Open => "open",
+        }
+    }
+}
+
+/// Verdict on a result: what holds, where, how sure, and the cure. Text, HTML and JSON give the same one.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[non_exhaustive]
+pub struct Headline {
+    /// Whether the result is as it should be.
+    pub standing: Standing,
+    /// The sentences, without a period at the end.
+    pub text: String,
+}
+
+impl Headline {
+    /// Creates a verdict.
+    pub fn new(standing: Standing, text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self { standing, text }
+    }
+
+    /// Returns the verdict with what it assumes, if anything.
+    pub fn assuming(mut self, assumptions: impl IntoIterator<Item = String>) -> Self {
+        for assumption in assumptions {
+            self.text = format!("{} ({assumption})", self.text);
+        }
+        self
+    }
+}
+
+impl Headline {
+    /// Returns the verdict as a sentence of prose, with a capital letter unless it begins with a name.
+    pub(crate) fn sentence(&self) -> String {
+        let (first, _) = self.text.split_once(' ').unwrap_or((&self.text, ""));
+        let is_word = first.bytes().all(|it| it.is_ascii_lowercase());
+        match self.text.split_at_checked(1) {
+            Some((letter, rest)) if is_word => format!("{}{rest}.", letter.to_ascii_uppercase()),
+            _ => format!("{}.", self.text),
+        }
+    }
+}
+
+impl fmt::Display for Headline {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&leading(&visible_line(&self.text)))
+    }
+}

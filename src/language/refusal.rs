@@ -58,7 +58,7 @@ static REFUSALS: &[ControlError] = {
     refusals! {
         20008 "250515083" Error, "the first feed move of a program for which neither the program nor the channel list gives a feed",
             "write a feed before the first feed move";
-        20100 "PM/207916683" Open("frictcomp does not look for it yet"), "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
+        20100 "250758795" Error, "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
             "write a variable of your own";
         20131 "206278923" Error, "G80 without a program, and a G function that the control does not know",
             "name the program, `g80_prog_file` in the channel list";
@@ -82,7 +82,7 @@ static REFUSALS: &[ControlError] = {
             "declare it once";
         20915 "" Open("no page describes it"), "`#DELETE` of a `V.E.` variable",
             "delete variables of your own only";
-        20933 "486167307" Open("frictcomp does not look for it yet"), "`#DELETE` of a `V.CYC.` variable of an outer level",
+        20933 "486167307" Error, "`#DELETE` of a `V.CYC.` variable of an outer level",
             "delete it in the cycle that declares it";
         20966 "253121931" Error, "a dimension below 1 in the declaration of an array",
             "declare at least one element";
@@ -116,7 +116,7 @@ static REFUSALS: &[ControlError] = {
             "write `$ENDIF`";
         21768 "" Said("FC312"), "an index on a variable that is no array",
             "declare it as an array";
-        21772 "255959435" Open("frictcomp does not look for it yet"), "a `V.I.` array that exists with other dimensions",
+        21772 "255959435" Error, "a `V.I.` array that exists with other dimensions",
             "declare it with the dimensions that it has";
         22008 "480201355" Possible, "several implicit calls in one block",
             "write each in a block of its own";

@@ -16,6 +16,7 @@ use crate::interpreter::values::expression::{
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
+use crate::language::is_read_only;
 use crate::lists::AxisType;
 use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
 use crate::syntax::{AxisOfVariable, Fault, Subscript, VariableFamily, VariableName};
@@ -235,31 +236,23 @@ impl Interpreter {
         let Some(name) = place.and_then(Denoted::variable) else {
             return;
         };
-        let Some(own) = self.own_variable(name) else {
-            return;
+        let (axis, kind, is_switch) = match self.own_variable(name) {
+            Some(OwnVariable::Active(axis, kind)) => (axis, kind, true),
+            Some(OwnVariable::Ready(axis, kind)) => (axis, kind, false),
+            // Positions can only be read, which is an error.
+            Some(OwnVariable::Absolute(_) | OwnVariable::Programmed(_)) | None => return,
         };
-        let machine = &self.machine;
-        let what = match own {
-            OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
-                format!("`{kind}` of `{}`", machine.axis(axis).name)
-            }
-            OwnVariable::Absolute(axis) | OwnVariable::Programmed(axis) => {
-                format!("the position of `{}`", machine.axis(axis).name)
-            }
-        };
+        let axis = &self.machine.axis(axis).name;
         let message = format!(
-            "`{name}` shows a state of the control and is not meant to be written; {what} is unknown after this assignment"
+            "`{name}` shows a state of the control and is not meant to be written; `{kind}` of `{axis}` is unknown after \
+             this assignment"
         );
-        let fault = Fault::new(Code::Fc322, span, message);
-        let fault = match own {
-            OwnVariable::Active(axis, kind) => {
-                let axis = &machine.axis(axis).name;
-                fault.with_help(format!(
-                    "switch it with `{axis}[COMP ON {kind}]` or `{axis}[COMP OFF {kind}]`"
-                ))
-            }
-            _ => fault,
-        };
+        let mut fault = Fault::new(Code::Fc322, span, message);
+        if is_switch {
+            fault = fault.with_help(format!(
+                "switch it with `{axis}[COMP ON {kind}]` or `{axis}[COMP OFF {kind}]`"
+            ));
+        }
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
@@ -315,6 +308,10 @@ impl Interpreter {
         let (Location::Variable(name) | Location::Elements(name)) = &place.location else {
             return Ok(value);
         };
+        if is_read_only(name.array()) {
+            let what = format!("`{name}` can only be read");
+            return Err(Fault::refused(Code::PErr20100, span, what));
+        }
         let memory = &self.state.control.memory;
         if let Some(misuse) = place.variable().and_then(|name| memory.misuse(name)) {
             return Err(misused(misuse, span, at.text));

@@ -62,7 +62,7 @@ static REFUSALS: &[ControlError] = {
             "write a variable of your own";
         20131 "206278923" Error, "G80 without a program, and a G function that the control does not know",
             "name the program, `g80_prog_file` in the channel list";
-        20160 "diagnosis" Error, "an M function above 1000; one that P-CHAN-00041 does not allow is not looked for",
+        20160 "diagnosis" Error, "an M function above 1000; how many P-CHAN-00041 allows is a limit of the build and in no list",
             "use a number up to 1000";
         20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
             "write `%1234` for the name of a program";

@@ -63,6 +63,7 @@ codes! {
     PErr21274 "P-ERR-21274" Error "no saved axes";
     PErr21275 "P-ERR-21275" Error "no saved couplings";
     PErr21381 "P-ERR-21381" Error "cycle call while a modal cycle is active";
+    PErr21387 "P-ERR-21387" Error "`#IF` without `#ENDIF`";
     PErr21403 "P-ERR-21403" Error "COMP on an axis in an active coupling";
     PErr21413 "P-ERR-21413" Error "`#MACHINE DATA` waits without `SYN`";
     PErr21480 "P-ERR-21480" Error "jump within a loop";

@@ -49,21 +49,25 @@ macro_rules! codes {
 
 codes! {
     PErr20008 "P-ERR-20008" Error "first feed move without a feed";
+    PErr20100 "P-ERR-20100" Error "variable that can only be read";
     PErr20131 "P-ERR-20131" Error "G80 without a program";
     PErr20160 "P-ERR-20160" Error "M function above 1000";
     PErr20375 "P-ERR-20375" Warning "`$IF` without `$ENDIF`";
     PErr20839 "P-ERR-20839" Error "jump target that is not permitted";
     PErr20847 "P-ERR-20847" Error "value outside the type of its variable";
     PErr20909 "P-ERR-20909" Error "variable declared twice";
+    PErr20933 "P-ERR-20933" Error "cycle variable of a calling program deleted";
     PErr20966 "P-ERR-20966" Error "dimension below 1";
     PErr21216 "P-ERR-21216" Error "array without an index";
     PErr21301 "P-ERR-21301" Error "invalid first keyword in an axis bracket";
     PErr21274 "P-ERR-21274" Error "no saved axes";
     PErr21275 "P-ERR-21275" Error "no saved couplings";
     PErr21381 "P-ERR-21381" Error "cycle call while a modal cycle is active";
+    PErr21387 "P-ERR-21387" Error "`#IF` without `#ENDIF`";
     PErr21403 "P-ERR-21403" Error "COMP on an axis in an active coupling";
     PErr21413 "P-ERR-21413" Error "`#MACHINE DATA` waits without `SYN`";
     PErr21480 "P-ERR-21480" Error "jump within a loop";
+    PErr21772 "P-ERR-21772" Error "array that exists with other dimensions";
     PErr21500 "P-ERR-21500" Error "local subprogram ends in an open `$IF`";
     PErr21501 "P-ERR-21501" Error "main program ends in an open `$IF`";
     PErr21502 "P-ERR-21502" Error "global subprogram ends in an open `$IF`";
@@ -142,6 +146,7 @@ codes! {
     Fc326 "FC326" Warning "program of another control";
     Fc327 "FC327" Warning "feed move without a feed";
     Fc328 "FC328" Warning "block that the control may refuse";
+    Fc329 "FC329" Info "called name that several files have";
     Fc401 "FC401" Warning "state not restored before program end";
     Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Warning "depends on the program before";

@@ -7,6 +7,7 @@
 
 use super::chain::{ChainStep, OnOff};
 use super::group::Group;
+use super::hash::Flushes;
 use super::motion::{AxisWords, Certainty, MotionEffect, MotionKind, Moves};
 use super::simplification::{Holds, Simplification};
 
@@ -36,6 +37,8 @@ pub(crate) struct GFunction {
     pub(crate) simplifies: Option<(Simplification, Holds)>,
     /// Effect on coordinates that is not in the other columns.
     pub(crate) coordinates: CoordinateEffect,
+    /// Where it flushes the channel and the control refuses it (R2.111).
+    pub(crate) flushes: Flushes,
     /// Number of the group of a channel list in which it may be the default at program start (P-CHAN-00063).
     default_of: Option<u32>,
 }
@@ -128,6 +131,7 @@ impl GFunction {
             unmodelled: None,
             simplifies: None,
             coordinates: CoordinateEffect::None,
+            flushes: Flushes::Never,
             default_of: None,
         }
     }
@@ -142,6 +146,7 @@ impl GFunction {
         unmodelled(reason: &'static str) = Some(reason);
         simplifies(what: Simplification, holds: Holds) = Some((what, holds));
         coordinates(coordinates: CoordinateEffect) = coordinates;
+        flushes(under: Flushes) = under;
         default_of(group: u32) = Some(group);
     }
 }
@@ -170,6 +175,7 @@ static FUNCTIONS: &[GFunction] = {
     use Certainty::{Certain, Possible};
     use ChainStep::{Coordinates, Path};
     use CoordinateEffect::{NotKnown, Unfollowed};
+    use Flushes::{Both, Radius};
     use GAction::{
         Call, Dwell, Mirror, RestAtEnd, Rotate, RunAtFullSpeed, SetCuttingSpeed, SetRadius,
         SetReference, SetSpindleSpeed, SwitchSpline, WeighRapid,
@@ -248,8 +254,8 @@ static FUNCTIONS: &[GFunction] = {
         193 ("PM/206245643") simplifies(FeedRamp, Holds::Once);
         194 ("R2.45") group(Group::Feed);
         196..=197 (MANUAL);
-        200 ("PM/206639371") motion(Unknown, WordsOrAll, Possible) axis_words(Other) coordinates(Unfollowed);
-        201 ("PM/206633483") motion(Unknown, Words, Possible) axis_words(Other) coordinates(Unfollowed);
+        200 ("PM/206639371") motion(Unknown, WordsOrAll, Possible) axis_words(Other) coordinates(Unfollowed) flushes(Both);
+        201 ("PM/206633483") motion(Unknown, Words, Possible) axis_words(Other) coordinates(Unfollowed) flushes(Radius);
         202 (EDITOR) axis_words(Other) coordinates(Unfollowed);
         230..=231 ("PM/206590731") axis_words(Other) simplifies(AccelerationWeight, Holds::On);
         233 ("PM/206596619") axis_words(Other) simplifies(RampWeight, Holds::On);

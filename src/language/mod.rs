@@ -1,7 +1,7 @@
 //! The words of the language as tables: what each command and function is, and what it does (R2.45, R2.70).
 //!
 //! `hash` has a row for each `#` command, `g` for each G function, `bracket` for each command in the bracket of an axis,
-//! `refusal` for each error that a program causes.
+//! `refusal` for each error that a program causes, `system_variable` for each variable that it may only read.
 //! Everything else asks the columns of a row: a command or function is described in one place.
 
 #![cfg_attr(not(feature = "unstable"), allow(unreachable_pub))]
@@ -24,6 +24,7 @@ mod hash;
 mod motion;
 mod refusal;
 mod simplification;
+mod system_variable;
 
 pub(crate) use bracket::AxisAction;
 pub use bracket::AxisCommand;
@@ -42,3 +43,4 @@ pub use motion::{Certainty, MotionKind};
 pub use refusal::{ControlError, ControlErrorCheck};
 pub(crate) use simplification::Holds;
 pub use simplification::{Simplification, Simplifications};
+pub(crate) use system_variable::is_read_only;

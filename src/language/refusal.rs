@@ -58,20 +58,88 @@ static REFUSALS: &[ControlError] = {
     refusals! {
         20008 "250515083" Error, "the first feed move of a program for which neither the program nor the channel list gives a feed",
             "write a feed before the first feed move";
-        20100 "PM/207916683" Open("frictcomp does not look for it yet"), "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
+        20097 "250750091" Open("lists of external variables are not read"), "reading a `V.E.` variable that may only be written",
+            "allow it in the list of external variables";
+        20100 "250758795" Error, "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
             "write a variable of your own";
         20131 "206278923" Error, "G80 without a program, and a G function that the control does not know",
             "name the program, `g80_prog_file` in the channel list";
-        20160 "diagnosis" Error, "an M function above 1000; one that P-CHAN-00041 does not allow is not looked for",
+        20160 "diagnosis" Error, "an M function above 1000; how many P-CHAN-00041 allows is a limit of the build and in no list",
             "use a number up to 1000";
         20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
             "write `%1234` for the name of a program";
+        20211 "251111307" Said("FC912"), "control blocks that are nested too deep",
+            "nest fewer of them";
+        20212 "251115659" Said("FC207"), "further commands after the condition of `$IF`",
+            "write them in a block of their own";
+        20214 "251124363" Said("FC208"), "`$ELSE` outside an `$IF`",
+            "write `$IF` before it";
+        20215 "251128715" Said("FC208"), "further commands in the block of `$ELSE`",
+            "write them in a block of their own";
+        20216 "251133067" Said("FC208"), "`$ELSEIF` outside an `$IF`",
+            "write `$IF` before it";
+        20217 "251137419" Said("FC207"), "further commands after the condition of `$ELSEIF`",
+            "write them in a block of their own";
+        20218 "251141771" Said("FC208"), "`$ENDIF` without `$IF`",
+            "write `$IF` before it";
+        20219 "251146123" Said("FC208"), "further commands in the block of `$ENDIF`",
+            "write them in a block of their own";
+        20220 "251150475" Said("FC207"), "further commands after the value of `$SWITCH`",
+            "write them in a block of their own";
+        20221 "251154827" Said("FC208"), "`$CASE` outside a `$SWITCH`",
+            "write `$SWITCH` before it";
+        20222 "251159179" Said("FC208"), "further commands in the block of `$CASE`",
+            "write them in a block of their own";
+        20223 "251163531" Said("FC208"), "`$DEFAULT` outside a `$SWITCH`",
+            "write `$SWITCH` before it";
+        20224 "251167883" Said("FC208"), "further commands in the block of `$DEFAULT`",
+            "write them in a block of their own";
+        20225 "251172235" Said("FC208"), "`$ENDSWITCH` without `$SWITCH`",
+            "write `$SWITCH` before it";
+        20227 "251180939" Said("FC207"), "a counter of `$FOR` that is neither a parameter nor a variable",
+            "count with a P parameter or a variable";
+        20232 "251202699" Said("FC208"), "`$ENDFOR` without `$FOR`",
+            "write `$FOR` before it";
+        20234 "251211403" Said("FC207"), "a counter of `$FOR` that does not begin with P, V or R",
+            "count with a P parameter or a variable";
+        20235 "251215755" Said("FC207"), "further commands after the condition of `$WHILE`",
+            "write them in a block of their own";
+        20237 "251224459" Said("FC208"), "`$ENDWHILE` without `$WHILE`",
+            "write `$WHILE` before it";
+        20238 "251228811" Said("FC208"), "further commands in the block of `$ENDWHILE`",
+            "write them in a block of their own";
+        20239 "251233163" Said("FC207"), "further commands in the block of `$DO`",
+            "write them in a block of their own";
+        20241 "251241867" Said("FC207"), "further commands after the condition of `$ENDDO`",
+            "write them in a block of their own";
+        20242 "251246219" Said("FC208"), "further commands in the block of `$BREAK`",
+            "write them in a block of their own";
+        20243 "251250571" Said("FC208"), "`$BREAK` outside a loop and a `$SWITCH`",
+            "write it within one";
+        20244 "251254923" Said("FC208"), "`$CONTINUE` outside a loop",
+            "write it within one";
+        20245 "251259275" Said("FC208"), "further commands in the block of `$CONTINUE`",
+            "write them in a block of their own";
+        20360 "251402891" Said("FC911"), "calls of global subprograms that are nested too deep",
+            "let no subprogram call itself without an end";
+        20365 "251420299" Open("the limit is a start-up parameter"), "too many local subprograms in all files that are open",
+            "make some of them global subprograms";
         20375 "diagnosis" Said("P-ERR-20375"), "a true `$IF` without `$ENDIF`; this is a warning",
             "write `$ENDIF`";
         20392 "PM/1225681547" Possible, "a `V.I.` variable that no program declares",
             "declare it with `#VAR`";
+        20590 "251916427" Said("FC912"), "`#IF` that is nested too deep",
+            "nest fewer of them";
+        20592 "251925131" Said("FC208"), "`#ENDIF` without `#IF`",
+            "write `#IF` before it";
+        20593 "251929483" Said("FC208"), "something before `#IF`, `#ELSE` or `#ENDIF` in its block",
+            "write it first, without a block number";
         20651 "PM/524821515" Said("FC328"), "a command that flushes the channel under G41 or G42",
             "write it before G41 or G42";
+        20734 "252355979" Said("FC914"), "macros that are nested too deep",
+            "let no macro use itself";
+        20747 "252403851" Open("only in manual mode, and the limit is that of the control"), "a call from a manual block with too many open files",
+            "nest fewer calls";
         20839 "252734603" Error, "`$GOTO` that neither `[`, nor `N`, nor `V.E.` follows",
             "write `$GOTO N100` or `$GOTO [NAME]`";
         20847 "252765067" Error, "a value outside the type of its variable",
@@ -82,7 +150,9 @@ static REFUSALS: &[ControlError] = {
             "declare it once";
         20915 "" Open("no page describes it"), "`#DELETE` of a `V.E.` variable",
             "delete variables of your own only";
-        20933 "486167307" Open("frictcomp does not look for it yet"), "`#DELETE` of a `V.CYC.` variable of an outer level",
+        20927 "253017483" Said("FC913"), "brackets of an expression that are nested too deep",
+            "write the expression in several blocks";
+        20933 "486167307" Error, "`#DELETE` of a `V.CYC.` variable of an outer level",
             "delete it in the cycle that declares it";
         20966 "253121931" Error, "a dimension below 1 in the declaration of an array",
             "declare at least one element";
@@ -102,6 +172,8 @@ static REFUSALS: &[ControlError] = {
             "save them first, with `#SAVE CONFIG [AXLINK]`";
         21381 "254436235" Error, "a cycle call while a modal cycle is active",
             "write `#DISABLE MODAL CYCLE` before it";
+        21387 "254462347" Error, "`#IF` without `#ENDIF`",
+            "write `#ENDIF` in a block of its own";
         21403 "diagnosis" Error, "COMP on an axis in an active coupling",
             "release all couplings first, with `#DISABLE AX LINK ALL`";
         21413 "diagnosis" Error, "`#MACHINE DATA` with WAIT and without SYN",
@@ -116,7 +188,7 @@ static REFUSALS: &[ControlError] = {
             "write `$ENDIF`";
         21768 "" Said("FC312"), "an index on a variable that is no array",
             "declare it as an array";
-        21772 "255959435" Open("frictcomp does not look for it yet"), "a `V.I.` array that exists with other dimensions",
+        21772 "255959435" Error, "a `V.I.` array that exists with other dimensions",
             "declare it with the dimensions that it has";
         22008 "480201355" Possible, "several implicit calls in one block",
             "write each in a block of its own";
@@ -126,6 +198,10 @@ static REFUSALS: &[ControlError] = {
             "write COMP commands outside";
         22132 "diagnosis" Error, "`#OPTIONAL EXECUTION ON [APPROACH SIMULATE]`",
             "leave out `APPROACH SIMULATE`";
+        22254 "1097005579" Open("`MACRO_LENGTH` is not followed: FC210"), "`MACRO_LENGTH` of something else than the name of a macro",
+            "write the name in quotation marks";
+        22276 "1147344395" Open("`MACRO_CONTENT` is not followed: FC210"), "`MACRO_CONTENT` of a macro that does not exist",
+            "define the macro before";
         51081 "diagnosis" Error, "`#FLUSH WAIT` within `#OPTIONAL EXECUTION`",
             "write it outside";
         90050 "PM/524821515" Said("FC328"), "a command that flushes the channel under G41 or G42",

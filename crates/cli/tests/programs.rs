@@ -19,7 +19,7 @@ use workspace::root;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 32] = [
+const ELSEWHERE: [(&str, &str); 33] = [
     (
         "P-ERR-21502",
         "said of a called file; tests/rules/language/refusals.md has it",
@@ -30,6 +30,10 @@ const ELSEWHERE: [(&str, &str); 32] = [
     ),
     (
         "FC105",
+        "said of files in folders; crates/cli/tests/options/folders.rs has it",
+    ),
+    (
+        "FC329",
         "said of files in folders; crates/cli/tests/options/folders.rs has it",
     ),
     ("FC306", "depends on `[reading]`; tests/readings.rs has it"),

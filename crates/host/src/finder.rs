@@ -81,13 +81,19 @@ impl ProgramFinder {
     }
 
     fn locate(&mut self, name: &str, caller: &str) -> Result<PathBuf, NoProgram> {
-        let beside = self
-            .known
-            .get(caller)
-            .and_then(|path| path.parent())
-            .unwrap_or(Path::new(""))
-            .to_owned();
+        let beside = self.folder_of(caller);
         self.locate_from(name, beside)
+    }
+
+    fn folder_of(&self, caller: &str) -> PathBuf {
+        let folder = self.known.get(caller).and_then(|path| path.parent());
+        folder.unwrap_or(Path::new("")).to_owned()
+    }
+
+    /// The folders in which a program is looked for, in their order.
+    fn folders_from(&self, beside: PathBuf) -> Vec<PathBuf> {
+        let further = self.folders.iter().cloned();
+        std::iter::once(beside).chain(further).collect()
     }
 
     /// Returns the file that a program in a folder refers to by a name. It is not read.
@@ -104,9 +110,7 @@ impl ProgramFinder {
         // A path on the control's own disk means nothing here, but its last part does.
         let slashed = name.replace('\\', "/");
         let last = slashed.rsplit('/').next().unwrap_or(&slashed);
-        let folders: Vec<PathBuf> = std::iter::once(beside)
-            .chain(self.folders.clone())
-            .collect();
+        let folders = self.folders_from(beside);
         let mut refused = None;
         for folder in &folders {
             for name in [slashed.as_str(), last] {
@@ -240,6 +244,30 @@ impl Finder for ProgramFinder {
         self.registry.reads(PROGRAM, &path);
         let text = self.disk.read(&path).map_err(|error| unusable(&error))?;
         Ok(SourceFile::new(self.name(&path), text))
+    }
+
+    fn others(&mut self, name: &str, caller: &str) -> Vec<String> {
+        let folders = self.folders_from(self.folder_of(caller));
+        // A name with a folder says which file is meant.
+        if name.contains(['/', '\\']) || folders.len() < 2 {
+            return Vec::new();
+        }
+        let found = folders
+            .iter()
+            .filter_map(|folder| self.usable(folder, name).ok());
+        let found: Vec<PathBuf> = found.collect();
+        let disk = self.disk.clone();
+        let text = |path: &PathBuf| disk.read(path).ok();
+        let Some((taken, others)) = found.split_first() else {
+            return Vec::new();
+        };
+        let (real, taken) = (disk.real(taken).ok(), text(taken));
+        let differs = |path: &&PathBuf| disk.real(path).ok() != real && text(path) != taken;
+        others
+            .iter()
+            .filter(differs)
+            .map(|path| self.name(path))
+            .collect()
     }
 }
 

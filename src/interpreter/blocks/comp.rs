@@ -7,6 +7,7 @@ use crate::comp::{
 use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
+use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::cause::Unknown;
@@ -20,6 +21,11 @@ use crate::text::Span;
 impl Interpreter {
     pub(crate) fn comp(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let before = self.scratch.changes.len();
+        if self.state.control.optional != OptionalSection::Outside {
+            let control = &self.state.control;
+            let earlier = &mut self.scratch.earlier;
+            earlier.get_or_insert_with(|| Box::new(control.earlier_states()));
+        }
         self.warn_described(command, at);
         let axis = match self.state.control.addressed(&command.axis) {
             Ok(Addressed::Axis(axis)) => Ok(axis),
@@ -73,14 +79,16 @@ impl Interpreter {
 
     /// FC902: the PLC may skip the command (R2.109).
     fn warn_optional(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
-        if !self.state.control.optional {
-            return;
+        match self.state.control.optional {
+            OptionalSection::Outside => return,
+            OptionalSection::Inside => self.havoc(axis, command.selection.kinds()),
+            // The states are joined after the block.
+            OptionalSection::Asked(_) => {}
         }
-        self.havoc(axis, command.selection.kinds());
         let name = &command.axis;
         let message = format!(
             "this command is between `#OPTIONAL EXECUTION ON` and `OFF`, where the control skips blocks while it moves \
-             backward or simulates; what it switches on axis `{name}` is unknown"
+             backward or simulates; whether it switches axis `{name}` is not known"
         );
         let fault = Fault::new(Code::Fc902, command.span, message)
             .with_help("switch compensation outside of the section");

@@ -29,11 +29,57 @@ impl Interpreter {
                     self.state.control.memory.delete_parameter(index);
                 }
                 (Location::Variable(name), _) => {
+                    self.refuse_outer(&name, hash.span, at)?;
                     self.state.write_anything();
                     self.state.control.memory.delete(&name);
                 }
                 (several, unknown) => self.write(&several, unknown),
             }
+        }
+        Ok(())
+    }
+
+    /// P-ERR-20933: a `V.CYC.` variable of an outer level is deleted (R2.102).
+    fn refuse_outer(
+        &mut self,
+        name: &VariableName,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<(), Box<Fault>> {
+        let outer = self.state.control.memory.of_outer_level(name);
+        let Some(variable) = outer.filter(|_| name.family() == VariableFamily::Cycle) else {
+            return Ok(());
+        };
+        let what = format!("`{name}` belongs to a program that calls this one");
+        if variable.is_certain() {
+            return Err(Fault::refused(Code::PErr20933, span, what));
+        }
+        self.may_refuse(20933, &what, span, at);
+        Ok(())
+    }
+
+    /// P-ERR-21772: a `V.I.` array is declared with other dimensions than it has (R2.102).
+    fn refuse_other_shape(
+        &mut self,
+        name: &VariableName,
+        dimensions: &[Result<u32, Value>],
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<(), Box<Fault>> {
+        let array = self.state.control.memory.array(name.array());
+        let Some(array) = array.filter(|_| name.family() == VariableFamily::Internal) else {
+            return Ok(());
+        };
+        let what = format!("`{name}` exists with other dimensions");
+        let is_open = |size: &Result<u32, Value>| size.is_err();
+        if dimensions.iter().any(is_open) || array.dimensions.contains(&None) {
+            self.may_refuse(21772, &what, span, at);
+        } else if dimensions
+            .iter()
+            .map(|size| size.as_ref().ok())
+            .ne(array.dimensions.iter().map(Option::as_ref))
+        {
+            return Err(Fault::refused(Code::PErr21772, span, what));
         }
         Ok(())
     }
@@ -68,6 +114,7 @@ impl Interpreter {
                 *value = self.typed(kind, &name, taken, declaration.target.span, at)?;
             }
             self.refuse_second(&name, declaration.target.span, at)?;
+            self.refuse_other_shape(&name, &dimensions, declaration.target.span, at)?;
             let default = self.default_of(&name, kind);
             self.warn_kept(&name, !values.is_empty(), declaration.target.span, at);
             self.scratch.wrote = true;

@@ -8,7 +8,6 @@ use std::ops::Range;
 use super::reported::StopScope;
 use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
-use crate::interpreter::programs::builder::without_end;
 use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, Links};
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::control::ControlState;
@@ -226,11 +225,8 @@ impl Interpreter {
 
     /// P-ERR-20375: an `$IF` has no `$ENDIF`.
     fn warn_unclosed(&mut self, span: Span, at: &BlockContext<'_>) {
-        let message = format!(
-            "{}: where its condition is true the control goes on with a warning, where it is false it skips the rest \
-             of the text and stops at its end",
-            without_end(span.of(at.text))
-        );
+        let message = "this `$IF` has no `$ENDIF`: where its condition is true the control goes on with a warning, where it is \
+                       false it skips the rest of the text and stops at its end";
         let fault = Fault::new(Code::PErr20375, span, message);
         self.say_before_parting(
             at.diagnostic(fault.with_help("write the end in a separate block")),

@@ -1,16 +1,21 @@
 //! `#` commands (R2.34, R2.47).
 
+use std::sync::Arc;
+
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::effects::machine_data::{WriteTarget, enables, written};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
+use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
+use crate::interpreter::unknown::branching::MAX_CONDITIONS;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
-use crate::language::{AxisWords, Flushes, FurtherWord, HashAction, PathFlow, Plc, Touches};
+use crate::interpreter::ways::question::{Condition, ConditionKind};
+use crate::language::{AxisWords, FurtherWord, HashAction, PathFlow, Plc, Touches};
 use crate::readings::{Alternative, Question};
 use crate::syntax::ast::Hash;
 use crate::syntax::{Fault, VariableFamily};
@@ -31,7 +36,7 @@ impl Interpreter {
             self.scratch.rests.set(true);
         }
         self.scratch.plc_acts |= command.lets_plc_act();
-        self.check_flush(hash, at)?;
+        self.check_flushing(hash, at)?;
         match command.action {
             HashAction::Wait => self.wait_for(hash, at, outcome)?,
             HashAction::Initialise if hash.names_all_externals(at.text) => {
@@ -90,26 +95,19 @@ impl Interpreter {
     }
 
     /// FC328, P-ERR-51081: a command that flushes the channel where the control refuses that (R2.109, R2.111).
-    fn check_flush(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
+    fn check_flushing(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let command = hash.command;
-        if command.flushes == Flushes::Never || command.has(FurtherWord::Continue) {
+        if command.has(FurtherWord::Continue) {
             return Ok(());
         }
-        if self.state.control.optional
+        if self.state.control.optional != OptionalSection::Outside
             && command.plc == Plc::ActsAfterWait
             && command.lets_plc_act()
         {
             let what = "`#FLUSH WAIT` stands between `#OPTIONAL EXECUTION ON` and `OFF`";
             return Err(Fault::refused(Code::PErr51081, hash.span, what));
         }
-        let modal = &self.state.control.modal;
-        if command.flushes != Flushes::Spline && modal.transformed.contains("G41") {
-            let what = format!("`{}` flushes the channel under G41 or G42", hash.name);
-            self.may_refuse(20651, &what, hash.span, at);
-        } else if command.flushes != Flushes::Radius && modal.is_spline() {
-            let what = format!("`{}` flushes the channel under a spline", hash.name);
-            self.may_refuse(120_434, &what, hash.span, at);
-        }
+        self.check_flush(command.flushes, &hash.name, hash.span, at);
         Ok(())
     }
 
@@ -119,9 +117,28 @@ impl Interpreter {
             let what = "`#OPTIONAL EXECUTION ON` has `APPROACH SIMULATE`";
             return Err(Fault::refused(Code::PErr22132, hash.span, what));
         }
-        self.state.control.optional = hash.command.has(FurtherWord::On);
+        self.state.control.optional = if hash.command.has(FurtherWord::On) {
+            self.begin_optional(hash.span, at)
+        } else {
+            OptionalSection::Outside
+        };
         self.pass_over(hash.command.words, hash.span, at);
         Ok(())
+    }
+
+    /// Whether the section is executed is one question to the machine.
+    fn begin_optional(&mut self, span: Span, at: &BlockContext<'_>) -> OptionalSection {
+        let can_part =
+            self.options.follows_ways() && self.state.conditions.len() + 1 < MAX_CONDITIONS;
+        if !can_part {
+            return OptionalSection::Inside;
+        }
+        OptionalSection::Asked(self.state.ask_anew(Condition::new(
+            ConditionKind::Branch,
+            at.place(span),
+            vec![Arc::from("the optional section is executed")],
+            Unknown::OptionalSection,
+        )))
     }
 
     /// A command that is passed over, apart from its effects on what is followed.

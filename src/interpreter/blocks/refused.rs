@@ -5,6 +5,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::cause::Unknown;
+use crate::language::Flushes;
 use crate::syntax::Fault;
 use crate::text::Span;
 
@@ -21,6 +22,26 @@ impl Interpreter {
         let number = number.into();
         let asked = (Unknown::Refused(number), StopScope::Block);
         self.may_refuse_with(number, what, asked, span, at);
+    }
+
+    /// FC328: something flushes the channel where the control may refuse that (R2.111).
+    pub(crate) fn check_flush(
+        &mut self,
+        flushes: Flushes,
+        name: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        let modal = &self.state.control.modal;
+        let (number, under) = match flushes {
+            Flushes::Radius | Flushes::Both if modal.transformed.contains("G41") => {
+                (20651, "G41 or G42")
+            }
+            Flushes::Spline | Flushes::Both if modal.is_spline() => (120_434, "a spline"),
+            _ => return,
+        };
+        let what = format!("`{name}` flushes the channel under {under}");
+        self.may_refuse(number, &what, span, at);
     }
 
     /// FC328 for a variable that no `#VAR` declares: the control has one answer for all of them (R2.102).

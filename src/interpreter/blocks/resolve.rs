@@ -97,6 +97,9 @@ impl Interpreter {
                 return None;
             }
         };
+        if wanted.scope == CallScope::Global && here.is_none() {
+            self.tell_others(&wanted, found, finder, at);
+        }
         let is_refused = !self.programs.index(found.unit).refused.is_empty();
         if is_refused && found.unit > 0 {
             // The faults of the file are reported at the first call of it (R2.85).
@@ -140,6 +143,33 @@ impl Interpreter {
             form: wanted.form,
             called_from: at.place(wanted.span),
         })
+    }
+
+    /// FC329: other files have the name of the called program (R2.108).
+    fn tell_others(
+        &mut self,
+        wanted: &WantedCall,
+        found: ProgramId,
+        finder: &mut dyn Finder,
+        at: &BlockContext<'_>,
+    ) {
+        let first = self.programs.section(found).start;
+        if self.programs.was_read(found.unit, first) {
+            return;
+        }
+        let others = finder.others(&wanted.name, at.file);
+        if others.is_empty() {
+            return;
+        }
+        let taken = self.programs.index(found.unit).source.name();
+        let message = format!(
+            "`{}` is called here, and `{}` has the name, too; the control takes the first one on its own paths",
+            taken,
+            others.join("`, `")
+        );
+        let fault = Fault::new(Code::Fc329, wanted.span, message)
+            .with_help("call it with its folder, or give the others names of their own");
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC902: the program that is called may be another one on the machine (R2.108).

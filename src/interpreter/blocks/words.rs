@@ -448,6 +448,7 @@ impl Interpreter {
             return;
         }
         if let Some(function) = GFunction::of(number) {
+            self.check_flush(function.flushes, &format!("G{number}"), span, at);
             if let Some(motion) = function.motion {
                 self.scratch.word_row = Some(motion);
                 self.scratch.rests.set(true);

@@ -6,7 +6,6 @@ use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::PositionFrame;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -16,6 +15,7 @@ use crate::interpreter::values::expression::{
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
+use crate::language::{Flushes, is_read_only};
 use crate::lists::AxisType;
 use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
 use crate::syntax::{AxisOfVariable, Fault, Subscript, VariableFamily, VariableName};
@@ -57,7 +57,7 @@ impl Interpreter {
         let value = self.with_evaluator(at, |evaluator| evaluator.value(operand, &mut stack));
         self.scratch.stack = stack;
         if let Some(name) = self.scratch.flushing.take() {
-            self.scratch.note_flush(&name, at);
+            self.read_flushes(&name, at);
         }
         if let Some(name) = self.scratch.undeclared.take() {
             self.miss_internal(&name, Span::new(0, at.text.trim_end().len()), at);
@@ -113,6 +113,7 @@ impl Interpreter {
                 given,
                 unread: &self.scratch.unread,
                 waits: &self.scratch.rests,
+                flushing: &self.scratch.flushing,
                 relied: &self.scratch.relied,
                 held: self.scratch.held,
                 system: &|name| self.system_variable(name),
@@ -160,9 +161,8 @@ impl Interpreter {
                 .replace(Some(name.array().to_owned()));
         }
         let own = self.own_variable(name)?;
-        let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
-        if is_state && self.state.control.modal.transformed.contains("G41") {
-            self.scratch.flushing.replace(Some(name.to_string()));
+        if matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..)) {
+            self.scratch.flushing.replace(Some(name.clone()));
         }
         match own {
             OwnVariable::Active(axis, kind) => {
@@ -235,31 +235,23 @@ impl Interpreter {
         let Some(name) = place.and_then(Denoted::variable) else {
             return;
         };
-        let Some(own) = self.own_variable(name) else {
-            return;
+        let (axis, kind, is_switch) = match self.own_variable(name) {
+            Some(OwnVariable::Active(axis, kind)) => (axis, kind, true),
+            Some(OwnVariable::Ready(axis, kind)) => (axis, kind, false),
+            // Positions can only be read, which is an error.
+            Some(OwnVariable::Absolute(_) | OwnVariable::Programmed(_)) | None => return,
         };
-        let machine = &self.machine;
-        let what = match own {
-            OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
-                format!("`{kind}` of `{}`", machine.axis(axis).name)
-            }
-            OwnVariable::Absolute(axis) | OwnVariable::Programmed(axis) => {
-                format!("the position of `{}`", machine.axis(axis).name)
-            }
-        };
+        let axis = &self.machine.axis(axis).name;
         let message = format!(
-            "`{name}` shows a state of the control and is not meant to be written; {what} is unknown after this assignment"
+            "`{name}` shows a state of the control and is not meant to be written; `{kind}` of `{axis}` is unknown after \
+             this assignment"
         );
-        let fault = Fault::new(Code::Fc322, span, message);
-        let fault = match own {
-            OwnVariable::Active(axis, kind) => {
-                let axis = &machine.axis(axis).name;
-                fault.with_help(format!(
-                    "switch it with `{axis}[COMP ON {kind}]` or `{axis}[COMP OFF {kind}]`"
-                ))
-            }
-            _ => fault,
-        };
+        let mut fault = Fault::new(Code::Fc322, span, message);
+        if is_switch {
+            fault = fault.with_help(format!(
+                "switch it with `{axis}[COMP ON {kind}]` or `{axis}[COMP OFF {kind}]`"
+            ));
+        }
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
@@ -315,6 +307,10 @@ impl Interpreter {
         let (Location::Variable(name) | Location::Elements(name)) = &place.location else {
             return Ok(value);
         };
+        if is_read_only(name.array()) {
+            let what = format!("`{name}` can only be read");
+            return Err(Fault::refused(Code::PErr20100, span, what));
+        }
         let memory = &self.state.control.memory;
         if let Some(misuse) = place.variable().and_then(|name| memory.misuse(name)) {
             return Err(misused(misuse, span, at.text));
@@ -434,21 +430,26 @@ impl Interpreter {
     }
 }
 
-impl BlockScratch {
-    /// FC412: the control may refuse to read the state of a compensation while G41 or G42 is active
-    /// (R1.42).
-    fn note_flush(&mut self, name: &str, at: &BlockContext<'_>) {
-        let found = at
-            .text
-            .find(name)
-            .map(|start| Span::new(start, start + name.len()));
-        let span = found.unwrap_or_else(|| Span::new(0, at.text.len()));
+impl Interpreter {
+    /// FC412, FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and a `V.E.`
+    /// variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
+    fn read_flushes(&mut self, name: &VariableName, at: &BlockContext<'_>) {
+        let written = name.to_string();
+        let found = at.text.find(&written);
+        let span = found.map(|start| Span::new(start, start + written.len()));
+        let span = span.unwrap_or_else(|| Span::new(0, at.text.trim_end().len()));
+        if name.family() == VariableFamily::External {
+            return self.check_flush(Flushes::Both, &written, span, at);
+        }
+        if !self.state.control.modal.transformed.contains("G41") {
+            return;
+        }
         let message = format!(
-            "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
+            "reading `{written}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
         );
         let fault = Fault::new(Code::Fc412, span, message)
             .with_help("read it before G41 or G42, for example into a parameter");
-        self.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 }
 

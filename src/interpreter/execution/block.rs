@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
+use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
@@ -226,6 +227,11 @@ impl Interpreter {
         if !scratch.changes.is_empty() || scratch.new_axes || scratch.left_open.is_some() {
             self.version += 1;
             self.close_changed();
+        }
+        if let Some(earlier) = self.scratch.earlier.take()
+            && let OptionalSection::Asked(condition) = self.state.control.optional
+        {
+            self.join_earlier(condition, &earlier);
         }
         self.state.remember_last(at);
         self.scratch.gather_asked();

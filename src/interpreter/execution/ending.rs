@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::merging::MetWays;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Collected, Diagnostic};
-use crate::interpreter::programs::builder::without_end;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::programs::unit::SourceUnit;
@@ -77,10 +76,7 @@ impl Interpreter {
         let shown = ShownBlockLines::default();
         let at = BlockContext::of_parsed(&parsed, level, &shown);
         let span = Span::new(0, at.text.trim_end().len());
-        let what = format!(
-            "{}: the control skips the rest of the text and stops at its end",
-            without_end(at.text)
-        );
+        let what = "this `$IF` has no `$ENDIF`: the control skips the rest of the text and stops at its end";
         let mut said = at.diagnostic(*Fault::refused(code, span, what));
         self.state.limit_to_reach(&mut said, None);
         self.scratch.over.push(said);

@@ -10,6 +10,7 @@ use crate::interpreter::programs::index::Index;
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::channel_axes::ChannelAxes;
+use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::{EndedBy, Event, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -117,7 +118,7 @@ impl Interpreter {
         self.state.last = None;
         self.state.parked = None;
         self.state.control.named.clear();
-        self.state.control.optional = false;
+        self.state.control.optional = OptionalSection::Outside;
         if !self.machine.channel.has(ChannelSwitch::KeepAxes) {
             self.state.control.channel_axes = ChannelAxes::default();
         }

@@ -7,7 +7,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Loop, RunTrack};
-use crate::interpreter::run::search::BeforeSearch;
+use crate::interpreter::run::search::EarlierStates;
 use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, Request};
@@ -112,7 +112,7 @@ impl<'a> Trust<'a> {
         holds(known, "a condition that is not there")
     }
 
-    fn check_search(&self, before: &BeforeSearch) -> Validity {
+    fn check_search(&self, before: &EarlierStates) -> Validity {
         let is_machine = before.compensation.fits(self.machine.axis_setups());
         holds(is_machine, "a block search on another machine")?;
         self.check_history(&before.history)

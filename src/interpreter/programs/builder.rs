@@ -205,7 +205,7 @@ impl Builder {
             section.end = end;
         }
         let open = std::mem::take(&mut self.open);
-        let is_if = |open: &Open| open.kind == ControlBlock::If && open.sign.is_some();
+        let is_if = |open: &Open| open.kind == ControlBlock::If && open.sign == Some('$');
         if open.len() <= self.nesting && open.iter().all(is_if) {
             for mut open in open {
                 self.index.unclosed.insert(open.opener);
@@ -571,14 +571,12 @@ fn is_jump(item: &Item) -> bool {
     matches!(item, Item::Flow(Flow::Goto(_), _))
 }
 
-/// The statement that an `$IF` or `#IF` has no end.
-pub(crate) fn without_end(opener: &str) -> String {
-    let sign = opener.trim().get(..1).unwrap_or("$");
-    format!("this `{sign}IF` has no `{sign}ENDIF`")
-}
-
 fn not_closed(open: &Open) -> Option<Fault> {
     let sign = open.sign?;
+    if open.kind == ControlBlock::If && sign == '#' {
+        let what = "this `#IF` has no `#ENDIF`";
+        return Some(*Fault::refused(Code::PErr21387, open.span, what));
+    }
     let (opener, closer) = (open.kind.opener(), open.kind.closer());
     let shown = |word: &str| word.replace('$', sign.encode_utf8(&mut [0; 4]));
     let (opener, closer) = (shown(opener), shown(closer));

@@ -23,6 +23,11 @@ pub trait Finder {
     /// # Errors
     /// It is missing.
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram>;
+
+    /// The names of further files with other content that the name may mean on the control (FC329).
+    fn others(&mut self, _name: &str, _caller: &str) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 impl<F: FnMut(&str, &str) -> Option<SourceFile>> Finder for F {

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::event::{Aside, Note, Outcome};
 use super::lone_part::LonePart;
+use super::search::EarlierStates;
 use super::undecided::Undecided;
 use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::Diagnostic;
@@ -124,8 +125,10 @@ pub(crate) struct BlockScratch {
     /// Whether a text of the block had no known meaning; what depends on it is not reported again
     /// (R2.71).
     pub(crate) unread: Cell<bool>,
+    /// The states before the block, where the control may skip its commands (R2.109).
+    pub(crate) earlier: Option<Box<EarlierStates>>,
     /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
-    pub(crate) flushing: RefCell<Option<String>>,
+    pub(crate) flushing: RefCell<Option<VariableName>>,
     /// A `V.I.` variable that was read and that no program of the run declares (R2.102).
     pub(crate) undeclared: RefCell<Option<String>>,
     /// Why a program may be called that is not known, if one may.

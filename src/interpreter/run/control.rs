@@ -11,6 +11,7 @@ use super::cycles::ModalCycles;
 use super::description::Description;
 use super::event::EndedBy;
 use super::saved_config::SavedConfig;
+use super::search::EarlierStates;
 use super::stack::CallStack;
 use super::ways::join_names;
 use crate::comp::Compensation;
@@ -48,12 +49,36 @@ pub(crate) struct ControlState {
     /// Files that programs changed.
     pub(crate) files: ChangedFiles,
     /// Whether the control may skip blocks while it moves backward (`#OPTIONAL EXECUTION`).
-    pub(crate) optional: bool,
+    pub(crate) optional: OptionalSection,
     /// G functions and positions before a contour description, inside it.
     pub(crate) described: Option<Box<Description>>,
 }
 
+/// Section between `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum OptionalSection {
+    Outside,
+    /// Within one that the control may execute.
+    Inside,
+    /// Within one that it executes where this condition holds.
+    Asked(u32),
+}
+
+impl OptionalSection {
+    fn join(self, other: Self) -> Self {
+        if self == other { self } else { Self::Inside }
+    }
+}
+
 impl ControlState {
+    /// The states at this block, for where the machine does not execute what follows.
+    pub(crate) fn earlier_states(&self) -> EarlierStates {
+        EarlierStates {
+            compensation: self.compensation.clone(),
+            history: self.history.clone(),
+        }
+    }
+
     /// The state before the first program.
     pub(crate) fn new(compensation: Compensation, modal: Modal) -> Self {
         Self {
@@ -70,7 +95,7 @@ impl ControlState {
             named: BTreeMap::new(),
             saved: SavedConfig::default(),
             files: ChangedFiles::default(),
-            optional: false,
+            optional: OptionalSection::Outside,
             described: None,
         }
     }
@@ -119,7 +144,7 @@ impl ControlState {
         join_names(&mut self.named, named, cause);
         self.saved.join(saved);
         self.files.join(files);
-        self.optional |= optional;
+        self.optional = self.optional.join(*optional);
         self.join_description(described.as_deref());
         differing
     }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::control::ControlState;
 use super::event::EndedBy;
 use super::loop_heads::Arrival;
-use super::search::BeforeSearch;
+use super::search::EarlierStates;
 use super::stack::{CallFrame, CallStack, Seeking};
 use super::state::State;
 use super::stopping::FailedAt;
@@ -51,7 +51,7 @@ pub(crate) struct RunTrack {
     /// The loops whose condition was not known, by depth, file and opener.
     pub(crate) open_loops: BTreeSet<(usize, usize, EntryIndex)>,
     /// States before the program, until its searched block is reached.
-    pub(crate) searching: Option<Box<BeforeSearch>>,
+    pub(crate) searching: Option<Box<EarlierStates>>,
     /// The error that has ended it, where the run goes on as if the failing command were not there (R9.20).
     #[serde(default)]
     pub(crate) failed: Option<Box<FailedAt>>,

@@ -66,9 +66,9 @@ impl SearchedBlock {
     }
 }
 
-/// The states before a program, which apply at the searched block if the search only decodes.
+/// The states at an earlier block, which apply where the machine did not execute what follows it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct BeforeSearch {
+pub(crate) struct EarlierStates {
     pub(crate) compensation: Compensation,
     pub(crate) history: History,
 }

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Last;
-use crate::interpreter::run::search::BeforeSearch;
+use crate::interpreter::run::search::EarlierStates;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::ways::history::HistorySide;
 use crate::interpreter::ways::question::{Condition, ConditionKind};
@@ -42,11 +42,8 @@ impl Interpreter {
 
     pub(crate) fn begin_search(&mut self) {
         if self.options.search.is_some() {
-            let control = &self.state.control;
-            self.state.track.searching = Some(Box::new(BeforeSearch {
-                compensation: control.compensation.clone(),
-                history: control.history.clone(),
-            }));
+            let earlier = self.state.control.earlier_states();
+            self.state.track.searching = Some(Box::new(earlier));
         }
     }
 
@@ -75,7 +72,7 @@ impl Interpreter {
     }
 
     /// Continues with both readings of a block search.
-    fn search_either_way(&mut self, before: &BeforeSearch, at: &BlockContext<'_>) {
+    fn search_either_way(&mut self, before: &EarlierStates, at: &BlockContext<'_>) {
         let differing = self.differing_since(before);
         if differing.is_empty() {
             return;
@@ -99,25 +96,29 @@ impl Interpreter {
             vec![Arc::from("executed")],
             Unknown::Search,
         ));
+        self.join_earlier(condition, before);
+    }
+
+    /// The states are those of an earlier block where a condition does not hold.
+    pub(crate) fn join_earlier(&mut self, condition: u32, earlier: &EarlierStates) {
         let reach = &self.state.track.reach;
-        let sides: Vec<WaySet> = answers(condition, 2)
-            .map(|answer| reach.and(&WaySet::of(answer)))
-            .collect();
-        let [executed, decoded] = sides.as_slice() else {
+        let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
+        let (Some(holds), Some(fails)) = (sides.next(), sides.next()) else {
             return;
         };
         let control = &mut self.state.control;
         let theirs = HistorySide {
-            compensation: &before.compensation,
-            history: &before.history,
-            reach: decoded,
+            compensation: &earlier.compensation,
+            history: &earlier.history,
+            reach: &fails,
         };
         control
             .history
-            .join(&mut control.compensation, executed, &theirs);
+            .join(&mut control.compensation, &holds, &theirs);
+        self.version += 1;
     }
 
-    fn differing_since(&self, before: &BeforeSearch) -> Vec<(AxisIndex, Kind)> {
+    fn differing_since(&self, before: &EarlierStates) -> Vec<(AxisIndex, Kind)> {
         let now = &self.state.control.compensation;
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         let of_axis = |axis: AxisIndex| {
@@ -135,7 +136,7 @@ impl Interpreter {
     fn open_search(
         &self,
         (axis, kind): (AxisIndex, Kind),
-        before: &BeforeSearch,
+        before: &EarlierStates,
         at: &BlockContext<'_>,
     ) -> Diagnostic {
         let name = &self.machine.axis(axis).name;

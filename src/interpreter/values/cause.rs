@@ -50,6 +50,9 @@ pub enum Unknown {
     /// The effect of a block search on the commands that it passes (R2.96).
     #[serde(rename = "the block search")]
     Search,
+    /// Whether the control skips an optional section while it moves backward (R2.109).
+    #[serde(rename = "an optional section")]
+    OptionalSection,
     /// A modal cycle that may be in force, by the name of its program (R2.13).
     Cycle(Arc<str>),
     /// A parameter, a variable or other text of a program.
@@ -154,6 +157,7 @@ impl Unknown {
             Self::Rounding => format!("{self}, which the control may do otherwise"),
             Self::Passes => "how often a loop is repeated".to_owned(),
             Self::Search => "whether the block search executes what it passes".to_owned(),
+            Self::OptionalSection => "whether the PLC moves the program backward".to_owned(),
             Self::Cycle(name) => format!("whether the modal cycle `{name}` is in force"),
             Self::Ways | Self::Work => self.to_string(),
             Self::Text(UnknownText { text, meaning }) => {
@@ -185,6 +189,7 @@ impl Unknown {
             Self::Ways => Advice::RaiseBudget(Budget::Ways),
             Self::Work => Advice::RaiseBudget(Budget::Work),
             Self::Search => "`\"R2.96\"` in `[reading]` of frictcomp.toml decides".into(),
+            Self::OptionalSection => "switch compensation outside of the section".into(),
             Self::Cycle(name) => format!("FC901 or FC902 shows what decides whether `{name}` is in force").into(),
             Self::Text(UnknownText { text, meaning }) => match meaning {
                 TextMeaning::Value | TextMeaning::Inherited => Advice::SetVariable(text.to_string()),
@@ -239,6 +244,7 @@ impl fmt::Display for Unknown {
             Self::Ways => f.write_str("ways that are not followed"),
             Self::Work => f.write_str("the budget of work"),
             Self::Search => f.write_str("the block search"),
+            Self::OptionalSection => f.write_str("an optional section"),
             Self::Cycle(name) => f.write_str(name),
             Self::Text(text) => f.write_str(&text.text),
         }

@@ -46,6 +46,8 @@ pub(crate) struct ExpressionScope<'a> {
     pub(crate) unread: &'a Cell<bool>,
     /// Set where a variable is read for which the control waits until the axes rest.
     pub(crate) waits: &'a Cell<bool>,
+    /// The last variable that was read and whose reading flushes the channel, where that matters (R1.42, R2.111).
+    pub(crate) flushing: &'a RefCell<Option<VariableName>>,
     /// The variables read whose value is known and which the PLC may write.
     pub(crate) relied: &'a RefCell<Vec<VariableName>>,
     pub(crate) held: HeldValues,
@@ -378,6 +380,9 @@ impl Evaluator<'_> {
         let family = name.family();
         if matches!(family, VariableFamily::Axis | VariableFamily::External) {
             self.scope.waits.set(true);
+        }
+        if family == VariableFamily::External {
+            self.scope.flushing.replace(Some(name.clone()));
         }
         self.note_read(name);
         if let Some(value) = self.scope.memory.variable(name) {

@@ -329,6 +329,14 @@ impl Memory {
         level.names.get(name.array())?.declared
     }
 
+    /// The variable of a name that only a level around the current one has.
+    pub(crate) fn of_outer_level(&self, name: &VariableName) -> Option<&NamedVariable> {
+        let (current, outer) = self.locals.split_last()?;
+        let found = |level: &VariableNames| level.names.get(name.array()).is_some();
+        let mut outer = outer.iter().rev().filter(|_| !found(current));
+        outer.find_map(|level| level.names.get(name.array()))
+    }
+
     /// Whether nothing of the name is known, or may be there.
     pub(crate) fn is_absent(&self, name: &VariableName) -> bool {
         let mut levels = self.locals.iter().chain([&self.variables]);

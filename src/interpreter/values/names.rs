@@ -203,6 +203,13 @@ impl NamedVariable {
         self.elements.iter().map(weight).sum()
     }
 
+    /// Whether it is there on every way.
+    pub(crate) fn is_certain(&self) -> bool {
+        let is_known = |value: &Value| !matches!(value, Value::Unknown(_));
+        let declared = self.declared.map(|it| it.certainty == Sure::Certain);
+        declared.unwrap_or_else(|| self.scalar.as_ref().is_some_and(is_known))
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.scalar.is_none()
             && self.array.is_none()

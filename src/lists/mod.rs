@@ -8,6 +8,7 @@ mod entry;
 mod friction;
 #[cfg_attr(not(feature = "unstable"), allow(unreachable_pub))]
 mod keywords;
+mod kind;
 mod line;
 mod monitor;
 mod parameter;
@@ -29,12 +30,13 @@ pub use entry::Entry;
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 #[cfg(feature = "unstable")]
 pub use keywords::{KEYS, KnownKey};
+pub use kind::ListKind;
 pub use line::Entries;
 pub use monitor::Monitor;
 pub use parameter::{AxisType, Origin, Parameter, UnknownAxisType};
 pub use program::{ChannelPrograms, ProgramRole};
 pub use single::{NoValues, ReadList};
-pub use startup::{ChannelAxis, ChannelList, ListKind, NamedList, StartupList};
+pub use startup::{ChannelAxis, ChannelList, NamedList, StartupList};
 pub use table::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 pub use value::{Given, Number, Written};
 pub use write::{ListHead, Points, write_value_list};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::assemble::{AxisReport, on_spindle};
 use super::axis::Parameterisation;
 use super::configuration::Configuration;
-use super::described::{describe, has_nothing, is_no_matter};
+use super::described::{describe, has_nothing};
 use super::description::Machine;
 use super::files::ListFiles;
 use super::value_list::ValueList;
@@ -92,6 +92,7 @@ pub fn check_list(
         };
     }
     let mut diagnostics = entries.diagnostics.clone();
+    diagnostics.extend(kind.into_iter().flat_map(|kind| kind.check_keys(&entries)));
     let mut reports = Vec::new();
     let mut programs = Vec::new();
     let mut accepted = Vec::new();
@@ -142,7 +143,7 @@ pub fn check_list(
             report.parameters.extend(reading.parameters);
             reports.push(report);
         }
-        None if is_no_matter(&entries) || entries.lost_underscores() => {}
+        None if entries.unread_kind().is_some() || entries.lost_underscores() => {}
         None if has_nothing(&entries) => {
             let place = source.place(Span::new(0, 0));
             let mut empty = Diagnostic::new(Code::Fc124, place, "this list has no entries");

@@ -59,6 +59,8 @@ impl Configuration {
             self.assemble(Vec::new(), loader);
             return;
         }
+        let said = ListKind::Startup.check_keys(&entries);
+        loader.diagnostics.extend(said);
         let axes = loader.startup(&entries);
         self.machine.axes_are_listed = true;
         self.assemble(axes, loader);

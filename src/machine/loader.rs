@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::assemble::AxisDraft;
-use super::described::{describe, is_no_matter};
+use super::described::describe;
 use super::files::{ListFiles, NoList, folder, is_absolute, join};
 use super::missing::MissingLists;
 use super::value_list::ValueList;
@@ -81,8 +81,10 @@ impl<'f> Loader<'f> {
             Ok(file) => {
                 self.lookups.find(asked);
                 let entries = self.entries(&file.into());
-                let is_other = ListKind::detect(&entries).is_none() && is_no_matter(&entries);
+                let is_other =
+                    ListKind::detect(&entries).is_none() && entries.unread_kind().is_some();
                 if wanted.admits(&entries) && !is_other {
+                    self.diagnostics.extend(wanted.check_keys(&entries));
                     return Some(entries);
                 }
                 self.diagnostics.push(mistaken(asked, wanted, &entries));

@@ -3,6 +3,7 @@
 use super::entry::Entry;
 use super::line::Entries;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::text::lines_of;
 
 /// The kinds of list that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,6 +131,23 @@ impl ListKind {
     /// Returns the kind of a list by its keys; `None` if no key belongs to any kind.
     pub fn detect(list: &Entries) -> Option<Self> {
         most(list, |row| row.deciding).or_else(|| most(list, |row| row.others))
+    }
+
+    /// Whether a text has a line that begins with a deciding key, or with the head of a list, and a value.
+    pub(crate) fn is_likely(text: &str) -> bool {
+        let is_entry = |line: &str| {
+            let line = line.trim_start();
+            let key = KINDS.iter().find_map(|row| {
+                let head = (row.kind == Self::Head).then_some(row.others);
+                let keys = head.unwrap_or(row.deciding).iter();
+                keys.clone().find(|key| line.starts_with(*key))
+            });
+            let blank = key.and_then(|key| line[key.len()..].find([' ', '\t']));
+            // An assignment is code of a PLC.
+            let value = blank.map(|at| line[at..].trim_start());
+            value.is_some_and(|value| !value.starts_with([':', '=']))
+        };
+        lines_of(text).any(is_entry)
     }
 
     /// Whether a list can serve as one of this kind: one of its keys identifies this kind, or none identifies

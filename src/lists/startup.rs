@@ -19,6 +19,28 @@ pub struct NamedList {
     pub path: Given<String>,
     /// The axis that it belongs to, if the start-up list gives it.
     pub axis_number: Option<Given<u32>>,
+    /// The path of the axis list of that axis, where a project gives it.
+    pub(crate) owner: Option<String>,
+}
+
+/// The place of an axis in the channels, as an item of a project gives it (R3.42).
+#[derive(Debug, Clone)]
+pub(crate) struct AxisPlacement {
+    /// The path of its axis list.
+    pub(crate) list: String,
+    /// Its channel, from 1.
+    pub(crate) channel: Option<Given<u32>>,
+    /// Its position in the channel, from 0.
+    pub(crate) index: Option<u32>,
+    /// Its name in programs.
+    pub(crate) name: Option<Given<String>>,
+}
+
+impl AxisPlacement {
+    /// Whether the axis is in the channel with a number, from 1.
+    pub(crate) fn is_in(&self, number: u32) -> bool {
+        self.channel.as_ref().is_some_and(|given| given.value == number)
+    }
 }
 
 /// The files that the control reads at start-up.
@@ -35,6 +57,8 @@ pub struct StartupList {
     pub default_channel_list: Option<Given<String>>,
     /// Channel lists in the order of their channels.
     pub channel_lists: Vec<Given<String>>,
+    /// The places of the axes, where a project gives them.
+    pub(crate) placements: Vec<AxisPlacement>,
 }
 
 impl StartupList {
@@ -59,11 +83,30 @@ impl StartupList {
                 .map(|(index, path)| NamedList {
                     path,
                     axis_number: numbers.remove(&index),
+                    owner: None,
                 })
                 .collect(),
             default_channel_list: list.find("default_sda_mds").and_then(text),
             channel_lists: channels.into_values().collect(),
+            placements: Vec::new(),
         }
+    }
+
+    /// Returns the place of the axis of a list.
+    pub(crate) fn placement(&self, list: &str) -> Option<&AxisPlacement> {
+        self.placements.iter().find(|it| it.list == list)
+    }
+
+    /// Puts the axis lists in the order of the channels and of the axes in them.
+    pub(crate) fn order_axes(&mut self) {
+        let mut axis_lists = std::mem::take(&mut self.axis_lists);
+        axis_lists.sort_by_key(|path| {
+            let place = self.placement(&path.value);
+            let channel = place.and_then(|it| Some(it.channel.as_ref()?.value));
+            let index = place.and_then(|it| it.index);
+            (channel.unwrap_or(u32::MAX), index.unwrap_or(u32::MAX))
+        });
+        self.axis_lists = axis_lists;
     }
 }
 
@@ -126,6 +169,8 @@ pub struct ChannelAxis {
     pub number: Option<Given<u32>>,
     /// `gruppe[0].achse[j].bezeichnung`, P-CHAN-00006: the name that programs use.
     pub name: Option<Given<String>>,
+    /// The path of its axis list, where a project gives it.
+    pub(crate) list: Option<String>,
 }
 
 /// The axes of a channel.
@@ -190,6 +235,7 @@ impl ChannelList {
                 let kept = mine.entry(index).or_default();
                 kept.number = axis.number.or(kept.number.take());
                 kept.name = axis.name.or(kept.name.take());
+                kept.list = axis.list.or(kept.list.take());
             }
         }
         self.count = other.count.or(self.count);
@@ -203,6 +249,18 @@ impl ChannelList {
         let count = self.count.unwrap_or(u32::MAX);
         let axes = self.axes.range(..count).map(|(_, axis)| axis);
         axes.filter(|axis| axis.is_there())
+    }
+
+    /// Puts an axis in its place (R3.42); its own number and name stay where the item of the project gives no name.
+    pub(crate) fn place(&mut self, placement: &AxisPlacement) {
+        let after = || self.axes.keys().last().map_or(0, |last| last.saturating_add(1));
+        let index = placement.index.unwrap_or_else(after);
+        let axis = self.axes.entry(index).or_default();
+        axis.list = Some(placement.list.clone());
+        axis.number = None;
+        axis.name = placement.name.clone().or(axis.name.take());
+        let count = self.count;
+        self.count = count.map(|count| count.max(index.saturating_add(1)));
     }
 
     /// Returns the effective settings of motion.

@@ -7,7 +7,8 @@ use super::assemble::{AxisReport, on_spindle};
 use super::axis::Parameterisation;
 use super::configuration::Configuration;
 use super::described::{describe, has_nothing};
-use super::description::Machine;
+use super::description::{AxisSet, Machine};
+use super::embedded::EmbeddedLists;
 use super::files::ListFiles;
 use super::value_list::ValueList;
 use crate::comp::CncBuild;
@@ -15,7 +16,7 @@ use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::drive_interface::{DriveSettings, Evidence, check_drive};
 use crate::lists::{
     AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
-    Verdict,
+    Verdict, is_xml,
 };
 use crate::text::{SourceFile, Span};
 
@@ -37,6 +38,8 @@ pub struct ListsReport {
     pub files: Vec<Arc<str>>,
     /// Number of named lists that do not exist.
     pub missing: usize,
+    /// The lists within a TwinCAT project.
+    pub embedded: EmbeddedLists,
 }
 
 /// A value list that the control would accept, and its axis.
@@ -76,19 +79,23 @@ pub fn check_list(
     let source = Arc::new(file);
     let entries = Entries::parse(&source);
     let kind = ListKind::detect(&entries);
-    if kind == Some(ListKind::Startup) {
+    let is_project = is_xml(source.text());
+    if is_project || kind == Some(ListKind::Startup) {
         let mut configuration = Configuration::default();
         configuration.machine.build = build;
         configuration.read_startup(&source, files);
         configuration.check_drives();
+        let is_one = configuration.machine.axes_are_listed
+            || configuration.machine.axis_set == AxisSet::Configured;
         return ListsReport {
-            kind,
+            kind: (!is_project || is_one).then_some(ListKind::Startup),
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
             programs: configuration.programs,
             accepted: AcceptedList::of(&configuration.machine),
             files: configuration.files,
             missing: configuration.missing,
+            embedded: configuration.embedded,
         };
     }
     let mut diagnostics = entries.diagnostics.clone();
@@ -169,6 +176,7 @@ pub fn check_list(
         accepted,
         files: vec![source.name().clone()],
         missing: 0,
+        embedded: EmbeddedLists::default(),
     }
 }
 
@@ -186,6 +194,7 @@ pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> Lists
                 programs: configuration.programs,
                 files: std::iter::once(name).chain(configuration.files).collect(),
                 missing: configuration.missing,
+                embedded: configuration.embedded,
             }
         }
         Err(error) => ListsReport {
@@ -196,6 +205,7 @@ pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> Lists
             accepted: Vec::new(),
             files: vec![name],
             missing: 0,
+            embedded: EmbeddedLists::default(),
         },
     }
 }
@@ -226,6 +236,7 @@ impl Configuration {
             let said = said.and_then(|(is_said, said)| is_said.then_some(said));
             self.diagnostics.extend(said);
         }
+        self.embedded.explain(&mut self.diagnostics);
     }
 }
 

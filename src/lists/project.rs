@@ -111,8 +111,8 @@ pub(crate) struct Project {
     pub(crate) empty: Vec<(Given<String>, ListKind)>,
 }
 
-/// Whether a text is XML.
-pub(crate) fn is_xml(text: &str) -> bool {
+/// Whether a text is XML, as TwinCAT projects are (R3.42).
+pub fn is_xml(text: &str) -> bool {
     text.trim_start().starts_with('<')
 }
 

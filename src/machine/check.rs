@@ -7,7 +7,7 @@ use super::assemble::{AxisReport, on_spindle};
 use super::axis::Parameterisation;
 use super::configuration::Configuration;
 use super::described::{describe, has_nothing};
-use super::description::{AxisSet, Machine};
+use super::description::Machine;
 use super::embedded::EmbeddedLists;
 use super::files::ListFiles;
 use super::value_list::ValueList;
@@ -85,10 +85,12 @@ pub fn check_list(
         configuration.machine.build = build;
         configuration.read_startup(&source, files);
         configuration.check_drives();
-        let is_one = configuration.machine.axes_are_listed
-            || configuration.machine.axis_set == AxisSet::Configured;
+        let first = configuration.diagnostics.first();
+        let is_refused = first.is_some_and(|said| {
+            said.code == Code::Fc125 && said.place.file == *source.name()
+        });
         return ListsReport {
-            kind: (!is_project || is_one).then_some(ListKind::Startup),
+            kind: (!is_project || !is_refused).then_some(ListKind::Startup),
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
             programs: configuration.programs,

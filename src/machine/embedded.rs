@@ -27,11 +27,6 @@ impl EmbeddedLists {
         self.0.push(list);
     }
 
-    /// Returns the number of lists.
-    pub(super) fn count(&self) -> usize {
-        self.0.len()
-    }
-
     fn list(&self, file: &str, line: u32) -> Option<(&EmbeddedList, u32)> {
         let mut lists = self.0.iter();
         let found = lists.find(|list| &*list.file == file && list.lines.contains(&line))?;

@@ -31,6 +31,8 @@ const OTHER_EXTENSIONS: &[&str] = &[
 pub(super) enum FileKind {
     Program,
     List,
+    /// A TwinCAT project, or a part of one.
+    Project,
     Configuration,
 }
 
@@ -44,6 +46,8 @@ impl FileKind {
             Some(Self::Program)
         } else if is_list(path) {
             Some(Self::List)
+        } else if is_project(path) || has_extension(path, &["xti"]) {
+            Some(Self::Project)
         } else {
             None
         }
@@ -54,6 +58,7 @@ impl FileKind {
         match self {
             Self::Program => "program",
             Self::List => "list",
+            Self::Project => "project",
             Self::Configuration => "configuration",
         }
     }
@@ -83,6 +88,11 @@ pub(super) fn is_known_otherwise(path: &Path) -> bool {
 /// Whether a file is a list of the control, judged by its name.
 pub(super) fn is_list(path: &Path) -> bool {
     has_extension(path, &["lis"])
+}
+
+/// Whether a file is a TwinCAT project, judged by its name.
+pub(super) fn is_project(path: &Path) -> bool {
+    has_extension(path, &["tsproj"])
 }
 
 pub(super) fn has_extension(path: &Path, extensions: &[impl AsRef<str>]) -> bool {

@@ -47,10 +47,8 @@ const ITEM_KEYS: [&str; 5] = [
 const NAME_OF_FILE: &str = "__FILENAME__";
 
 /// Elements whose text is a list, with the kind that belongs there.
-const LIST_ELEMENTS: [(&str, ListKind); 2] = [
-    ("AchsMds", ListKind::Axis),
-    ("SdaMds", ListKind::Channel),
-];
+const LIST_ELEMENTS: [(&str, ListKind); 2] =
+    [("AchsMds", ListKind::Axis), ("SdaMds", ListKind::Channel)];
 
 /// Why a file gives no lists: what it is, in words that follow its name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -147,7 +145,9 @@ impl Project {
     /// Returns the name of the nearest item around a list; that of its element without one.
     pub(crate) fn name_of(&self, list: &ProjectList) -> String {
         let nearest = list.items.first();
-        nearest.map_or(list.element.value.clone(), |at| self.items[*at].name.clone())
+        nearest.map_or(list.element.value.clone(), |at| {
+            self.items[*at].name.clone()
+        })
     }
 }
 
@@ -197,11 +197,11 @@ impl<'a> Parser<'a, '_> {
             let end = position(reader.buffer_position());
             match event {
                 Ok(Event::Start(element)) => {
-                    self.check_root(&mut has_root, &element, start)?;
+                    Self::check_root(&mut has_root, &element)?;
                     self.begin(&element, start, end)?;
                 }
                 Ok(Event::Empty(element)) => {
-                    self.check_root(&mut has_root, &element, start)?;
+                    Self::check_root(&mut has_root, &element)?;
                     self.begin(&element, start, end)?;
                     self.end();
                 }
@@ -242,12 +242,7 @@ impl<'a> Parser<'a, '_> {
     }
 
     /// Checks that the outermost element is one of a project.
-    fn check_root(
-        &self,
-        has_root: &mut bool,
-        element: &BytesStart<'_>,
-        start: usize,
-    ) -> Result<(), NoProject> {
+    fn check_root(has_root: &mut bool, element: &BytesStart<'_>) -> Result<(), NoProject> {
         let name = element.local_name();
         let name: &str = name.as_ref();
         if std::mem::replace(has_root, true) || ROOTS.contains(&name) {
@@ -261,7 +256,7 @@ impl<'a> Parser<'a, '_> {
         };
         Err(NoProject {
             reason: format!("{what}, not a TwinCAT project"),
-            span: Span::new(start, start),
+            span: Span::new(0, 0),
         })
     }
 
@@ -310,7 +305,11 @@ impl<'a> Parser<'a, '_> {
 
     fn refer(&mut self, path: &str, tag: Span) {
         let extension = Path::new(path).extension().and_then(|it| it.to_str());
-        let is_part = |it: &str| ["xti", "tsproj"].iter().any(|known| it.eq_ignore_ascii_case(known));
+        let is_part = |it: &str| {
+            ["xti", "tsproj"]
+                .iter()
+                .any(|known| it.eq_ignore_ascii_case(known))
+        };
         if extension.is_some_and(is_part) && self.references.len() < MAX_LISTS {
             let written = tag.of(self.file.text()).find(path);
             let span = written.map_or(tag, |at| {

@@ -39,7 +39,9 @@ pub(crate) struct AxisPlacement {
 impl AxisPlacement {
     /// Whether the axis is in the channel with a number, from 1.
     pub(crate) fn is_in(&self, number: u32) -> bool {
-        self.channel.as_ref().is_some_and(|given| given.value == number)
+        self.channel
+            .as_ref()
+            .is_some_and(|given| given.value == number)
     }
 }
 
@@ -253,7 +255,12 @@ impl ChannelList {
 
     /// Puts an axis in its place (R3.42); its own number and name stay where the item of the project gives no name.
     pub(crate) fn place(&mut self, placement: &AxisPlacement) {
-        let after = || self.axes.keys().last().map_or(0, |last| last.saturating_add(1));
+        let after = || {
+            self.axes
+                .keys()
+                .last()
+                .map_or(0, |last| last.saturating_add(1))
+        };
         let index = placement.index.unwrap_or_else(after);
         let axis = self.axes.entry(index).or_default();
         axis.list = Some(placement.list.clone());

@@ -86,9 +86,8 @@ pub fn check_list(
         configuration.read_startup(&source, files);
         configuration.check_drives();
         let first = configuration.diagnostics.first();
-        let is_refused = first.is_some_and(|said| {
-            said.code == Code::Fc125 && said.place.file == *source.name()
-        });
+        let is_refused =
+            first.is_some_and(|said| said.code == Code::Fc125 && said.place.file == *source.name());
         return ListsReport {
             kind: (!is_project || !is_refused).then_some(ListKind::Startup),
             diagnostics: configuration.diagnostics,

@@ -11,9 +11,7 @@ use super::gantry;
 use super::loader::Loader;
 use super::setting::Setting;
 use crate::diagnostic::{Code, Diagnostic, Levels};
-use crate::lists::{
-    ChannelSwitch, Conditions, Entries, ListKind, NoProject, Parameter, is_xml,
-};
+use crate::lists::{ChannelSwitch, Conditions, Entries, ListKind, NoProject, Parameter, is_xml};
 use crate::text::{SourceFile, Span};
 
 /// A machine and the other contents of its configuration.

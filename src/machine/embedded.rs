@@ -23,6 +23,11 @@ pub(super) struct EmbeddedList {
 }
 
 impl EmbeddedLists {
+    /// Returns the number of lists.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
     pub(super) fn add(&mut self, list: EmbeddedList) {
         self.0.push(list);
     }
@@ -79,7 +84,10 @@ impl EmbeddedLists {
         }
         let mut written = fix.place.text.to_string();
         written.replace_range(fix.place.span.range(), &fix.text);
-        Some(format!("write line {line} of the list as `{}`", written.trim()))
+        Some(format!(
+            "write line {line} of the list as `{}`",
+            written.trim()
+        ))
     }
 
     /// Names the item and the line within the list in place of those of the file.

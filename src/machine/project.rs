@@ -85,7 +85,8 @@ impl Loader<'_> {
             Ok(file) => Arc::new(file),
             Err(reason) => {
                 let mut elements = reference.elements.iter();
-                let is_other = elements.any(|it| WITHOUT_LISTS.iter().any(|no| no.eq_ignore_ascii_case(it)));
+                let is_other =
+                    elements.any(|it| WITHOUT_LISTS.iter().any(|no| no.eq_ignore_ascii_case(it)));
                 let named = format!(
                     "`{}`, named in line {} of `{}`, {reason}",
                     written.value,
@@ -108,7 +109,10 @@ impl Loader<'_> {
                 .with_help("the lists in it are not read")
         };
         if files.path.contains(file.name()) {
-            let message = format!("`{}` leads back to itself; it is not read again", written.value);
+            let message = format!(
+                "`{}` leads back to itself; it is not read again",
+                written.value
+            );
             self.diagnostics.push(refuse(message));
         } else if files.read.contains(file.name()) {
             // Its lists are there already.
@@ -130,7 +134,11 @@ impl Loader<'_> {
     fn find_part(&mut self, reference: &ProjectReference) -> Result<SourceFile, String> {
         let written = &reference.path;
         let beside = folder(written.file());
-        let name = written.file().rsplit(['/', '\\']).next().unwrap_or_default();
+        let name = written
+            .file()
+            .rsplit(['/', '\\'])
+            .next()
+            .unwrap_or_default();
         let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
         let of_elements = reference.elements.iter().rev();
         let of_elements = of_elements.flat_map(|it| [it.clone(), format!("_Config/{it}")]);
@@ -162,7 +170,8 @@ impl Loader<'_> {
             let item = list.items.first().copied();
             match list.kind {
                 Some(ListKind::Axis | ListKind::Head) => {
-                    if let Some(first) = item.and_then(|it| owners.iter().find(|(at, _)| *at == it)) {
+                    if let Some(first) = item.and_then(|it| owners.iter().find(|(at, _)| *at == it))
+                    {
                         let message = format!(
                             "`{}` is the second axis list of its item, after `{}`",
                             path.value, first.1

@@ -110,7 +110,10 @@ impl LoadedMachine {
             reports: configuration.reports,
             programs: configuration.programs,
             origin: Some(path.to_owned()),
-            lists: (configuration.files.len(), configuration.missing),
+            lists: match configuration.embedded.count() {
+                0 => (configuration.files.len(), configuration.missing),
+                count => (count, configuration.missing),
+            },
             extensions: match configuration.extensions {
                 given if given.is_empty() => None,
                 given => Some(given),

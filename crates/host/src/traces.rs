@@ -32,6 +32,9 @@ const PIECE: usize = 1 << 18;
 /// Kinds of files that Scope writes and that cannot be read.
 const CLOSED: [&str; 4] = ["svdx", "svd", "svb", "tdms"];
 
+/// The ending of what Scope is to record, which holds no values (R6.28).
+const SCOPE_CONFIGURATION: &str = "tcscopex";
+
 /// Reads the channels of a trace that `choose` selects.
 ///
 /// # Errors
@@ -57,6 +60,9 @@ fn read(
     let extension = path
         .extension()
         .map(|it| it.to_string_lossy().to_lowercase());
+    if extension.as_deref() == Some(SCOPE_CONFIGURATION) {
+        return Err(TraceError::WithoutValues(path.to_owned()).into());
+    }
     if extension.is_some_and(|it| CLOSED.contains(&it.as_str())) {
         return Err(TraceError::Closed(path.to_owned()).into());
     }

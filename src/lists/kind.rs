@@ -142,9 +142,10 @@ impl ListKind {
                 let keys = head.unwrap_or(row.deciding).iter();
                 keys.clone().find(|key| line.starts_with(*key))
             });
-            let blank = key.and_then(|key| line[key.len()..].find([' ', '\t']));
+            let rest = key.map(|key| &line[key.len()..]);
+            let value = rest.and_then(|rest| rest.split_once([' ', '\t']));
+            let value = value.map(|(_, value)| value.trim_start());
             // An assignment is code of a PLC.
-            let value = blank.map(|at| line[at..].trim_start());
             value.is_some_and(|value| !value.starts_with([':', '=']))
         };
         lines_of(text).any(is_entry)

@@ -148,13 +148,16 @@ impl Loader<'_> {
         }
         let channels = startup.channel_lists.len();
         let channels = u32::try_from(channels).unwrap_or(u32::MAX);
-        for given in startup
-            .placements
-            .iter()
-            .filter_map(|it| it.channel.as_ref())
-        {
-            if channels > 0 && !(1..=channels).contains(&given.value) {
-                let message = format!("there is no channel {} for this axis", given.value);
+        for placement in &startup.placements {
+            if let Some(given) = &placement.channel
+                && channels > 0
+                && !(1..=channels).contains(&given.value)
+            {
+                let list = &placement.list;
+                let message = format!(
+                    "there is no channel {} for the axis of `{list}`",
+                    given.value
+                );
                 let said = Diagnostic::new(Code::Fc124, given.place(), message);
                 self.diagnostics
                     .push(said.with_help("it is taken as an axis of no channel"));

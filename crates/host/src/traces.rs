@@ -571,4 +571,20 @@ mod tests {
             [[0.0, 0.0, 0.0], [0.002, 20.0, 1000.0]]
         );
     }
+
+    #[test]
+    fn files_of_scope_say_how_to_export_them() {
+        // R6.28
+        let folder = tempfile::tempdir().expect("a folder");
+        let said = |name: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, "<ScopeProject/>").expect("written");
+            let error = read_trace(&path, |_| panic!("no channels")).expect_err("no trace");
+            (error.to_string(), error.help().unwrap_or_default())
+        };
+        let (message, help) = said("a.svdx");
+        assert!(message.contains("only Scope reads") && help.contains("CSV"));
+        let (message, help) = said("a.TCSCOPEX");
+        assert!(message.contains("holds no values") && help.contains("CSV"));
+    }
 }

@@ -140,12 +140,13 @@ impl Loader<'_> {
             .next()
             .unwrap_or_default();
         let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+        // Parts lie in `_Config`, in a folder of their kind: `_Config/NC/Axes/Axis 1.xti`.
         let of_elements = reference.elements.iter().rev();
         let of_elements = of_elements.flat_map(|it| [it.clone(), format!("_Config/{it}")]);
-        let folders = [String::new(), stem.to_owned(), "_Config".to_owned()];
+        let folders = ["", stem, "_Config", "Axes"].map(str::to_owned);
         let mut unreadable = None;
         for below in folders.into_iter().chain(of_elements) {
-            let path = join(&join(beside, &below), &written.value);
+            let path = without_dots(&join(&join(beside, &below), &written.value));
             match self.files.read(&path) {
                 Ok(file) => return Ok(file),
                 Err(NoList::Missing) => {}
@@ -252,4 +253,18 @@ impl Loader<'_> {
         self.embedded.insert(name.clone(), list.source.clone());
         list.element.with(name)
     }
+}
+
+/// Returns a path without `..` after a folder that it names, so that a file has one name.
+fn without_dots(path: &str) -> String {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in path.split('/') {
+        let is_named = parts.last().is_some_and(|it| !matches!(*it, "" | ".."));
+        if part == ".." && is_named {
+            parts.pop();
+        } else {
+            parts.push(part);
+        }
+    }
+    parts.join("/")
 }

@@ -243,12 +243,13 @@ impl Loader<'_> {
             name = format!("{plain} ({number})");
         }
         let lines = list.source.lines();
-        let last = u32::try_from(lines.lines()).unwrap_or(u32::MAX).max(1) - 1;
+        let end = Span::new(0, list.source.text().trim_end().len()).end;
+        let last = lines.line(end.saturating_sub(1));
         self.project.add(EmbeddedList {
             file: list.source.name().clone(),
             item,
             element: list.element.value.clone(),
-            lines: lines.first()..=lines.first().saturating_add(last),
+            lines: lines.first()..=last,
         });
         self.embedded.insert(name.clone(), list.source.clone());
         list.element.with(name)

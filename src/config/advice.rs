@@ -42,7 +42,7 @@ pub fn example(key: &str) -> Option<&'static str> {
 }
 
 /// One row per key.
-const EXAMPLES: [(&str, &str); 30] = [
+const EXAMPLES: [(&str, &str); 31] = [
     ("machine", "write `[machine]`, in single brackets"),
     (
         "axis",
@@ -58,6 +58,7 @@ const EXAMPLES: [(&str, &str); 30] = [
         "write `[axis.value]` after the axis, in single brackets",
     ),
     ("startup", "write `startup = \"lists/hochlauf.lis\"`"),
+    ("project", "write `project = \"Machine.tsproj\"`"),
     (
         "cycle_time_ms",
         "write `cycle_time_ms = 1.0` for a CNC cycle of 1 ms",

@@ -126,6 +126,11 @@ pub static CONFIG_FORMS: [TableForm; 12] = [
                 Form::Text,
                 "the start-up list of the control, from this folder",
             ),
+            key(
+                "project",
+                Form::Text,
+                "the TwinCAT project that holds the lists, from this folder",
+            ),
             key("cycle_time_ms", Form::Positive, "the CNC cycle in ms"),
             key(
                 "cnc_build",

@@ -9,8 +9,8 @@ use crate::syntax::SkipLevels;
 /// Contents of `[machine]`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct MachineTable {
-    /// The start-up list.
-    pub(crate) startup: Option<Given<String>>,
+    /// The start-up list or the project that describes the axes.
+    pub(crate) axes: Option<Given<String>>,
     /// The CNC cycle in milliseconds.
     pub(crate) cycle_time_ms: Option<f64>,
     /// The kernel version.
@@ -43,6 +43,7 @@ pub(super) const MACHINE: Shape = Shape {
     name: "[machine]",
     keys: Some(&[
         "startup",
+        "project",
         "cycle_time_ms",
         "cnc_build",
         "program_dirs",
@@ -75,7 +76,7 @@ impl MachineTable {
         };
         let dirs = section.strings("program_dirs")?;
         let mut table = Self {
-            startup: section.string("startup")?,
+            axes: axes(&section)?,
             cycle_time_ms: section.positive("cycle_time_ms")?,
             build: build(&section)?,
             program_dirs: dirs.into_iter().map(|dir| dir.value).collect(),
@@ -97,6 +98,17 @@ impl MachineTable {
             table.external_parameters = kept(&keeps, "parameters", &table.external)?;
         }
         Ok(table)
+    }
+}
+
+/// Reads the file that describes the axes: a start-up list, or a project (R3.42).
+fn axes(section: &Section<'_>) -> Result<Option<Given<String>>, ConfigError> {
+    match (section.string("startup")?, section.string("project")?) {
+        (Some(_), Some(project)) => {
+            let message = "a machine has a `startup` list or a `project`, not both";
+            Err(ConfigError::at(&project, message.to_owned()))
+        }
+        (startup, project) => Ok(startup.or(project)),
     }
 }
 

@@ -166,6 +166,7 @@ codes! {
     Fc502 "FC502" Warning "no actual torque in the cyclic data";
     Fc503 "FC503" Error "drive type without friction compensation";
     Fc504 "FC504" Warning "torque interface not known";
+    Fc505 "FC505" Warning "the drive compensates friction, too";
     Fc506 "FC506" Warning "compensation makes it worse";
     Fc511 "FC511" Warning "slow speeds were not recorded";
     Fc512 "FC512" Warning "fast speeds were not recorded";

@@ -9,7 +9,7 @@ use super::drive_type::DriveType;
 use super::network::{Device, Network, NetworkObject, Protocol, Slave};
 use super::settings::{DriveSettings, Telegram, TorqueScale};
 use super::signal::Signal;
-use crate::diagnostic::{Advice, Code, Diagnostic};
+use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::lists::{Entry, FrictionList, Given};
 use crate::text::Place;
 
@@ -122,7 +122,7 @@ pub struct ListedDrive<'a> {
 /// Judges the drive of an axis by its lists and the other evidence.
 ///
 /// The codes are P-ERR-110464, P-ERR-110465 and FC130; where friction compensation is configured
-/// FC132, FC137 and FC501 to FC503 as well, and FC504 in [`DriveReport::open`].
+/// FC132, FC137, FC501 to FC503 and FC505 as well, and FC504 in [`DriveReport::open`].
 pub fn check_drive(listed: &ListedDrive<'_>, evidence: &Evidence) -> DriveReport {
     let mut diagnostics = Vec::new();
     let settings = DriveSettings::from_entries(listed.entries, &mut diagnostics);
@@ -137,6 +137,8 @@ pub fn check_drive(listed: &ListedDrive<'_>, evidence: &Evidence) -> DriveReport
         open: Vec::new(),
     };
     let [additive_torque, actual_torque] = judge.presences();
+    let own = judge.own_friction();
+    judge.diagnostics.extend(own);
     let largest_torque = listed.friction.map(|list| judge.largest(list));
     let (of_interface, mut open) = (judge.diagnostics, judge.open);
     if configured {
@@ -277,6 +279,59 @@ impl Judge<'_> {
             .slaves
             .iter()
             .find(|slave| slave.name == given.slave)
+    }
+
+    /// FC505: the drive compensates friction by itself, or may do so (R7.10).
+    fn own_friction(&self) -> Vec<Diagnostic> {
+        let mut all = Vec::new();
+        let (Some(network), Some(selector)) = (&self.evidence.network, self.selector) else {
+            return all;
+        };
+        let named = self.slave();
+        let mut given = self.evidence.slaves.iter();
+        let channel = given
+            .find(|given| given.axis == self.axis)
+            .and_then(|given| given.channel);
+        let drives: Vec<&Slave> = named.map_or_else(|| network.drives().collect(), |it| vec![it]);
+        let is_known = drives.len() == 1;
+        for drive in drives {
+            let mut written = drive.own_friction.iter();
+            let written = written.find(|it| channel.is_none_or(|channel| it.channel == channel));
+            let said = match written {
+                Some(own) => {
+                    let adds = format!(
+                        "the start-up of `{}` writes {}, which adds a friction torque in the drive",
+                        drive.name, own.object
+                    );
+                    let place = network.place(&own.path, own.line);
+                    if is_known {
+                        let message = format!("{adds}; P-AXIS-00522 is 1, so both add");
+                        Diagnostic::new(Code::Fc505, place, message)
+                            .with_label(selector.place(), "P-AXIS-00522 is set here")
+                            .with_help("write 0 to it, or set `lr_param.frict_comp` to 0")
+                    } else {
+                        let message = format!("{adds}; whether it drives this axis is not known");
+                        let advice = Advice::AssignSlave(self.axis.to_owned());
+                        Diagnostic::new(Code::Fc505, place, message).with_help(advice)
+                    }
+                }
+                None if is_known && drive.may_compensate() => {
+                    let message = format!(
+                        "`{}` can add a friction torque of its own; nothing says whether it does",
+                        drive.name
+                    );
+                    let mut said = Diagnostic::new(Code::Fc505, selector.place(), message);
+                    said.severity = Severity::Info;
+                    said.with_help(match channel {
+                        Some(2) => "look at 3544:02 and 3544:03; 3541:08 shows the result",
+                        _ => "look at 3144:02 and 3144:03; 3141:08 shows the result",
+                    })
+                }
+                None => continue,
+            };
+            all.push(said);
+        }
+        all
     }
 
     /// FC501 or FC502.

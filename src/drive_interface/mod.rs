@@ -13,6 +13,6 @@ mod signal;
 
 pub use drive_type::DriveType;
 pub use judge::{DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, check_drive};
-pub use network::{Device, Network, NetworkObject, Protocol, Slave};
+pub use network::{Device, Network, NetworkObject, OwnFriction, Protocol, Slave};
 pub use settings::{DriveSettings, TorqueScale};
 pub use signal::{Signal, channel};

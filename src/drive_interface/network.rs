@@ -23,6 +23,20 @@ pub struct NetworkObject {
     pub line: u32,
 }
 
+/// A command of the start-up of a device that switches on its own friction compensation (R7.10).
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct OwnFriction {
+    /// The axis of the device, from 1.
+    pub channel: u8,
+    /// The object that it writes, `3144:02`.
+    pub object: String,
+    /// The path of the element in the file.
+    pub path: String,
+    /// Its line, from 1.
+    pub line: u32,
+}
+
 /// Protocol of a device, which decides the numbers of its process data.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -52,6 +66,8 @@ pub struct Slave {
     pub assigns: bool,
     /// The torque values that it exchanges in every cycle.
     pub mapped: Vec<NetworkObject>,
+    /// What its start-up writes that compensates friction in the device.
+    pub own_friction: Vec<OwnFriction>,
     /// The path of its element in the file.
     pub path: String,
     /// The line of that element, from 1.
@@ -100,6 +116,13 @@ impl Network {
 }
 
 impl Slave {
+    /// Whether it is of a series that can compensate friction by itself, by its name (AX8000, AMP8000).
+    pub(super) fn may_compensate(&self) -> bool {
+        ["AX8", "AMP8"]
+            .iter()
+            .any(|series| self.name.contains(series))
+    }
+
     /// Returns the element that maps a value for one of its axes.
     pub(super) fn maps(&self, signal: Signal, channel: u8) -> Option<&NetworkObject> {
         let is_it = |object: &&NetworkObject| object.signal == signal && object.channel == channel;

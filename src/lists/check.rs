@@ -163,14 +163,22 @@ impl Check<'_> {
         let value = match given.value.number {
             Some(Number::Integer(value)) if range.contains(&value) || field.floors(value) => value,
             _ => {
+                let why = match given.value.number {
+                    Some(Number::Integer(value)) if field.is_end_of_open(value) => {
+                        "an end of the open interval of the manual, which is outside".to_owned()
+                    }
+                    _ => format!(
+                        "which is not a permitted value of type {}",
+                        field.type_name()
+                    ),
+                };
                 let diagnostic = Diagnostic::new(
                     Code::Fc130,
                     given.place(),
                     format!(
-                        "`frict_comp.{}` is {}, which is not a permitted value of type {}",
+                        "`frict_comp.{}` is {}, {why}",
                         field.name(),
                         quoted(&given.value.text),
-                        field.type_name()
                     ),
                 )
                 .with_help(format!(

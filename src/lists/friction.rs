@@ -119,6 +119,12 @@ impl Field {
         }
     }
 
+    /// Whether a value is an end of an interval that is documented as open (R3.45).
+    pub(super) fn is_end_of_open(self, value: i64) -> bool {
+        let ends = [i16::MIN, i16::MAX].map(i64::from);
+        self == Self::ScalingFactor && ends.contains(&value)
+    }
+
     /// Returns the range of its type; the interval of the scaling factor is open (R3.24).
     pub(super) fn type_range(self) -> RangeInclusive<i64> {
         match self {

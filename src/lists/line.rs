@@ -158,7 +158,8 @@ impl Reader<'_> {
         let count = u32::try_from(lines.lines()).unwrap_or(u32::MAX);
         let mut odd: Vec<Span> = Vec::new();
         let mut ended = false;
-        for number in 1..=count {
+        let first = lines.first();
+        for number in first..first.saturating_add(count) {
             let span = lines.line_span(text, number);
             self.look_at(span);
             match self.line(span) {
@@ -234,7 +235,8 @@ impl Reader<'_> {
 
     /// Reports FC124 for a list in the control's other format.
     fn refuse_xml(&mut self) {
-        let span = self.source.lines().line_span(self.source.text(), 1);
+        let first = self.source.lines().first();
+        let span = self.source.lines().line_span(self.source.text(), first);
         self.diagnostics.push(
             Diagnostic::new(
                 Code::Fc124,

@@ -11,110 +11,6 @@ use super::program::ChannelPrograms;
 use super::value::Given;
 use crate::diagnostic::{Code, Diagnostic};
 
-/// The kinds of list that are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ListKind {
-    /// It names the other lists: `hochlauf.lis`.
-    Startup,
-    /// It names the axes of a channel.
-    Channel,
-    /// The parameters of one axis.
-    Axis,
-    /// The compensation values of one axis.
-    Value,
-    /// Only the number and name of an axis, as in an axis list or a value list.
-    Head,
-}
-
-/// The keys that identify a kind of list, given as beginnings of their patterns. The rows are tried
-/// from the top; the first one with a key in the list counts.
-const KEYS: [(ListKind, &[&str]); 5] = [
-    (
-        ListKind::Startup,
-        &[
-            "zahl_mds",
-            "default_achs_mds",
-            "achs_mds[]",
-            "zahl_kw",
-            "achs_kw",
-            "sda_mds[]",
-            "default_sda_mds",
-            "kanal_anzahl",
-        ],
-    ),
-    (ListKind::Channel, CHANNEL_KEYS),
-    (ListKind::Value, &["frict_comp.", "frict_comp[", "kw."]),
-    (ListKind::Axis, AXIS_KEYS),
-    (ListKind::Head, &["kopf."]),
-];
-
-const CHANNEL_KEYS: &[&str] = &[
-    "gruppe[",
-    "grp_anzahl",
-    "spindel[",
-    "makro_def[",
-    "m_synch[",
-    "h_synch[",
-    "trafo[",
-    "prog_start.",
-    "syn_chk.",
-    "speed_limit_look_ahead.",
-    "start_init_prog_file",
-    "final_prog_file",
-    "m6_prog_file",
-    "t_prog_file",
-    "d_prog_file",
-    "g8",
-    "einrechnen_mit_t",
-    "main_spindle_",
-    "mass_einh",
-];
-
-const AXIS_KEYS: &[&str] = &[
-    "kenngr.",
-    "lr_param.",
-    "lr_hw[",
-    "antr.",
-    "getriebe[",
-    "vorsteuer.",
-    "handbetrieb.",
-];
-
-fn holds(list: &Entries, beginnings: &[&str]) -> bool {
-    list.entries.iter().chain(&list.unresolved).any(|entry| {
-        let begins = |beginning: &&str| entry.pattern.starts_with(*beginning);
-        beginnings.iter().any(begins)
-    })
-}
-
-impl ListKind {
-    /// Returns the kind of a list by its keys; `None` if no key belongs to any kind.
-    pub fn detect(list: &Entries) -> Option<Self> {
-        let row = KEYS.iter().find(|(_, keys)| holds(list, keys))?;
-        Some(row.0)
-    }
-
-    /// Whether a list can serve as one of this kind: one of its keys identifies this kind, or none identifies
-    /// another one. A start-up list, with which everything begins, needs a key of its own.
-    pub fn admits(self, list: &Entries) -> bool {
-        let own = KEYS.iter().find(|(kind, _)| *kind == self);
-        own.is_some_and(|(_, keys)| holds(list, keys))
-            || (self != Self::Startup && matches!(Self::detect(list), None | Some(Self::Head)))
-    }
-
-    /// Returns the name with its article: `a start-up list`.
-    pub fn noun(self) -> &'static str {
-        match self {
-            Self::Startup => "a start-up list",
-            Self::Channel => "a channel list",
-            Self::Axis => "an axis list",
-            Self::Value => "a value list",
-            Self::Head => "the head of an axis list or value list",
-        }
-    }
-}
-
 /// A list that the start-up list names.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -123,6 +19,30 @@ pub struct NamedList {
     pub path: Given<String>,
     /// The axis that it belongs to, if the start-up list gives it.
     pub axis_number: Option<Given<u32>>,
+    /// The path of the axis list of that axis, where a project gives it.
+    pub(crate) owner: Option<String>,
+}
+
+/// The place of an axis in the channels, as an item of a project gives it (R3.42).
+#[derive(Debug, Clone)]
+pub(crate) struct AxisPlacement {
+    /// The path of its axis list.
+    pub(crate) list: String,
+    /// Its channel, from 1.
+    pub(crate) channel: Option<Given<u32>>,
+    /// Its position in the channel, from 0.
+    pub(crate) index: Option<u32>,
+    /// Its name in programs.
+    pub(crate) name: Option<Given<String>>,
+}
+
+impl AxisPlacement {
+    /// Whether the axis is in the channel with a number, from 1.
+    pub(crate) fn is_in(&self, number: u32) -> bool {
+        self.channel
+            .as_ref()
+            .is_some_and(|given| given.value == number)
+    }
 }
 
 /// The files that the control reads at start-up.
@@ -139,6 +59,8 @@ pub struct StartupList {
     pub default_channel_list: Option<Given<String>>,
     /// Channel lists in the order of their channels.
     pub channel_lists: Vec<Given<String>>,
+    /// The places of the axes, where a project gives them.
+    pub(crate) placements: Vec<AxisPlacement>,
 }
 
 impl StartupList {
@@ -163,11 +85,30 @@ impl StartupList {
                 .map(|(index, path)| NamedList {
                     path,
                     axis_number: numbers.remove(&index),
+                    owner: None,
                 })
                 .collect(),
             default_channel_list: list.find("default_sda_mds").and_then(text),
             channel_lists: channels.into_values().collect(),
+            placements: Vec::new(),
         }
+    }
+
+    /// Returns the place of the axis of a list.
+    pub(crate) fn placement(&self, list: &str) -> Option<&AxisPlacement> {
+        self.placements.iter().find(|it| it.list == list)
+    }
+
+    /// Puts the axis lists in the order of the channels and of the axes in them.
+    pub(crate) fn order_axes(&mut self) {
+        let mut axis_lists = std::mem::take(&mut self.axis_lists);
+        axis_lists.sort_by_key(|path| {
+            let place = self.placement(&path.value);
+            let channel = place.and_then(|it| Some(it.channel.as_ref()?.value));
+            let index = place.and_then(|it| it.index);
+            (channel.unwrap_or(u32::MAX), index.unwrap_or(u32::MAX))
+        });
+        self.axis_lists = axis_lists;
     }
 }
 
@@ -230,6 +171,8 @@ pub struct ChannelAxis {
     pub number: Option<Given<u32>>,
     /// `gruppe[0].achse[j].bezeichnung`, P-CHAN-00006: the name that programs use.
     pub name: Option<Given<String>>,
+    /// The path of its axis list, where a project gives it.
+    pub(crate) list: Option<String>,
 }
 
 /// The axes of a channel.
@@ -294,6 +237,7 @@ impl ChannelList {
                 let kept = mine.entry(index).or_default();
                 kept.number = axis.number.or(kept.number.take());
                 kept.name = axis.name.or(kept.name.take());
+                kept.list = axis.list.or(kept.list.take());
             }
         }
         self.count = other.count.or(self.count);
@@ -307,6 +251,23 @@ impl ChannelList {
         let count = self.count.unwrap_or(u32::MAX);
         let axes = self.axes.range(..count).map(|(_, axis)| axis);
         axes.filter(|axis| axis.is_there())
+    }
+
+    /// Puts an axis in its place (R3.42); its own number and name stay where the item of the project gives no name.
+    pub(crate) fn place(&mut self, placement: &AxisPlacement) {
+        let after = || {
+            self.axes
+                .keys()
+                .last()
+                .map_or(0, |last| last.saturating_add(1))
+        };
+        let index = placement.index.unwrap_or_else(after);
+        let axis = self.axes.entry(index).or_default();
+        axis.list = Some(placement.list.clone());
+        axis.number = None;
+        axis.name = placement.name.clone().or(axis.name.take());
+        let count = self.count;
+        self.count = count.map(|count| count.max(index.saturating_add(1)));
     }
 
     /// Returns the effective settings of motion.

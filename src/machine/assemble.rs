@@ -81,6 +81,8 @@ pub(super) struct AxisDraft {
     pub(super) is_covered: bool,
     /// The list with the defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
+    /// The path of its axis list.
+    pub(super) list: Option<String>,
 }
 
 impl AxisDraft {
@@ -97,6 +99,7 @@ impl AxisDraft {
             is_listed: false,
             is_covered: false,
             shared: None,
+            list: None,
         }
     }
 
@@ -116,6 +119,12 @@ impl AxisDraft {
             self.values.number.clone_from(&number);
         }
         self.channel_number = number;
+    }
+
+    /// Whether its lists say that it is a spindle.
+    pub(super) fn is_spindle(&self) -> bool {
+        let axis_type = self.values.axis_type.as_ref();
+        axis_type.is_some_and(|given| given.value == AxisType::Spindle)
     }
 
     /// Returns the axis number that the axis lists give.

@@ -6,8 +6,9 @@ use std::sync::Arc;
 use super::assemble::{AxisReport, on_spindle};
 use super::axis::Parameterisation;
 use super::configuration::Configuration;
-use super::described::{describe, has_nothing, is_no_matter};
+use super::described::{describe, has_nothing};
 use super::description::Machine;
+use super::embedded::EmbeddedLists;
 use super::files::ListFiles;
 use super::value_list::ValueList;
 use crate::comp::CncBuild;
@@ -15,7 +16,7 @@ use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::drive_interface::{DriveSettings, Evidence, check_drive};
 use crate::lists::{
     AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
-    Verdict,
+    Verdict, is_xml,
 };
 use crate::text::{SourceFile, Span};
 
@@ -37,6 +38,8 @@ pub struct ListsReport {
     pub files: Vec<Arc<str>>,
     /// Number of named lists that do not exist.
     pub missing: usize,
+    /// The lists within a TwinCAT project.
+    pub embedded: EmbeddedLists,
 }
 
 /// A value list that the control would accept, and its axis.
@@ -76,22 +79,28 @@ pub fn check_list(
     let source = Arc::new(file);
     let entries = Entries::parse(&source);
     let kind = ListKind::detect(&entries);
-    if kind == Some(ListKind::Startup) {
+    let is_project = is_xml(source.text());
+    if is_project || kind == Some(ListKind::Startup) {
         let mut configuration = Configuration::default();
         configuration.machine.build = build;
         configuration.read_startup(&source, files);
         configuration.check_drives();
+        let first = configuration.diagnostics.first();
+        let is_refused =
+            first.is_some_and(|said| said.code == Code::Fc125 && said.place.file == *source.name());
         return ListsReport {
-            kind,
+            kind: (!is_project || !is_refused).then_some(ListKind::Startup),
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
             programs: configuration.programs,
             accepted: AcceptedList::of(&configuration.machine),
             files: configuration.files,
             missing: configuration.missing,
+            embedded: configuration.embedded,
         };
     }
     let mut diagnostics = entries.diagnostics.clone();
+    diagnostics.extend(kind.into_iter().flat_map(|kind| kind.check_keys(&entries)));
     let mut reports = Vec::new();
     let mut programs = Vec::new();
     let mut accepted = Vec::new();
@@ -142,7 +151,7 @@ pub fn check_list(
             report.parameters.extend(reading.parameters);
             reports.push(report);
         }
-        None if is_no_matter(&entries) || entries.lost_underscores() => {}
+        None if entries.unread_kind().is_some() || entries.lost_underscores() => {}
         None if has_nothing(&entries) => {
             let place = source.place(Span::new(0, 0));
             let mut empty = Diagnostic::new(Code::Fc124, place, "this list has no entries");
@@ -168,6 +177,7 @@ pub fn check_list(
         accepted,
         files: vec![source.name().clone()],
         missing: 0,
+        embedded: EmbeddedLists::default(),
     }
 }
 
@@ -185,6 +195,7 @@ pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> Lists
                 programs: configuration.programs,
                 files: std::iter::once(name).chain(configuration.files).collect(),
                 missing: configuration.missing,
+                embedded: configuration.embedded,
             }
         }
         Err(error) => ListsReport {
@@ -195,6 +206,7 @@ pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> Lists
             accepted: Vec::new(),
             files: vec![name],
             missing: 0,
+            embedded: EmbeddedLists::default(),
         },
     }
 }
@@ -225,6 +237,7 @@ impl Configuration {
             let said = said.and_then(|(is_said, said)| is_said.then_some(said));
             self.diagnostics.extend(said);
         }
+        self.embedded.explain(&mut self.diagnostics);
     }
 }
 

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use super::assemble::{AxisDraft, AxisReport};
 use super::described::describe;
 use super::description::{AxisSet, GantrySlave, Machine, Parameters};
+use super::embedded::EmbeddedLists;
 use super::files::ListFiles;
 use super::gantry;
 use super::loader::Loader;
 use super::setting::Setting;
 use crate::diagnostic::{Code, Diagnostic, Levels};
-use crate::lists::{ChannelSwitch, Conditions, Entries, ListKind, Parameter};
+use crate::lists::{ChannelSwitch, Conditions, Entries, ListKind, NoProject, Parameter, is_xml};
 use crate::text::{SourceFile, Span};
 
 /// A machine and the other contents of its configuration.
@@ -41,6 +42,8 @@ pub struct Configuration {
     /// The programs and macros that the configuration names and the channel list's settings of
     /// motion, each with its place.
     pub programs: Vec<Parameter>,
+    /// The lists within a TwinCAT project.
+    pub embedded: EmbeddedLists,
 }
 
 impl Configuration {
@@ -53,12 +56,27 @@ impl Configuration {
 
     pub(super) fn read_startup(&mut self, file: &Arc<SourceFile>, files: &mut dyn ListFiles) {
         let mut loader = Loader::new(files);
+        if is_xml(file.text()) {
+            match loader.project(file) {
+                Ok(axes) => {
+                    self.machine.axes_are_listed = true;
+                    self.assemble(axes, loader);
+                }
+                Err(error) => {
+                    loader.diagnostics.insert(0, not_project(file, &error));
+                    self.assemble(Vec::new(), loader);
+                }
+            }
+            return;
+        }
         let entries = loader.entries(file);
         if ListKind::detect(&entries) != Some(ListKind::Startup) {
             loader.diagnostics = vec![not_startup(&entries)];
             self.assemble(Vec::new(), loader);
             return;
         }
+        let said = ListKind::Startup.check_keys(&entries);
+        loader.diagnostics.extend(said);
         let axes = loader.startup(&entries);
         self.machine.axes_are_listed = true;
         self.assemble(axes, loader);
@@ -99,8 +117,18 @@ impl Configuration {
             self.machine.axes.push(finished);
             self.reports.push(report);
         }
-        for slave in loader.slaves {
+        for slave in std::mem::take(&mut loader.slaves) {
             self.add_slave(slave, &conditions);
+        }
+        self.embedded = loader.project;
+        self.embedded.explain(&mut self.diagnostics);
+        for axis in &mut self.machine.axes {
+            let fix = axis.configuring.take();
+            axis.configuring = fix.filter(|fix| !self.embedded.holds(&fix.place));
+        }
+        let rows = self.reports.iter_mut().flat_map(|it| &mut it.parameters);
+        for row in rows.chain(&mut self.programs) {
+            self.embedded.rename(&mut row.origin);
         }
         let levels = &self.levels;
         self.diagnostics
@@ -126,6 +154,18 @@ impl Configuration {
         });
         self.reports.push(report);
     }
+}
+
+/// Returns FC125 for a file that is given as a project but is none, or has no CNC (R3.43).
+pub(super) fn not_project(file: &SourceFile, error: &NoProject) -> Diagnostic {
+    let line = file.lines().line(error.span.start);
+    let message = match line {
+        1 => format!("`{}` is {error}", file.name()),
+        line => format!("`{}`, line {line}: {error}", file.name()),
+    };
+    Diagnostic::new(Code::Fc125, file.place(Span::new(0, 0)), message).with_help(
+        "a project (`.tsproj`, `.xti`, an exported tree item) has a CNC, whose items hold its lists",
+    )
 }
 
 /// Returns FC125 for a file that is given as a start-up list but names no lists.

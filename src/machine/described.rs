@@ -1,6 +1,6 @@
 //! Recognition of a file that is given in place of a list.
 
-use crate::lists::{Entries, Entry, ListKind};
+use crate::lists::{Entries, ListKind};
 use crate::text::lines_of;
 
 /// Returns the kind of a file with its article: `a value list`, `a program`.
@@ -16,12 +16,7 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
         return "an empty file";
     };
     let tables = ["[machine", "[[axis", "[variables", "[lint", "[check"];
-    let key = |entry: &Entry| {
-        OTHERS
-            .iter()
-            .find(|(key, _)| entry.pattern.starts_with(key))
-    };
-    if let Some((_, what)) = entries.entries.iter().find_map(key) {
+    if let Some(what) = entries.unread_kind() {
         what
     } else if first.starts_with('<') {
         "an XML file"
@@ -34,33 +29,6 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
     } else {
         "a list of a kind that is not known"
     }
-}
-
-/// Lists of the control that do not concern compensation, by the beginnings of their keys.
-const OTHERS: [(&str, &str); 17] = [
-    ("wz[", "a tool list"),
-    ("np_grp[", "a zero offset list"),
-    ("g53_verfuegbar", "a zero offset list"),
-    ("default_index", "a zero offset list"),
-    ("pzv_grp[", "a clamp position list"),
-    ("hr_data[", "a manual mode list"),
-    ("tasten_data[", "a manual mode list"),
-    ("feedhold.", "a manual mode list"),
-    ("var[", "a list of external variables"),
-    ("name_rd_", "a list of external variables"),
-    ("number_used_variables", "a list of external variables"),
-    ("use_extended_string_var", "a list of external variables"),
-    ("interrupt_source", "a list of real-time tasks"),
-    ("time_slice", "a list of real-time tasks"),
-    ("thread[", "a list of real-time tasks"),
-    ("object[", "a list of display objects"),
-    ("kin_step[", "a kinematics list"),
-];
-
-/// Whether a list belongs to the control and does not concern compensation.
-pub(super) fn is_no_matter(entries: &Entries) -> bool {
-    let other = |entry: &Entry| OTHERS.iter().any(|(key, _)| entry.pattern.starts_with(key));
-    entries.entries.iter().any(other)
 }
 
 /// Whether a list contains nothing before its `Ende` except comments, like a template.

@@ -11,7 +11,7 @@ use super::programs::canonical_word;
 use super::setting::Setting;
 use super::startup::MAX_AXES;
 use crate::config::{AxisTable, ConfigError, ConfigFile, ConfiguredVariable, MachineTable};
-use crate::lists::{AxisValues, Given, ListKind, Parameter};
+use crate::lists::{AxisValues, Given, Parameter};
 use crate::text::SourceFile;
 
 impl Configuration {
@@ -29,7 +29,7 @@ impl Configuration {
             exclude: file.exclude,
             ..Self::default()
         };
-        let startup = file.machine.startup.clone();
+        let startup = file.machine.axes.clone();
         let is_whole = startup.is_none() && file.axes.len() < MAX_AXES;
         configuration.machine.stable = file.stable;
         configuration.machine.own = file.own;
@@ -37,13 +37,9 @@ impl Configuration {
         configuration.machine.one_more_axis = file.one_more_axis.filter(|_| is_whole);
         configuration.take_machine(file.machine)?;
         let mut loader = Loader::new(files);
-        let mut axes = match startup.and_then(|asked| loader.load(&asked, ListKind::Startup)) {
-            Some(entries) => {
-                configuration.machine.axes_are_listed = true;
-                loader.startup(&entries)
-            }
-            None => Vec::new(),
-        };
+        let listed = startup.and_then(|asked| loader.axes(&asked));
+        configuration.machine.axes_are_listed = listed.is_some();
+        let mut axes = listed.unwrap_or_default();
         for table in file.axes {
             if axes.len() >= MAX_AXES {
                 let message = format!("a machine has at most {MAX_AXES} axes");

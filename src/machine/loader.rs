@@ -1,15 +1,18 @@
 //! Reads the lists that other lists name (R3.12).
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::assemble::AxisDraft;
-use super::described::{describe, is_no_matter};
+use super::configuration::not_project;
+use super::described::describe;
+use super::embedded::EmbeddedLists;
 use super::files::{ListFiles, NoList, folder, is_absolute, join};
 use super::missing::MissingLists;
 use super::value_list::ValueList;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
-    AxisValues, ChannelDraft, ChannelPrograms, ChannelSettings, Entries, Given, ListKind,
+    AxisValues, ChannelDraft, ChannelPrograms, ChannelSettings, Entries, Given, ListKind, is_xml,
 };
 use crate::text::SourceFile;
 
@@ -31,6 +34,10 @@ pub(super) struct Loader<'f> {
     pub(super) slaves: Vec<AxisDraft>,
     /// Contents of the first channel's list.
     pub(super) channel: Option<FirstChannel>,
+    /// The lists of a project, by the names under which they are asked for.
+    pub(super) embedded: BTreeMap<String, Arc<SourceFile>>,
+    /// Where these are in their files.
+    pub(super) project: EmbeddedLists,
 }
 
 /// The channel in which programs run.
@@ -51,6 +58,8 @@ impl<'f> Loader<'f> {
             lookups: MissingLists::default(),
             slaves: Vec::new(),
             channel: None,
+            embedded: BTreeMap::new(),
+            project: EmbeddedLists::default(),
         }
     }
 
@@ -77,16 +86,51 @@ impl<'f> Loader<'f> {
     /// Reads a list that another one names; reports FC123 if there is no such file (R3.14), FC125
     /// if it is a list of another kind.
     pub(super) fn load(&mut self, asked: &Given<String>, wanted: ListKind) -> Option<Entries> {
+        let file = self.file(asked)?;
+        self.checked(asked, &file, wanted)
+    }
+
+    /// Returns the axes of the start-up list or project that a configuration names.
+    pub(super) fn axes(&mut self, asked: &Given<String>) -> Option<Vec<AxisDraft>> {
+        let file = self.file(asked)?;
+        if !is_xml(file.text()) {
+            let entries = self.checked(asked, &file, ListKind::Startup)?;
+            return Some(self.startup(&entries));
+        }
+        match self.project(&file) {
+            Ok(axes) => Some(axes),
+            Err(error) => {
+                let mut said = not_project(&file, &error);
+                said.place = asked.place();
+                self.diagnostics.push(said);
+                None
+            }
+        }
+    }
+
+    /// Returns the entries of a list if it is of the wanted kind.
+    fn checked(
+        &mut self,
+        asked: &Given<String>,
+        file: &Arc<SourceFile>,
+        wanted: ListKind,
+    ) -> Option<Entries> {
+        let entries = self.entries(file);
+        let is_other = ListKind::detect(&entries).is_none() && entries.unread_kind().is_some();
+        if wanted.admits(&entries) && !is_other {
+            self.diagnostics.extend(wanted.check_keys(&entries));
+            return Some(entries);
+        }
+        self.diagnostics.push(mistaken(asked, wanted, &entries));
+        None
+    }
+
+    /// Reads a file that another one names.
+    fn file(&mut self, asked: &Given<String>) -> Option<Arc<SourceFile>> {
         match self.find(asked) {
             Ok(file) => {
                 self.lookups.find(asked);
-                let entries = self.entries(&file.into());
-                let is_other = ListKind::detect(&entries).is_none() && is_no_matter(&entries);
-                if wanted.admits(&entries) && !is_other {
-                    return Some(entries);
-                }
-                self.diagnostics.push(mistaken(asked, wanted, &entries));
-                None
+                Some(file)
             }
             Err(diagnostic) => {
                 self.missing += 1;
@@ -105,7 +149,10 @@ impl<'f> Loader<'f> {
     /// Returns the first existing file that a path may mean: relative to the folder of the list
     /// that names it, relative to each folder above, and by its last part in the folder of the
     /// start-up list.
-    fn find(&mut self, asked: &Given<String>) -> Result<SourceFile, Box<Diagnostic>> {
+    fn find(&mut self, asked: &Given<String>) -> Result<Arc<SourceFile>, Box<Diagnostic>> {
+        if let Some(part) = self.embedded.get(&asked.value) {
+            return Ok(part.clone());
+        }
         let beside = folder(asked.file());
         let first = join(beside, &asked.value);
         let mut unreadable = None;
@@ -136,7 +183,7 @@ impl<'f> Loader<'f> {
             found = read(self.files, &bare);
         }
         if let Some(file) = found {
-            return Ok(file);
+            return Ok(file.into());
         }
         let named = format!(
             "`{}`, named in line {} of `{}`",

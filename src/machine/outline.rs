@@ -10,6 +10,8 @@ use crate::syntax::{AxisUse, axis_uses};
 pub enum Outline {
     /// The path of its start-up list, as a configuration would write it.
     Startup(String),
+    /// The path of the TwinCAT project that holds its lists.
+    Project(String),
     /// Use of axes by its programs.
     Programs(BTreeMap<String, AxisUse>),
 }

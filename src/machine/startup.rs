@@ -19,6 +19,11 @@ impl Loader<'_> {
     pub(super) fn startup(&mut self, list: &Entries) -> Vec<AxisDraft> {
         self.startup_folder = Some(folder(list.source().name()).to_owned());
         let startup = StartupList::from_entries(list, &mut self.diagnostics);
+        self.listed(startup)
+    }
+
+    /// Returns the axes of the lists that a start-up list or a project names.
+    pub(super) fn listed(&mut self, startup: StartupList) -> Vec<AxisDraft> {
         let default = self.default_values(&startup);
         let shared = default.frict_comp().map(|given| given.file().into());
         let mut listed: Vec<(Given<String>, AxisDraft)> = Vec::new();
@@ -28,6 +33,10 @@ impl Loader<'_> {
                 values.override_with(own);
                 let mut draft = AxisDraft::new(String::new(), values);
                 draft.is_listed = true;
+                draft.list = Some(asked.value.clone());
+                let placement = startup.placement(&asked.value);
+                let name = placement.and_then(|it| it.name.clone());
+                draft.values.name = name.or(draft.values.name.take());
                 listed.push((asked.clone(), draft));
             }
         }
@@ -80,12 +89,21 @@ impl Loader<'_> {
         let read = base.map(|asked| self.channel_list(asked));
         let is_base_read = !matches!(read, Some(None));
         let base = read.flatten().unwrap_or_default();
+        let mut number = 0;
         for asked in startup.channel_lists.iter().take(MAX_AXES) {
             let Some(own) = self.channel_list(asked) else {
                 continue;
             };
             let mut channel = base.clone();
             channel.override_with(own);
+            number += 1;
+            for placement in startup.placements.iter().filter(|it| it.is_in(number)) {
+                let mut listed = listed.iter().map(|(_, draft)| draft);
+                let is_it = |it: &&AxisDraft| it.list.as_ref() == Some(&placement.list);
+                if listed.find(is_it).is_some_and(|it| !it.is_spindle()) {
+                    channel.place(placement);
+                }
+            }
             // A program runs in one channel; the first one is used.
             self.channel.get_or_insert_with(|| {
                 let settings = channel.settings();
@@ -126,6 +144,23 @@ impl Loader<'_> {
             }
             if !taken.is_empty() {
                 self.diagnostics.push(other_channel(asked, &taken));
+            }
+        }
+        let channels = startup.channel_lists.len();
+        let channels = u32::try_from(channels).unwrap_or(u32::MAX);
+        for placement in &startup.placements {
+            if let Some(given) = &placement.channel
+                && channels > 0
+                && !(1..=channels).contains(&given.value)
+            {
+                let list = &placement.list;
+                let message = format!(
+                    "there is no channel {} for the axis of `{list}`",
+                    given.value
+                );
+                let said = Diagnostic::new(Code::Fc124, given.place(), message);
+                self.diagnostics
+                    .push(said.with_help("it is taken as an axis of no channel"));
             }
         }
         axes
@@ -199,7 +234,9 @@ impl Loader<'_> {
             .filter_map(Clone::clone)
             .collect();
         let known = || axes.iter().chain(&self.slaves);
-        let position = if numbers.is_empty() {
+        let position = if named.owner.is_some() {
+            known().position(|axis| axis.list == named.owner)
+        } else if numbers.is_empty() {
             let name = list.head.name.as_ref().map(|name| &name.value);
             known().position(|axis| Some(&axis.name) == name)
         } else {
@@ -243,6 +280,9 @@ fn other_channel(asked: &Given<String>, names: &[String]) -> Diagnostic {
 /// Returns the axis list of a channel's axis: the one with its number, else the one with its name.
 fn find_listed(axis: &ChannelAxis, listed: &[(Given<String>, AxisDraft)]) -> Option<usize> {
     let find = |test: &dyn Fn(&AxisDraft) -> bool| listed.iter().position(|(_, d)| test(d));
+    if axis.list.is_some() {
+        return find(&|draft| draft.list == axis.list);
+    }
     let by_number = axis
         .number
         .as_ref()

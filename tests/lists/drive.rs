@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::drive_interface::{
     DriveReport, Evidence, Network, Presence, SlaveOfAxis, check_drive,
 };
@@ -256,5 +257,50 @@ fn a_description_that_ends_anywhere_is_refused_at_its_end() {
     for (end, _) in text.char_indices() {
         let read = read_network(&SourceFile::new("a.xml", &text[..end]));
         assert_eq!(read.is_ok(), end >= whole, "{end}");
+    }
+}
+
+#[test]
+fn a_drive_may_compensate_friction_by_itself() {
+    // R7.10
+    let slave = |name: &str, commands: &str| {
+        let objects = pdos("RxPdo", &[(0x1600, &[0x6040, 0x60B2], true)]);
+        let actual = pdos("TxPdo", &[(0x1A00, &[0x6041, 0x6077], true)]);
+        format!(
+            "<Slave><Info><Name>{name}</Name></Info><ProcessData>{objects}{actual}</ProcessData>\
+             <Mailbox><CoE><InitCmds>{commands}</InitCmds></CoE></Mailbox></Slave>"
+        )
+    };
+    let command = |index: &str, sub: u8, ccs: u8, data: &str| {
+        format!(
+            "<InitCmd><Ccs>{ccs}</Ccs><Index>{index}</Index><SubIndex>{sub}</SubIndex><Data>{data}</Data></InitCmd>"
+        )
+    };
+    let found = |name: &str, commands: &str| {
+        let mut evidence = Evidence::default();
+        evidence.network = Some(network(&[slave(name, commands)]));
+        let report = drive("kenngr.antr_typ 8", &evidence);
+        let own = report.diagnostics.iter().find(|it| it.code == Code::Fc505);
+        own.map(|it| it.severity)
+    };
+    let on = command("12612", 2, 1, "0000c03f");
+    assert_eq!(found("Drive 1", &on), Some(Severity::Warning));
+    assert_eq!(
+        found("Drive 1", &command("#x3544", 3, 1, "0000c03f")),
+        Some(Severity::Warning)
+    );
+    for off in [
+        command("12612", 2, 2, "0000c03f"),
+        command("12612", 4, 1, "0000c03f"),
+        command("12613", 1, 1, "0000c03f"),
+        command("12612", 1, 1, "00000000"),
+        command("12612", 1, 1, "00000080"),
+    ] {
+        assert_eq!(found("Drive 1", &off), None, "{off}");
+        assert_eq!(
+            found("Drive 1 (AX8206)", &off),
+            Some(Severity::Info),
+            "{off}"
+        );
     }
 }

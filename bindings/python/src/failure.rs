@@ -110,6 +110,7 @@ impl From<HostError> for Failure {
             | HostError::StateNotRegular(path)
             | HostError::StateInUse(path)
             | HostError::State { path, .. }
+            | HostError::NotAProject { path, .. }
             | HostError::NotAStartupList { path, .. } => Some(path.clone()),
             _ => None,
         };

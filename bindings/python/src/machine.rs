@@ -24,7 +24,7 @@ use crate::several::Several;
 ///
 /// Without arguments it is described by the nearest ``frictcomp.toml``, from the folder of the
 /// program upwards, as on the command line. ``config`` names another one, ``isolated`` uses none.
-/// ``startup`` reads the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
+/// ``startup`` reads the axes from a start-up list or a TwinCAT project. ``enable`` assumes P-AXIS-00522 = 1 and an
 /// accepted value list for axes. ``variables`` are values that only the machine knows,
 /// ``{"V.E.PART": 3}``. ``allow_outside`` lets programs call others in any folder.
 #[pyclass(frozen, name = "Machine", module = "frictcomp")]
@@ -100,6 +100,18 @@ impl PyMachine {
         }
         options.settings.sort_by(|one, other| one.0.cmp(&other.0));
         Ok(Self(options))
+    }
+
+    /// The machine whose lists a TwinCAT project holds: a ``.tsproj``, an ``.xti`` or an exported tree item.
+    #[staticmethod]
+    #[pyo3(signature = (project, *, enable=None, variables=None, allow_outside=false))]
+    fn from_project(
+        project: PathBuf,
+        enable: Option<Several<String>>,
+        variables: Option<HashMap<String, VariableValue>>,
+        allow_outside: bool,
+    ) -> PyResult<Self> {
+        Self::new(None, Some(project), true, enable, variables, allow_outside)
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {

@@ -10,7 +10,7 @@ use frictcomp::text::SourceFile;
 use frictcomp_host::decode;
 use frictcomp_host::{
     Disk, FileRegistry, Input, LeftOutFile, LoadedMachine, MachineOptions, Machines, OpenText,
-    is_program, nearest_config,
+    check_list_file, is_program, nearest_config,
 };
 use serde::Serialize;
 
@@ -139,10 +139,12 @@ impl Dropped {
 
     /// The start-up list, if there is exactly one.
     fn only_startup(&self) -> Option<PathBuf> {
-        let mut startups = self
-            .files
-            .iter()
-            .filter(|(_, file)| file.kind == Kind::Startup);
+        let files = self.files.iter();
+        let has_cnc = |path: &Path| match &self.disk {
+            Some(disk) if !is_list(path) => check_list_file(path, None, disk).is_ok(),
+            _ => true,
+        };
+        let mut startups = files.filter(|(path, file)| file.kind == Kind::Startup && has_cnc(path));
         let (path, _) = startups.next()?;
         startups.next().is_none().then(|| path.clone())
     }
@@ -160,12 +162,23 @@ impl Dropped {
     }
 }
 
+fn is_list(path: &Path) -> bool {
+    let extension = path.extension();
+    extension.is_some_and(|it| it.eq_ignore_ascii_case("lis"))
+}
+
 fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
     let extension = path.extension().unwrap_or_default();
     if extension.eq_ignore_ascii_case("toml") {
         return Kind::Configuration;
     }
-    if extension.eq_ignore_ascii_case("lis") {
+    if extension.eq_ignore_ascii_case("tsproj") {
+        return Kind::Startup;
+    }
+    if extension.eq_ignore_ascii_case("xti") {
+        return Kind::List;
+    }
+    if is_list(path) {
         let list = SourceFile::new(path.display().to_string(), text);
         return match check_list(list, None, &mut NoLists).kind {
             Some(ListKind::Startup) => Kind::Startup,
@@ -262,5 +275,19 @@ mod tests {
         assert_eq!(dropped.options(Path::new("a"), &[]).startup, None);
         dropped.clear();
         assert_eq!(dropped.files(), []);
+        let project = "<TcSmProject><Cnc><Axis File=\"X.xti\"/></Cnc></TcSmProject>";
+        let part = "<TcSmItem><ItemName>A</ItemName><AchsMds>kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nEnde\n</AchsMds></TcSmItem>";
+        dropped.put("p/Machine.tsproj", project.into(), false);
+        dropped.put("p/Plc.tsproj", b"<TcSmProject/>".to_vec(), false);
+        dropped.put("p/_Config/CNC/X.xti", part.into(), false);
+        dropped.put("p/part.nc", b"X[COMP ON FRICT]\nM30\n".to_vec(), false);
+        // R3.42
+        let input = dropped.program("p/part.nc").expect("a program");
+        let loaded = dropped.machine(&input, &[]).expect("a machine");
+        assert_eq!(loaded.machine.axes.len(), 1);
+        assert_eq!(
+            loaded.origin.as_deref(),
+            Some(Path::new("p/Machine.tsproj"))
+        );
     }
 }

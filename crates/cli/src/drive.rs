@@ -167,6 +167,7 @@ fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<
                 }
                 let drives = drives(&report, &evidence);
                 collect(&report, &drives, &mut said);
+                report.embedded.explain(&mut said);
                 if drives.is_empty() {
                     failures.push(no_axis(path));
                 }

@@ -97,7 +97,9 @@ fn options_for(error: &HostError) -> Option<String> {
              the rows with `--resample`"
         }
         HostError::NoGit => "install git, or compare two files: `frictcomp diff OLD NEW`",
-        HostError::SeveralStartupLists(_) => "name the list of the machine with `--startup LIST`",
+        HostError::SeveralStartupLists(_) => {
+            "name that of the machine with `--startup LIST` or `--project FILE`"
+        }
         HostError::AlreadyThere(path) if frictcomp_host::is_configuration(path) => {
             "`frictcomp config show` shows the machine that it describes"
         }

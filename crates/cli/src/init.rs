@@ -15,7 +15,7 @@ use frictcomp_report::configuration::render_configuration;
 
 /// Write a commented `frictcomp.toml` to start from
 ///
-/// Describes the machine from the control's start-up list if one is given or found in the folder,
+/// Describes the machine from the control's start-up list or a TwinCAT project if one is given or found in the folder,
 /// otherwise from the axes that the programs in the folder use: `enable = true` then assumes that each is compensated.
 /// An existing file is not changed.
 #[derive(Debug, Args)]
@@ -26,6 +26,9 @@ pub(super) struct InitArgs {
     /// The start-up list of the machine, such as `hochlauf.lis`
     #[arg(long, value_name = "LIST")]
     startup: Option<PathBuf>,
+    /// The TwinCAT project of the machine, such as `Machine.tsproj`
+    #[arg(long, value_name = "FILE", conflicts_with = "startup")]
+    project: Option<PathBuf>,
     #[command(flatten)]
     folders: FolderArgs,
 }
@@ -38,7 +41,7 @@ pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
     }
     let outline = outline_of(
         &args.folder,
-        args.startup.as_deref(),
+        args.startup.as_deref().or(args.project.as_deref()),
         &args.folders.options(),
     )?;
     write_new(&target, &render_configuration(&outline))?;
@@ -65,13 +68,13 @@ fn names(outline: &Outline) -> Vec<&str> {
 
 /// Returns what was found out about a machine, in a few words.
 fn told(outline: &Outline) -> String {
-    if let Outline::Startup(path) = outline {
+    if let Outline::Startup(path) | Outline::Project(path) = outline {
         return format!("the machine of `{path}`");
     }
     let names = names(outline);
     if names.is_empty() {
-        return "there is no start-up list and no program; fill in the axes".to_owned();
+        return "there is no start-up list, no project and no program; fill in the axes".to_owned();
     }
     let names = names.join(", ");
-    format!("no start-up list was found; the programs use {names}")
+    format!("no start-up list and no project was found; the programs use {names}")
 }

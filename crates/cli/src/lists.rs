@@ -14,7 +14,7 @@ use super::outputs::{Outputs, write_text};
 use super::painted::parts;
 use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::machine::{AcceptedList, ListsReport};
-use frictcomp_host::FileRegistry;
+use frictcomp_host::{FileRegistry, is_configuration};
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::pictures::value_curves;
 use frictcomp_report::svg::Frame;
@@ -156,5 +156,18 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
     if args.listing.format == ListingFormat::Text {
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
+    let is_checked = |report: &ListsReport| report.kind.is_some() || !is_alone(report);
+    if listing.status() == exit::CLEAN && !reports.is_empty() && !reports.iter().any(is_checked) {
+        return Err(Failure::new(
+            "nothing was checked: no file is an axis, value, channel or start-up list",
+        )
+        .with_help("name the lists of the axes, `hochlauf.lis`, a project or a `frictcomp.toml`"));
+    }
     Ok(listing.status())
+}
+
+/// Whether a report is about a single list, not about a configuration.
+fn is_alone(report: &ListsReport) -> bool {
+    let mut files = report.files.iter();
+    !files.any(|file| is_configuration(Path::new(&**file)))
 }

@@ -34,6 +34,9 @@ pub(super) struct MachineArgs {
     /// Take the axes from this start-up list instead of the configuration
     #[arg(long, value_name = "LIST")]
     startup: Option<PathBuf>,
+    /// Take the axes from this TwinCAT project instead of the configuration
+    #[arg(long, value_name = "FILE", conflicts_with = "startup")]
+    project: Option<PathBuf>,
     /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
     pub(super) enable: Vec<String>,
@@ -69,7 +72,7 @@ impl MachineArgs {
                 None if self.isolated => ConfigurationChoice::Isolated,
                 None => ConfigurationChoice::Nearest,
             },
-            startup: self.startup.clone(),
+            startup: self.startup.clone().or_else(|| self.project.clone()),
             enable: self.enable.clone(),
             outside_policy: outside_policy(self.allow_outside),
             settings: given.collect(),

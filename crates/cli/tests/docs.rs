@@ -46,10 +46,13 @@ fn read(path: &Path) -> String {
 /// The demo with recordings, into which commands write.
 const RECORDED: &str = "programs/demo/recorded";
 
-/// A folder with a copy of the demo at its place.
-fn copied() -> tempfile::TempDir {
+/// The demo of a project, which the first command of a document describes for the next ones.
+const PROJECT: &str = "programs/demo/twincat";
+
+/// A folder with a copy of a demo at its place.
+fn copied(demo: &str) -> tempfile::TempDir {
     let copy = tempfile::tempdir().expect("a folder");
-    for path in files(RECORDED, &["csv", "lis", "json"]) {
+    for path in files(demo, &["csv", "lis", "json", "nc", "tsproj", "xti"]) {
         let to = copy
             .path()
             .join(path.strip_prefix(root()).expect("in the tree"));
@@ -60,16 +63,22 @@ fn copied() -> tempfile::TempDir {
 }
 
 /// What a command prints: stdout, stderr, and `? 1` for an exit status other than 0.
-fn play(command: &str) -> String {
+fn play(command: &str, project: &Path) -> String {
     let mut words = command.split_whitespace();
     assert_eq!(
         words.next(),
         Some("frictcomp"),
         "`{command}` is no call of the tool"
     );
-    let copy = command.contains(RECORDED).then(copied);
+    let copy = command.contains(RECORDED).then(|| copied(RECORDED));
+    let folder = copy.as_ref().map_or(root(), |it| it.path());
+    let folder = if command.contains(PROJECT) {
+        project
+    } else {
+        folder
+    };
     let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(copy.as_ref().map_or(root(), |it| it.path()))
+        .current_dir(folder)
         .args(words)
         .stdin(Stdio::null())
         .output()
@@ -88,12 +97,13 @@ fn play(command: &str) -> String {
 fn replayed(text: &str) -> String {
     let mut fresh = String::new();
     let mut in_console = false;
+    let project = copied(PROJECT);
     for line in text.split_inclusive('\n') {
         let is_fence = line.starts_with("```");
         if in_console && !is_fence {
             if let Some(command) = line.strip_prefix("$ ") {
                 fresh.push_str(line);
-                fresh.push_str(&play(command.trim_end()));
+                fresh.push_str(&play(command.trim_end(), project.path()));
             }
             continue;
         }

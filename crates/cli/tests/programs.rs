@@ -42,6 +42,7 @@ const ELSEWHERE: [(&str, &str); 33] = [
         "said by `run --from`; crates/cli/tests/block_search.rs has it",
     ),
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
+    ("FC505", "said by `drive`; tests/lists/drive.rs has it"),
     (
         "FC506",
         "said by `tune`; crates/cli/tests/circle_cli.rs has it",

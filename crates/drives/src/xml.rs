@@ -7,7 +7,7 @@ use std::sync::Arc;
 use roxmltree::{Document, Node};
 use thiserror::Error;
 
-use frictcomp::drive_interface::{Device, Network, NetworkObject, Protocol, Slave};
+use frictcomp::drive_interface::{Device, Network, NetworkObject, OwnFriction, Protocol, Slave};
 use frictcomp::drive_interface::{Signal, channel};
 use frictcomp::text::SourceFile;
 
@@ -311,6 +311,7 @@ impl Mapping {
     fn slave(self, element: &Element<'_>) -> Slave {
         let assigned = self.pdos.iter().filter(|pdo| self.is_assigned(pdo));
         Slave {
+            own_friction: own_friction(element),
             mapped: self.mapped(assigned),
             axes: self.axes(),
             assigns: self.assigns(),
@@ -331,6 +332,36 @@ impl Mapping {
             product: self.product,
         }
     }
+}
+
+/// Returns the commands of the start-up that switch on the friction compensation of the device: an AX8000 and an AMP8000
+/// have it in object 3144h, that of their second axis in 3544h (R7.10).
+fn own_friction(slave: &Element<'_>) -> Vec<OwnFriction> {
+    let commands = slave.at(&["Mailbox", "CoE", "InitCmds", "InitCmd"]);
+    let found = commands.iter().filter_map(|command| {
+        // `Ccs` 1 writes, 2 reads.
+        let is_write = command.text("Ccs").is_none_or(|ccs| ccs == "1");
+        let sub = command.text("SubIndex").and_then(number)?;
+        let index = command.text("Index").and_then(number16)?;
+        let channel = match index {
+            0x3144 => 1,
+            0x3544 => 2,
+            _ => return None,
+        };
+        let data = command.text("Data")?;
+        let is_on = data
+            .bytes()
+            .any(|digit| digit.is_ascii_hexdigit() && digit != b'0');
+        // A negative zero is one, too.
+        let is_zero = !is_on || data.eq_ignore_ascii_case("00000080");
+        (is_write && (1..=3).contains(&sub) && !is_zero).then(|| OwnFriction {
+            channel,
+            object: format!("{index:04X}:{sub:02}"),
+            path: command.path.clone(),
+            line: command.line(command.node),
+        })
+    });
+    found.collect()
 }
 
 /// Returns the axis that a SERCOS telegram belongs to: those of further axes lie 1000h higher.

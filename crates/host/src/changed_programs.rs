@@ -8,7 +8,7 @@ use super::call_graph::{CallGraph, GraphProgram};
 use super::discovery::Machines;
 use super::disk::Disk;
 use super::error::HostError;
-use super::file_kind::{CONFIG_NAME, is_list, is_program};
+use super::file_kind::{CONFIG_NAME, is_parameters, is_program};
 use super::git::{ChangedFile, OldFile, Revision};
 use super::input::Input;
 use super::open_text::OpenText;
@@ -147,8 +147,8 @@ impl<'a> Changes<'a> {
         });
         let gone: Vec<&PathBuf> = gone.collect();
         let read = machines.files_read();
-        let mut read = read.iter().filter(|path| is_list(path));
-        let lists = gone.iter().any(|path| is_list(path))
+        let mut read = read.iter().filter(|path| is_parameters(path));
+        let lists = gone.iter().any(|path| is_parameters(path))
             || read.any(|path| places.contains(&Disk::place(path)));
         Self {
             lists,

@@ -17,7 +17,7 @@ use super::registry::FileRegistry;
 use super::selection::{FolderOptions, FolderSelection};
 use super::watch::{Watch, Watcher};
 use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
-use frictcomp::lists::Parameter;
+use frictcomp::lists::{Parameter, is_xml};
 use frictcomp::machine::{AxisReport, AxisSet, Configuration, Machine, Setting};
 use frictcomp::text::{SourceFile, shown_path};
 
@@ -40,7 +40,7 @@ pub enum ConfigurationChoice {
 pub struct MachineOptions {
     /// The configuration.
     pub configuration: ConfigurationChoice,
-    /// The start-up list that provides the axes in place of the configuration.
+    /// The start-up list or TwinCAT project that provides the axes in place of the configuration.
     pub startup: Option<PathBuf>,
     /// The axes on which P-AXIS-00522 = 1 and an accepted value list are assumed.
     pub enable: Vec<String>,
@@ -110,7 +110,10 @@ impl LoadedMachine {
             reports: configuration.reports,
             programs: configuration.programs,
             origin: Some(path.to_owned()),
-            lists: (configuration.files.len(), configuration.missing),
+            lists: match configuration.embedded.count() {
+                0 => (configuration.files.len(), configuration.missing),
+                count => (count, configuration.missing),
+            },
             extensions: match configuration.extensions {
                 given if given.is_empty() => None,
                 given => Some(given),
@@ -389,6 +392,7 @@ impl Machines {
     /// Reads a start-up list and the lists that it names.
     fn read_startup(&self, path: &Path) -> Result<LoadedMachine, HostError> {
         let (text, mut lists) = self.read(path)?;
+        let is_xml = is_xml(text.text());
         let configuration = Configuration::from_startup(text, &mut lists);
         let wrong = configuration.diagnostics.iter().find(|said| {
             let whole_file = *said.place.file == *shown_path(path);
@@ -397,9 +401,11 @@ impl Machines {
         if let Some(wrong) = wrong
             && configuration.machine.axis_set == AxisSet::AsTheyOccur
         {
-            return Err(HostError::NotAStartupList {
-                path: path.to_owned(),
-                message: wrong.message.clone(),
+            let (path, message) = (path.to_owned(), wrong.message.clone());
+            return Err(if is_xml {
+                HostError::NotAProject { path, message }
+            } else {
+                HostError::NotAStartupList { path, message }
             });
         }
         let mut loaded = LoadedMachine::new(configuration, path, &self.registry);

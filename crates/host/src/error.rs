@@ -110,6 +110,14 @@ pub enum HostError {
         /// The kind of file that was found.
         message: String,
     },
+    /// XML that is no TwinCAT project, or one without a CNC.
+    #[error("{message}")]
+    NotAProject {
+        /// Path of the file.
+        path: PathBuf,
+        /// The kind of file that was found.
+        message: String,
+    },
     /// A missing `git` command.
     #[error("the revisions need the command `git`, which is not installed")]
     NoGit,
@@ -133,8 +141,8 @@ pub enum HostError {
     /// A file that already exists and stays as it is.
     #[error("`{}` already exists and is not changed", shown_path(.0))]
     AlreadyThere(PathBuf),
-    /// Several start-up lists, and no choice between them.
-    #[error("there are several start-up lists: {}", listed(.0))]
+    /// Several start-up lists or projects, and no choice between them.
+    #[error("there are several start-up lists or projects: {}", listed(.0))]
     SeveralStartupLists(Vec<PathBuf>),
     /// A link to a file outside the given folders.
     #[error("`{}` is a link that leads out of the given folders", shown_path(.0))]
@@ -280,6 +288,9 @@ impl HostError {
             Self::Output(reason) => return to_write(reason.kind()).map(str::to_owned),
             Self::PartlyWritten { failed, .. } => return failed.help(),
             Self::Unsettled { .. } => "check the disk before you rely on them",
+            Self::NotAProject { .. } => {
+                "a project (`.tsproj`, `.xti`, an exported tree item) has a CNC, whose items hold its lists"
+            }
             Self::NoRepository { .. } => "go to the work tree of the programs",
             Self::NoRevision(_) => {
                 "`git log --oneline` names them; a clone with little history gets more with \

@@ -22,8 +22,8 @@ const OTHER_EXTENSIONS: &[&str] = &[
     "pdf", "php", "pickle", "pl", "plcproj", "png", "ppt", "pptx", "project", "ps1", "py", "pyc",
     "pyi", "r", "rar", "rb", "rej", "rs", "rst", "rtf", "s", "sarif", "scl", "scss", "sh", "sln",
     "snap", "so", "sql", "sqlite", "st", "step", "stl", "stp", "svdx", "svg", "swift", "tar",
-    "tcdut", "tcgvl", "tcpou", "tex", "tgz", "timeline", "toml", "ts", "tsproj", "tsv", "tsx",
-    "vb", "whl", "xml", "xlsx", "zip",
+    "tcdut", "tcgvl", "tcpou", "tcscopex", "tex", "tgz", "timeline", "toml", "ts", "tsproj", "tsv",
+    "tsx", "vb", "whl", "xml", "xti", "xlsx", "zip",
 ];
 
 /// A kind of file that users write.
@@ -31,6 +31,8 @@ const OTHER_EXTENSIONS: &[&str] = &[
 pub(super) enum FileKind {
     Program,
     List,
+    /// A TwinCAT project, or a part of one.
+    Project,
     Configuration,
 }
 
@@ -44,6 +46,8 @@ impl FileKind {
             Some(Self::Program)
         } else if is_list(path) {
             Some(Self::List)
+        } else if is_parameters(path) {
+            Some(Self::Project)
         } else {
             None
         }
@@ -54,6 +58,7 @@ impl FileKind {
         match self {
             Self::Program => "program",
             Self::List => "list",
+            Self::Project => "project",
             Self::Configuration => "configuration",
         }
     }
@@ -83,6 +88,16 @@ pub(super) fn is_known_otherwise(path: &Path) -> bool {
 /// Whether a file is a list of the control, judged by its name.
 pub(super) fn is_list(path: &Path) -> bool {
     has_extension(path, &["lis"])
+}
+
+/// Whether a file holds parameters of the control: a list, a TwinCAT project or a part of one, judged by its name.
+pub(super) fn is_parameters(path: &Path) -> bool {
+    is_list(path) || is_project(path) || has_extension(path, &["xti"])
+}
+
+/// Whether a file is a TwinCAT project, judged by its name.
+pub(super) fn is_project(path: &Path) -> bool {
+    has_extension(path, &["tsproj"])
 }
 
 pub(super) fn has_extension(path: &Path, extensions: &[impl AsRef<str>]) -> bool {

@@ -10,27 +10,28 @@ use ignore::WalkBuilder;
 use super::atomic_file::{AtomicFile, Placed, take_away_left};
 use super::disk::Disk;
 use super::error::HostError;
-use super::file_kind::is_list;
+use super::file_kind::{is_list, is_project};
 use super::input::Input;
 use super::list_files::{ListsOnDisk, read_list};
+use super::parameter_files::check_list_file;
 use super::paths::normal;
 use super::paths::relative;
 use super::read::read_text;
 use super::selection::{FolderOptions, FolderSelection};
 use super::walk::find_programs;
 use frictcomp::diagnostic::Code;
-use frictcomp::lists::ListKind;
+use frictcomp::lists::{ListKind, is_xml};
 use frictcomp::machine::{Configuration, NoLists, Outline, check_list};
 use frictcomp::text::shown_path;
 
 /// Depth below the folder at which a start-up list is looked for.
 const DEPTH: usize = 4;
 
-/// Returns what a folder shows about its machine: the given or found start-up list, otherwise
+/// Returns what a folder shows about its machine: the given or found start-up list or TwinCAT project, otherwise
 /// the axes of the programs.
 ///
 /// # Errors
-/// The folder does not exist, contains several start-up lists, or the given list is not a start-up list.
+/// The folder does not exist, contains several of them, or the given file is neither.
 pub fn outline_of(
     folder: &Path,
     startup: Option<&Path>,
@@ -46,8 +47,13 @@ pub fn outline_of(
     let Some(path) = startup else {
         return Ok(Outline::of_programs(programs(folder, options)));
     };
+    let seen = shown_path(&seen_from(folder, &path)?);
+    if is_xml(read_list(&path, &Disk::default())?.text()) {
+        check_list_file(&path, None, &Disk::default())?;
+        return Ok(Outline::Project(seen));
+    }
     check_startup(&path)?;
-    Ok(Outline::Startup(shown_path(&seen_from(folder, &path)?)))
+    Ok(Outline::Startup(seen))
 }
 
 /// Creates a file as a whole; an existing one stays.
@@ -70,7 +76,7 @@ pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
     placed.settle()
 }
 
-/// Returns the start-up list below a folder, recognised by its content.
+/// Returns the start-up list or the TwinCAT project below a folder, recognised by its content.
 fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
     let disk = Disk::default();
     let mut found: Vec<PathBuf> = Vec::new();
@@ -80,10 +86,15 @@ fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
         .build();
     for entry in walk.filter_map(Result::ok) {
         let path = entry.path();
-        if is_list(path)
-            && let Ok(list) = read_list(path, &disk)
-            && check_list(list, None, &mut NoLists).kind == Some(ListKind::Startup)
-        {
+        let is_one = if is_project(path) {
+            check_list_file(path, None, &disk).is_ok()
+        } else {
+            is_list(path)
+                && read_list(path, &disk).is_ok_and(|list| {
+                    check_list(list, None, &mut NoLists).kind == Some(ListKind::Startup)
+                })
+        };
+        if is_one {
             found.push(path.strip_prefix(".").unwrap_or(path).to_owned());
         }
     }

@@ -8,7 +8,7 @@ use super::list_files::{ListsOnDisk, read_list};
 use super::read::read_text;
 use super::registry::FileRegistry;
 use frictcomp::comp::CncBuild;
-use frictcomp::lists::{FrictionList, ReadList};
+use frictcomp::lists::{FrictionList, ReadList, is_xml};
 use frictcomp::machine::{ListsReport, check_configuration, check_list};
 use frictcomp::text::{SourceFile, shown_path};
 use frictcomp_physics::simulation::{Plant, Preset};
@@ -70,6 +70,16 @@ pub fn check_list_file(
     Ok(if is_configuration(path) {
         check_configuration(source, &mut lists)
     } else {
-        check_list(source, build, &mut lists)
+        let is_xml = is_xml(source.text());
+        let report = check_list(source, build, &mut lists);
+        match report.diagnostics.first() {
+            Some(said) if is_xml && report.kind.is_none() => {
+                return Err(HostError::NotAProject {
+                    path: path.to_owned(),
+                    message: said.message.clone(),
+                });
+            }
+            _ => report,
+        }
     })
 }

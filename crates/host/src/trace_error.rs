@@ -24,6 +24,9 @@ pub enum TraceError {
     /// A project of TwinCAT Scope, whose format is not public.
     #[error("`{}` is a file of TwinCAT Scope that only Scope reads", shown_path(.0))]
     Closed(PathBuf),
+    /// What Scope is to record, without what it recorded.
+    #[error("`{}` says what TwinCAT Scope is to record; it holds no values", shown_path(.0))]
+    WithoutValues(PathBuf),
     /// Channels that cannot be brought to one clock.
     #[error("the trace `{}`: {reason}", shown_path(.path))]
     Apart {
@@ -77,6 +80,9 @@ impl TraceError {
             Self::Closed(_) => {
                 "export it as CSV, in Scope or with Beckhoff's export tool: \
                  `TC3ScopeExportTool.exe svd=FILE.svdx target=FILE.csv silent`"
+            }
+            Self::WithoutValues(_) => {
+                "record with it in Scope, then export the recording: `Export`, format CSV"
             }
             Self::Apart { reason, .. } => reason.help(),
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),

@@ -32,6 +32,9 @@ const PIECE: usize = 1 << 18;
 /// Kinds of files that Scope writes and that cannot be read.
 const CLOSED: [&str; 4] = ["svdx", "svd", "svb", "tdms"];
 
+/// The ending of what Scope is to record, which holds no values (R6.28).
+const SCOPE_CONFIGURATION: &str = "tcscopex";
+
 /// Reads the channels of a trace that `choose` selects.
 ///
 /// # Errors
@@ -57,6 +60,9 @@ fn read(
     let extension = path
         .extension()
         .map(|it| it.to_string_lossy().to_lowercase());
+    if extension.as_deref() == Some(SCOPE_CONFIGURATION) {
+        return Err(TraceError::WithoutValues(path.to_owned()).into());
+    }
     if extension.is_some_and(|it| CLOSED.contains(&it.as_str())) {
         return Err(TraceError::Closed(path.to_owned()).into());
     }
@@ -564,5 +570,21 @@ mod tests {
             columns("v\n0\n1000\n"),
             [[0.0, 0.0, 0.0], [0.002, 20.0, 1000.0]]
         );
+    }
+
+    #[test]
+    fn files_of_scope_say_how_to_export_them() {
+        // R6.28
+        let folder = tempfile::tempdir().expect("a folder");
+        let said = |name: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, "<ScopeProject/>").expect("written");
+            let error = read_trace(&path, |_| panic!("no channels")).expect_err("no trace");
+            (error.to_string(), error.help().unwrap_or_default())
+        };
+        let (message, help) = said("a.svdx");
+        assert!(message.contains("only Scope reads") && help.contains("CSV"));
+        let (message, help) = said("a.TCSCOPEX");
+        assert!(message.contains("holds no values") && help.contains("CSV"));
     }
 }

@@ -20,6 +20,13 @@ pub fn render_configuration(outline: &Outline) -> String {
                 toml::Value::String(path.clone())
             );
         }
+        Outline::Project(path) => {
+            let _ = writeln!(
+                text,
+                "project = {}   # the TwinCAT project, whose items hold the lists",
+                toml::Value::String(path.clone())
+            );
+        }
         Outline::Programs(_) => {
             text.push_str(
                 "# startup = \"lists/hochlauf.lis\"   # the control's start-up list, \
@@ -33,7 +40,7 @@ pub fn render_configuration(outline: &Outline) -> String {
          # program_dirs = [\"cycles\"]        # further folders with called programs\n\n",
     );
     match outline {
-        Outline::Startup(_) => text.push_str(
+        Outline::Startup(_) | Outline::Project(_) => text.push_str(
             "# Entries here override the lists:\n\
              # [[axis]]\n# name = \"X\"\n# frict_comp = true                # P-AXIS-00522\n\n",
         ),

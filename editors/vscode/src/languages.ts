@@ -28,15 +28,20 @@ export function selector(further: readonly string[]): { scheme: string; language
   return [
     ...SCHEMES.flatMap((scheme) => languages.map((language) => ({ scheme, language }))),
     { scheme: "file", pattern: `**/${CONFIGURATION}` },
+    { scheme: "file", pattern: `**/*.{${PROJECTS.join(",")}}` },
   ];
 }
+
+/** The endings of TwinCAT projects and their parts, which hold lists. */
+const PROJECTS = ["tsproj", "xti"];
 
 /** Whether the language server is told about a document. */
 export function isServed(document: Named, further: readonly string[]): boolean {
   return (
     SCHEMES.includes(document.uri.scheme) &&
     ([...programLanguages(further), ...LIST_LANGUAGES].includes(document.languageId) ||
-      path.basename(document.fileName) === CONFIGURATION)
+      path.basename(document.fileName) === CONFIGURATION ||
+      PROJECTS.includes(path.extname(document.fileName).slice(1).toLowerCase()))
   );
 }
 

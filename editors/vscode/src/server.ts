@@ -43,7 +43,7 @@ export class Server implements vscode.Disposable {
       diagnosticPullOptions: { onChange: true },
       initializationFailedHandler: () => false,
       initializationOptions: { frictcomp: this.settings() },
-      synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/{*.lis,frictcomp.toml}") },
+      synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/{*.lis,*.tsproj,*.xti,frictcomp.toml}") },
       middleware: {
         executeCommand: async (command, args: unknown[], next) => {
           const answer: unknown = await next(command, args);

@@ -67,7 +67,7 @@ class Machine:
 
     Without arguments it is described by the nearest ``frictcomp.toml``, from the folder of the
     program upwards, as on the command line. ``config`` names another one, ``isolated`` uses none.
-    ``startup`` reads the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
+    ``startup`` reads the axes from a start-up list or a TwinCAT project. ``enable`` assumes P-AXIS-00522 = 1 and an
     accepted value list for axes. ``variables`` are values that only the machine knows,
     ``{"V.E.PART": 3}``. ``allow_outside`` lets programs call others in any folder.
     """
@@ -82,6 +82,15 @@ class Machine:
         variables: Mapping[str, float | str] | None = None,
         allow_outside: bool = False,
     ) -> Machine: ...
+    @staticmethod
+    def from_project(
+        project: _Path,
+        *,
+        enable: Iterable[str] | None = None,
+        variables: Mapping[str, float | str] | None = None,
+        allow_outside: bool = False,
+    ) -> Machine:
+        """The machine whose lists a TwinCAT project holds: a ``.tsproj``, an ``.xti`` or an exported tree item."""
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
 
 @final

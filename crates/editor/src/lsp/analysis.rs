@@ -158,6 +158,8 @@ impl AnalysisJob {
         };
         let mut report = match check_list_file(path, build, disk) {
             Ok(report) => report,
+            // Most projects have no CNC.
+            Err(HostError::NotAProject { .. }) => return Analysis::default(),
             Err(error) => return failed(&error),
         };
         for file in &report.files {

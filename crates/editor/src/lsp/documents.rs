@@ -258,7 +258,7 @@ fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
     };
     if path.file_name().is_some_and(|name| name == CONFIG_NAME) {
         Kind::Configuration
-    } else if has_ending(&["lis"]) || LIST_LANGUAGES.contains(&language) {
+    } else if has_ending(&["lis", "tsproj", "xti"]) || LIST_LANGUAGES.contains(&language) {
         Kind::List
     } else if has_ending(&[ENCRYPTED]) {
         Kind::Other

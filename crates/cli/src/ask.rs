@@ -119,7 +119,7 @@ pub(super) fn run(command: &AskCommand, console: Console) -> Result<u8, Failure>
 }
 
 impl ControlArgs {
-    /// Returns the machine, which must be described without errors.
+    /// Returns the machine; an error in its description is a failure.
     fn loaded(&self, registry: &FileRegistry) -> Result<Arc<LoadedMachine>, Failure> {
         let mut machines = self.machine.machines(registry);
         let loaded = machines.for_folder(Path::new("."))?;

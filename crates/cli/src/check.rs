@@ -317,7 +317,15 @@ impl CheckArgs {
         let mut programs = Vec::new();
         let checked = self.checked(jobs, failures);
         let mains = self.mains(&checked);
-        for (CheckedProgram { loaded, found, .. }, is_main) in checked.into_iter().zip(&mains) {
+        for (
+            CheckedProgram {
+                input,
+                loaded,
+                found,
+            },
+            is_main,
+        ) in checked.into_iter().zip(&mains)
+        {
             if !listed.contains(&loaded.origin) {
                 listed.push(loaded.origin.clone());
                 for mut diagnostic in loaded.errors().cloned() {
@@ -328,7 +336,8 @@ impl CheckArgs {
             if !is_main {
                 continue;
             }
-            programs.push((causes.add(found.findings), found.unknown.is_empty()));
+            let name = input.name(Naming::AsGiven);
+            programs.push((name, causes.add(found.findings), found.unknown.is_empty()));
             for (axis, moves) in found.uncompensated {
                 listing.feed_moves(axis, &moves);
             }
@@ -344,14 +353,14 @@ impl CheckArgs {
             .iter()
             .map(|said| list((listing, baseline), said))
             .collect();
-        for (said, is_known) in programs {
+        for (name, said, is_known) in programs {
             let certain = if is_known {
                 ProgramResult::Clean
             } else {
                 ProgramResult::Depends
             };
             let results = said.iter().map(|at| results[*at]);
-            listing.program(results.chain([certain]).min().unwrap_or(certain));
+            listing.program(&name, results.chain([certain]).min().unwrap_or(certain));
         }
         mains.iter().filter(|is_main| !**is_main).count()
     }

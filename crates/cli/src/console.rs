@@ -70,7 +70,7 @@ pub(super) struct DataTarget {
 /// Whether all output was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Printed {
-    /// It went out.
+    /// All of it was written.
     Read,
     /// The pipe was closed.
     Unread,

@@ -134,8 +134,8 @@ impl Lister<'_> {
     }
 
     /// Counts a program with its result.
-    pub(super) fn program(&mut self, result: ProgramResult) {
-        self.listing.program(result);
+    pub(super) fn program(&mut self, name: &str, result: ProgramResult) {
+        self.listing.program(name, result);
     }
 
     /// Writes the verdict as the last line of a text (R18.20).

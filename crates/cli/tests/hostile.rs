@@ -185,7 +185,7 @@ fn no_command_and_no_format_lets_harm_out() {
             }
         }
         for format in [
-            "text", "concise", "json", "ndjson", "github", "gitlab", "sarif",
+            "text", "concise", "json", "ndjson", "github", "gitlab", "sarif", "junit",
         ] {
             for arguments in [
                 &["check", "--format", format, name][..],

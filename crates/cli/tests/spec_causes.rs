@@ -61,7 +61,9 @@ fn every_format_names_the_programs_that_reach_a_message() {
     // R17.1
     let bench = archive();
     let reached = "reached from 5 programs: a.nc, b.nc, c.nc, d.nc, e.nc";
-    for format in ["text", "concise", "json", "github", "gitlab", "sarif"] {
+    for format in [
+        "text", "concise", "json", "github", "gitlab", "sarif", "junit",
+    ] {
         let shown = check(&bench, format);
         let expected = if format == "json" {
             "\"reached_from\":[\"a.nc\","

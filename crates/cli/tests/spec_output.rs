@@ -279,9 +279,21 @@ fn a_remark_in_a_loop_is_made_once_and_counted() {
 }
 
 #[test]
-fn check_has_six_formats() {
-    // R9.21, R9.25
-    let bench = Bench::new(&[("a.nc", NOT_CONFIGURED)]);
+fn check_has_formats_for_every_reader() {
+    // R9.21, R9.25, R18.29
+    let bench = Bench::new(&[("a.nc", NOT_CONFIGURED), ("b.nc", "N10 X1\nM30\n")]);
+    let junit = bench.stdout(&["check", "--format", "junit", "a.nc", "b.nc"]);
+    assert!(
+        junit.contains("<testsuite name=\"frictcomp\" tests=\"2\" failures=\"1\">"),
+        "{junit}"
+    );
+    assert!(
+        junit.contains("name=\"b.nc\">\n</testcase>")
+            && junit.contains(
+                "<failure type=\"P-ERR-70495\" message=\"friction compensation of axis `X`"
+            ),
+        "{junit}"
+    );
     let check = |format: &str| bench.stdout(&["check", "--format", format, "a.nc"]);
     assert!(check("text").contains("^^^^^^^^^^^^^^^^"));
     let concise = check("concise");

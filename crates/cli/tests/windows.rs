@@ -23,7 +23,7 @@ fn paths_have_one_kind_of_slash() {
     bench.write("mill/wrong.nc", MISTAKE);
     let path = format!("mill{SEPARATOR}wrong.nc");
     for format in [
-        "text", "concise", "json", "ndjson", "github", "gitlab", "sarif",
+        "text", "concise", "json", "ndjson", "github", "gitlab", "sarif", "junit",
     ] {
         for named in [path.as_str(), "mill"] {
             let said = bench.stdout(&["check", "--format", format, named]);

@@ -133,7 +133,7 @@ pub enum HostError {
     #[error("there is no revision `{0}` in the git repository")]
     NoRevision(String),
     /// A git command that failed, with its message.
-    #[error("git could not say what differs: {0}")]
+    #[error("`git diff` failed: {0}")]
     Git(String),
     /// A folder that does not exist.
     #[error("there is no folder `{}`", shown_path(.0))]

@@ -172,7 +172,7 @@ fn rounds(report: &LearnReport) -> Table {
         let verdict = match (at, round.is_accepted) {
             (0, _) => "the first",
             (_, true) => "accepted",
-            (_, false) => "no gain: back to the best, half the step",
+            (_, false) => "no gain: the next round tries half the step from the best list",
         };
         let missed = predicted.is_some_and(|it| it.is_missed_by(round.worst_um));
         let missed = if missed {

@@ -155,11 +155,10 @@ impl Interpreter {
             .chain(others.map(|(_, name)| name.to_owned()))
             .collect();
         keys.extend(named.iter().cloned());
-        shown.extend(named);
         let cause = &condition.cause;
         self.state.mentioned.enter(cause, || place.clone());
-        let is_new = !shown.is_empty() && self.state.mentioned.is_new(cause, keys, &place);
-        let mut said = about(&condition, &shown);
+        let is_new = !keys.is_empty() && self.state.mentioned.is_new(cause, keys, &place);
+        let mut said = about(&condition, &outcome_in_words(&shown, &named));
         self.state.limit_to_reach(&mut said, parted);
         // Whether an error ends the program is said at its block.
         if is_new && condition.kind != ConditionKind::Stop {
@@ -214,14 +213,25 @@ fn differ_in_words(mine: &ControlState, theirs: &ControlState) -> bool {
     groups.into_iter().any(differs)
 }
 
-fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
+/// What differs where ways meet: kinds of compensation, and anything else.
+fn outcome_in_words(kinds: &[String], others: &[String]) -> String {
+    let switched = format!("{} may be on or off", kinds.join(", "));
+    let is_one = matches!(others, [only] if only.starts_with('`'));
+    let verb = if is_one { "is" } else { "are" };
+    let unknown = format!("{} {verb} not known", others.join(", "));
+    match (kinds, others) {
+        ([_, ..], [_, ..]) => format!("{switched}, and {unknown}"),
+        ([], _) => unknown,
+        (_, []) => switched,
+    }
+}
+
+fn about(condition: &Condition, outcome: &str) -> Diagnostic {
     let cause = &condition.cause;
-    let shown = shown.join(", ");
     if let Some(kept) = &condition.kept {
         let file = &condition.place.file;
         let message = format!(
-            "this condition has another answer only if {}; both ways are followed, and where they meet what \
-             differs is unknown: {shown}",
+            "this condition has another answer only if {}: after it {outcome}",
             change_since(kept).in_words((file, condition.place.start().line), file)
         );
         let mut said = Diagnostic::new(Code::Fc901, condition.place.clone(), message);
@@ -261,8 +271,6 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
             )
         }
     };
-    let message = format!(
-        "{asks}; every way is followed, and where they meet what differs is unknown: {shown}"
-    );
+    let message = format!("{asks}: after it {outcome}");
     Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(cause.advice())
 }

@@ -166,8 +166,9 @@ impl ReadingArgs {
             .get(program.signed_axis())
             .map_or("", |it| it.name.as_str());
         if !signed.iter().any(|(axis, _)| *axis == moved) {
-            let message =
-                format!("its strokes are those of another axis than `{moved}`: two axes are mixed");
+            let message = format!(
+                "the strokes at its start are not those of `{moved}`: the channels of two axes are swapped"
+            );
             return Err(Failure::new(message));
         }
         Ok(RecordedProgram {

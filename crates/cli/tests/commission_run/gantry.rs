@@ -64,7 +64,7 @@ fn motors_that_share_the_friction_get_one_list() {
     let folder = gantry();
     put(folder.path(), "a.csv", &both_motors(0.9, 40.0));
     let (_, text) = run(folder.path(), &BOTH);
-    let said = "the motors of X and X2 differ by at most 10 % of the friction; the list is that of their mean";
+    let said = "the motors of X and X2 differ by at most 10 % of the friction; both motors get the list of the mean friction";
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains(said), "{text}");
     let outputs = |folder: &tempfile::TempDir| {

@@ -84,7 +84,7 @@ fn what_speaks_against_a_list_is_named() {
         ),
         (
             vec![("a.csv", &short)],
-            "s of its program are missing, which takes",
+            "s of the program are missing: after the strokes",
         ),
         (
             vec![("a.csv", &unsigned)],
@@ -186,10 +186,10 @@ fn gaps_and_leaning_friction_make_no_list() {
         format!("{},{},{},{torque}", it[0], it[1], it[2])
     });
     for (text, words) in [
-        (pierced, "s of its program are missing, which takes"),
+        (pierced, "s of the program are missing: after the strokes"),
         (
             leaning,
-            "the directions differ by 25 % of the friction, the more the more friction there is",
+            "the directions differ by 25 % of the friction, and by more where there is more friction",
         ),
     ] {
         let folder = planned();
@@ -218,7 +218,7 @@ fn channels_of_the_wrong_axis_are_found() {
     }
     for ([a, b], words) in [
         (["X", "Y"], "X: provisional list"),
-        (["Y", "X"], "two axes are mixed"),
+        (["Y", "X"], "the channels of two axes are swapped"),
     ] {
         let folder = planned();
         put(

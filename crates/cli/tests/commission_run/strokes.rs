@@ -269,7 +269,10 @@ fn strokes_that_show_nothing_are_refused() {
             inverted,
             "the actual position does not follow the commanded one",
         ),
-        (in_um, "two axes are mixed, or a unit is wrong"),
+        (
+            in_um,
+            "the channels of two axes are swapped, or a unit is wrong",
+        ),
         (early.join("\n"), "reversals: it ends early"),
         (coarse.join("\n"), "a sample every 4.0 ms does not show"),
         (

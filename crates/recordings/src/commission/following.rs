@@ -62,7 +62,7 @@ pub enum NotFollowed {
     /// An actual position that goes elsewhere.
     #[error(
         "the actual position does not follow the commanded one: up to {most:.3} remain of {way:.3} that were \
-         commanded; two axes are mixed, or a unit is wrong"
+         commanded; the channels of two axes are swapped, or a unit is wrong"
     )]
     Elsewhere {
         /// The largest difference in mm or degrees beyond the answer of the loops.

@@ -142,8 +142,8 @@ impl FrictionFound {
         let planned_s = planned_s / part;
         if recorded_s < WHOLE * planned_s {
             self.against.push(format!(
-                "{:.0} s of its program are missing, which takes {planned_s:.0} s after its strokes: it ends early, or \
-                 has gaps",
+                "{:.0} s of the program are missing: after the strokes it takes {planned_s:.0} s. The recording ends \
+                 early, or has gaps",
                 planned_s - recorded_s
             ));
         }
@@ -181,7 +181,7 @@ impl FrictionFound {
                     part * 100.0
                 )),
                 Some(part) => self.notes.push(format!(
-                    "{pair} differ by at most {:.0} % of the friction; the list is that of their mean, and both get it",
+                    "{pair} differ by at most {:.0} % of the friction; both motors get the list of the mean friction",
                     part * 100.0
                 )),
             }
@@ -255,8 +255,8 @@ fn uneven(found: &Identified) -> Option<String> {
     let part = growing_offset(found)?.abs();
     (part > EVEN).then(|| {
         format!(
-            "the directions differ by {:.0} % of the friction, the more the more friction there is, which no weight \
-             does: one list fits neither",
+            "the directions differ by {:.0} % of the friction, and by more where there is more friction, so that the \
+             weight of the axis is not the cause: one list fits neither",
             part * 100.0
         )
     })

@@ -6,6 +6,7 @@ use super::carets::Carets;
 use super::concise::Concise;
 use super::github::GitHub;
 use super::gitlab::GitLab;
+use super::junit::JUnit;
 use super::message_format::MessageFormat;
 use super::objects::Objects;
 use super::sarif::Sarif;
@@ -65,6 +66,7 @@ formats! {
     Ndjson "ndjson" "One JSON object per line" Records |_| Box::new(Objects::lines());
     Github "github" "GitHub workflow commands" Messages |_| Box::new(GitHub);
     Gitlab "gitlab" "GitLab Code Quality report" Messages |_| Box::new(GitLab::default());
+    Junit "junit" "JUnit report" Messages |_| Box::new(JUnit::default());
     Sarif "sarif" "SARIF 2.1.0" Messages |_| Box::new(Sarif::default());
 }
 

@@ -40,7 +40,8 @@ impl<W: Write> Listing<W> {
     }
 
     /// Counts a program with its result.
-    pub fn program(&mut self, result: ProgramResult) {
+    pub fn program(&mut self, name: &str, result: ProgramResult) {
+        self.format.program(name);
         self.tally.files += 1;
         *self.tally.programs.entry(result).or_default() += 1;
     }

@@ -14,6 +14,9 @@ pub(super) trait MessageFormat: fmt::Debug {
     /// Appends the text before the first message.
     fn open(&mut self, _out: &mut Vec<u8>) {}
 
+    /// Takes an examined program.
+    fn program(&mut self, _name: &str) {}
+
     /// Appends a message.
     fn message(&mut self, out: &mut Vec<u8>, message: &Diagnostic);
 

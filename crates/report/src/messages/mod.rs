@@ -5,6 +5,7 @@ mod concise;
 mod format;
 mod github;
 mod gitlab;
+mod junit;
 mod listing;
 mod message_format;
 mod objects;

@@ -7,7 +7,7 @@ use frictcomp::text::is_hidden;
 ///
 /// Control characters become their pictures (`␀`); characters that turn the direction of writing
 /// or take no room become `⟨U+202E⟩`, so that the text that is shown is the one that the control reads.
-pub(super) fn push_escaped(out: &mut String, text: &str) {
+pub(crate) fn push_escaped(out: &mut String, text: &str) {
     for letter in text.chars() {
         match letter {
             '&' => out.push_str("&amp;"),

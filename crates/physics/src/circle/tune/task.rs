@@ -63,9 +63,9 @@ pub enum Shaping {
 pub(super) enum Variant {
     /// Without compensation.
     Off,
-    /// With it.
+    /// With compensation.
     On,
-    /// With it, and 20 % less friction.
+    /// With compensation, and 20 % less friction.
     Minus20,
     /// With it, and 20 % more friction.
     Plus20,

@@ -32,10 +32,10 @@ pub struct FeedResult {
     /// Without compensation.
     #[serde(rename = "glitch_off")]
     pub glitch_off_um: f64,
-    /// With it.
+    /// With compensation.
     #[serde(rename = "glitch_on")]
     pub glitch_on_um: f64,
-    /// With it, and 20 % less friction of the machine than in the list.
+    /// With compensation, and 20 % less friction of the machine than in the list.
     #[serde(rename = "glitch_friction_minus20")]
     pub glitch_friction_minus20_um: f64,
     /// With it, and 20 % more friction.

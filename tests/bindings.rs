@@ -171,6 +171,16 @@ fn the_action_takes_every_line_of_its_inputs() {
         said.ends_with("<--quiet><--skip><none><--config><my machine.toml><--enable><X,Y><--><.>"),
         "{said}"
     );
+    // R18.29
+    let folder = tempfile::tempdir().expect("a folder");
+    let page = folder.path().join("summary.md");
+    let shown = page.to_string_lossy();
+    let inputs = [("PATHS", "a.nc"), ("GITHUB_STEP_SUMMARY", &*shown)];
+    arguments_of(&check, &inputs);
+    assert_eq!(
+        fs::read_to_string(&page).expect("a summary"),
+        "```text\n<check><-q><--fail-on><warning><--><a.nc>```\n"
+    );
     // An empty list of files must not count as success.
     let (status, said) = arguments_of(&check, &[("PATHS", " \n ")]);
     assert!(status != Some(0) && !said.contains("<check>"), "{said}");

@@ -25,7 +25,9 @@ use frictcomp_host::{
 };
 use frictcomp_physics::contour::BlockDeviations;
 use frictcomp_report::contour::{AgreedContour, GoldenContour, agreed_contour};
-use frictcomp_report::{Report, Text, TextChange, TextOptions, counted, render_unified};
+use frictcomp_report::{
+    MessageExtent, Report, Text, TextChange, TextOptions, counted, render_unified,
+};
 
 const TIMELINE: GoldenKind = GoldenKind {
     extension: "timeline",
@@ -270,7 +272,8 @@ fn timeline(
     execution: &ExecutionArgs,
 ) -> Result<String, HostError> {
     let mut bytes = Vec::new();
-    let mut report = Text::new(&mut bytes, TextOptions::default());
+    let options = TextOptions::default().with_messages(MessageExtent::Code);
+    let mut report = Text::new(&mut bytes, options);
     let alone = SingleRun {
         options: execution.options(loaded, StopPolicy::FirstError),
         naming: Naming::FileName,

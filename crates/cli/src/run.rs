@@ -128,7 +128,10 @@ impl RunArgs {
         };
         let look = target.look;
         let options = TimelineOptions {
-            text: TextOptions { view, runs, look },
+            text: TextOptions::default()
+                .with_view(view)
+                .with_runs(runs)
+                .with_look(look),
             positions,
         };
         self.format.report(target.writer, options)

@@ -538,3 +538,20 @@ fn several_paths_give_what_they_can() {
     assert!(stderr(&output).contains("there is no file `missing.lis`"));
     assert!(String::from_utf8_lossy(&output.stdout).contains("in 1 file\n"));
 }
+
+#[test]
+fn an_agreed_timeline_has_codes_and_no_words() {
+    // R18.30
+    let bench = Bench::new(&[("part.nc", "X[COMP OFF FRICT]\nG1 X5 F100\nM30\n")]);
+    assert_eq!(
+        bench.status(&["golden", "--update", "--enable", "X", "part.nc"]),
+        Some(0)
+    );
+    let agreed = fs::read_to_string(bench.folder().join("part.nc.timeline"));
+    let agreed = agreed.expect("the timeline");
+    assert!(
+        agreed.contains("warning FC401 at 1:1, axis X\n") && agreed.contains("inactive ◄"),
+        "{agreed}"
+    );
+    assert!(!agreed.contains("left inactive"), "{agreed}");
+}

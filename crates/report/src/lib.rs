@@ -75,7 +75,7 @@ pub use ndjson::Ndjson;
 pub use output::Report;
 pub use strings::counted;
 pub use table::Table;
-pub use text::{Runs, Text, TextOptions, headline};
+pub use text::{MessageExtent, Runs, Text, TextOptions, headline};
 pub use timeline_format::{TimelineFormat, TimelineOptions};
 pub use unified::{TextChange, render_unified};
 pub use view::{Blocks, View};

@@ -19,7 +19,7 @@ use super::diagnostics::{Detail, Look, render, wrap};
 use super::output::{Gathered, Output};
 use super::strings::grouped;
 use super::view::{Blocks, View};
-use super::visible::leading;
+use super::visible::{leading, visible_line};
 use columns::AxisColumns;
 use line::{BOLD, DIM, GUTTER, MARK, Paragraph, TextLine};
 
@@ -47,6 +47,19 @@ pub struct TextOptions {
     pub runs: Runs,
     /// Colours and width.
     pub look: Look,
+    /// The extent of messages.
+    pub messages: MessageExtent,
+}
+
+/// What is shown of a message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum MessageExtent {
+    /// Its words, its place and its advice.
+    #[default]
+    Words,
+    /// Its code, place and axis, so that better words change nothing that was agreed (R18.30).
+    Code,
 }
 
 impl TextOptions {
@@ -59,6 +72,12 @@ impl TextOptions {
     /// Sets [`runs`](Self::runs).
     pub fn with_runs(mut self, runs: Runs) -> Self {
         self.runs = runs;
+        self
+    }
+
+    /// Sets [`messages`](Self::messages).
+    pub fn with_messages(mut self, messages: MessageExtent) -> Self {
+        self.messages = messages;
         self
     }
 
@@ -360,7 +379,11 @@ impl<W: Write> Text<W> {
             width: whole.saturating_sub(indent),
             ..self.options.look
         };
-        for shown in render(diagnostic, look).lines() {
+        let text = match self.options.messages {
+            MessageExtent::Words => render(diagnostic, look),
+            MessageExtent::Code => self.agreed(diagnostic),
+        };
+        for shown in text.lines() {
             if !shown.is_empty() {
                 self.output
                     .bytes
@@ -369,6 +392,22 @@ impl<W: Write> Text<W> {
             }
             self.output.bytes.push(b'\n');
         }
+    }
+
+    /// Returns the code of a message, its place and its axis.
+    fn agreed(&self, diagnostic: &Diagnostic) -> String {
+        let (place, start) = (&diagnostic.place, diagnostic.place.start());
+        let mut text = format!("{} {} at ", diagnostic.severity, diagnostic.code);
+        if *place.file != *self.file {
+            text.push_str(&visible_line(&place.file));
+            text.push(':');
+        }
+        text.push_str(&format!("{}:{}", start.line, start.column));
+        if let Some(axis) = &diagnostic.axis {
+            text.push_str(", axis ");
+            text.push_str(&visible_line(axis));
+        }
+        text
     }
 
     fn end(&mut self, end: &End<'_>) {
@@ -419,7 +458,10 @@ impl<W: Write> Sink for Text<W> {
                 }
             }
             Record::Machine(diagnostic) => {
-                let text = render(diagnostic, self.options.look);
+                let text = match self.options.messages {
+                    MessageExtent::Words => render(diagnostic, self.options.look),
+                    MessageExtent::Code => self.agreed(diagnostic),
+                };
                 self.output.bytes.extend_from_slice(text.as_bytes());
                 self.output.bytes.push(b'\n');
             }
@@ -432,6 +474,7 @@ impl<W: Write> Sink for Text<W> {
                 self.end(end);
                 return self.output.flush();
             }
+            Record::Summary(_) if self.options.messages == MessageExtent::Code => {}
             Record::Summary(summary) => {
                 let look = self.options.look;
                 summary::append(&mut self.output.bytes, summary, self.ended, look);

@@ -496,7 +496,7 @@ fn check_report(folder: &Path) {
         "Friction compensation of M &lt;1&gt;",
         "date not stated",
         "none is predicted",
-        "The lists of round 2 are not proven; the earlier ones stay.",
+        "The lists of round 2 are not proven, the earlier ones stay: ",
         "neither torque nor positions show that the list of Y was on",
         "64-friction-X.nc",
         "Axis X",

@@ -290,7 +290,7 @@ fn check_has_formats_for_every_reader() {
     assert!(
         junit.contains("name=\"b.nc\">\n</testcase>")
             && junit.contains(
-                "<failure type=\"P-ERR-70495\" message=\"friction compensation of axis `X`"
+                "<failure type=\"P-ERR-70495\" message=\"friction compensation of axis `Z`"
             ),
         "{junit}"
     );

@@ -27,6 +27,7 @@ pub mod contour;
 mod csv;
 mod diagnostics;
 pub mod drives;
+mod escape;
 mod feed_moves;
 mod findings;
 mod glitch;

@@ -141,13 +141,13 @@ impl Interpreter {
         let [mine, theirs] = sides;
         let variables = mine.memory.differing_variables(&theirs.memory);
         let others = [
-            (mine.couplings != theirs.couplings, "axis couplings"),
+            (mine.couplings != theirs.couplings, "the axis couplings"),
             (
                 mine.channel_axes != theirs.channel_axes,
                 "the axes of the channel",
             ),
-            (mine.cycles != theirs.cycles, "modal cycles"),
-            (differ_in_words(mine, theirs), "modal words"),
+            (mine.cycles != theirs.cycles, "the modal cycles in force"),
+            (differ_in_words(mine, theirs), "the modal G functions in force"),
         ];
         let others = others.into_iter().filter(|(differ, _)| *differ);
         let named = variables.iter().map(|name| format!("`{name}`"));

@@ -171,7 +171,7 @@ impl ResultsReport {
                 let reason = against.iter().chain(&round.not_shown).next();
                 let reason = reason.map_or(String::new(), |it| format!(": {it}"));
                 let text = format!(
-                    "the lists of round {} are {}{reason}",
+                    "the lists of round {} are {}, the earlier ones stay{reason}",
                     round.number,
                     round.refusal()
                 );

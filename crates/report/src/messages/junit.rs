@@ -1,21 +1,23 @@
 //! JUnit reports, which CI servers show as tests: a file is a test, and an error or a warning in it a failure (R18.29).
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use frictcomp::diagnostic::{Diagnostic, Severity};
 
 use super::message_format::MessageFormat;
 use super::tally::Tally;
-use crate::svg::push_escaped;
+use crate::escape::push_escaped;
+use crate::visible::visible_line;
 
 /// The messages of each examined file.
 #[derive(Debug, Default)]
 pub(super) struct JUnit {
-    files: BTreeMap<String, Vec<Message>>,
+    files: BTreeMap<String, Vec<FailedTest>>,
 }
 
 #[derive(Debug)]
-struct Message {
+struct FailedTest {
     severity: Severity,
     code: &'static str,
     words: String,
@@ -30,22 +32,29 @@ impl MessageFormat for JUnit {
     fn message(&mut self, _out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         let file = diagnostic.place.file.replace('\\', "/");
         let start = diagnostic.place.start();
-        let mut place = format!("{file}:{}:{}", start.line, start.column);
+        let mut place = format!("{}:{}:{}", visible_line(&file), start.line, start.column);
+        if !diagnostic.reached_from.is_empty() {
+            let _ = write!(
+                place,
+                "\nnote: {}",
+                visible_line(&diagnostic.reached_from.to_string())
+            );
+        }
         for advice in &diagnostic.advice {
-            place.push_str(&format!("\nhelp: {advice}"));
+            let _ = write!(place, "\nhelp: {}", visible_line(&advice.to_string()));
         }
         let messages = self.files.entry(file).or_default();
-        messages.push(Message {
+        messages.push(FailedTest {
             severity: diagnostic.severity,
             code: diagnostic.code.as_str(),
-            words: diagnostic.message.clone(),
+            words: visible_line(&diagnostic.message).into_owned(),
             place,
         });
     }
 
     fn close(&mut self, out: &mut Vec<u8>, _tally: &Tally) {
-        let fails = |message: &&Message| message.severity > Severity::Info;
-        let has_failed = |messages: &&Vec<Message>| messages.iter().any(|it| fails(&it));
+        let fails = |message: &&FailedTest| message.severity > Severity::Info;
+        let has_failed = |messages: &&Vec<FailedTest>| messages.iter().any(|it| fails(&it));
         let (tests, failures) = (
             self.files.len(),
             self.files.values().filter(has_failed).count(),
@@ -56,7 +65,7 @@ impl MessageFormat for JUnit {
         );
         for (file, messages) in &self.files {
             text.push_str("<testcase classname=\"frictcomp\" name=\"");
-            push_escaped(&mut text, file);
+            push_escaped(&mut text, &visible_line(file));
             text.push_str("\">\n");
             for message in messages.iter().filter(fails) {
                 text.push_str("<failure type=\"");

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use unicode_width::UnicodeWidthStr;
 
-use super::escape::push_escaped;
 use super::frame::{Frame, style};
+use crate::escape::push_escaped;
 
 /// The width of every chart in units of the picture.
 pub(super) const WIDTH: f64 = 860.0;

@@ -12,7 +12,6 @@
 
 mod bands;
 mod canvas;
-mod escape;
 mod frame;
 mod legend;
 mod line;
@@ -24,7 +23,6 @@ mod shape;
 mod ticks;
 
 pub use bands::{Band, BandChart, BandRow};
-pub(crate) use escape::push_escaped;
 pub(crate) use frame::COLOURS;
 pub use frame::{Frame, style};
 pub use line::{CurveLooks, CurveNote, Drawn, LineChart, Panel, PanelHeight, Series, XMark};

@@ -1,13 +1,13 @@
-//! Text that is safe in a picture, whatever bytes a program holds.
+//! Text that is safe in markup, whatever bytes a program holds.
 
-use crate::visible::push_picture;
+use super::visible::push_picture;
 use frictcomp::text::is_hidden;
 
 /// Appends a text with the characters of markup escaped and invisible characters made visible.
 ///
 /// Control characters become their pictures (`␀`); characters that turn the direction of writing
 /// or take no room become `⟨U+202E⟩`, so that the text that is shown is the one that the control reads.
-pub(crate) fn push_escaped(out: &mut String, text: &str) {
+pub(super) fn push_escaped(out: &mut String, text: &str) {
     for letter in text.chars() {
         match letter {
             '&' => out.push_str("&amp;"),

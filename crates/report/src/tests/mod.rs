@@ -221,16 +221,7 @@ fn the_example_as_text() {
               |
               = help: add `Y[COMP ON FRICT]` before M30
 
-    Summary  1 program, 5 blocks, 0 errors, 2 warnings
-
-      axis  at start      at end        changed by
-      X     active        inactive      N45 (demo.nc:6)
-      Y     active        inactive      N25 (demo.nc:4)
-      Z     unconfigured  unconfigured  -
-
-    Passed over: #HSC ×3
-
-    X and Y are left off.
+    X and Y are left off
     "#);
 }
 
@@ -263,21 +254,7 @@ fn eight_axes_stay_readable() {
        101    N10 C[COMP OFF FRICT]          on   off  -    on   on   off◄ on   on
             end by M30                       on   off  -    on   on   off  on   on
 
-    Summary  1 program, 1 206 blocks, 0 errors, 2 warnings
-
-      axis  at start      at end        changed by
-      X     active        active        -
-      Y     active        inactive      N25 (demo.nc:4)
-      Z     unconfigured  unconfigured  -
-      A     active        active        -
-      B     active        active        -
-      C     active        inactive      N25 (demo.nc:4)
-      U     active        active        -
-      V     active        active        -
-
-    Passed over: #HSC ×3
-
-    Y and C are left off.
+    Y and C are left off
     ");
 }
 
@@ -310,15 +287,7 @@ fn axes_are_listed_as_they_occur() {
          3  Z0                                              inactive    unconfigured
             end by M30                                      inactive    unconfigured
 
-    Summary  1 program, 3 blocks, 0 errors, 2 warnings
-
-      axis  at start      at end        changed by
-      X     active        inactive      N45 (demo.nc:6)
-      Z     unconfigured  unconfigured  -
-
-    Passed over: #HSC ×3
-
-    X is left off.
+    X is left off
     ");
 }
 

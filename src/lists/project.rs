@@ -185,7 +185,7 @@ struct Parser<'a, 'p> {
     open: Vec<OpenElement<'a>>,
 }
 
-impl<'a> Parser<'a, '_> {
+impl Parser<'_, '_> {
     fn read(&mut self) -> Result<(), NoProject> {
         let text = self.file.text();
         let mut reader = Reader::from_str(text);

@@ -69,6 +69,32 @@ impl AcceptedList {
     }
 }
 
+/// Checks a start-up list or a project with every list that it names.
+fn check_machine(
+    source: &Arc<SourceFile>,
+    build: Option<CncBuild>,
+    files: &mut dyn ListFiles,
+) -> ListsReport {
+    let mut configuration = Configuration::default();
+    configuration.machine.build = build;
+    configuration.read_startup(source, files);
+    configuration.check_drives();
+    let first = configuration.diagnostics.first();
+    let is_refused =
+        first.is_some_and(|said| said.code == Code::Fc125 && said.place.file == *source.name());
+    let is_machine = !is_xml(source.text()) || !is_refused;
+    ListsReport {
+        kind: is_machine.then_some(ListKind::Startup),
+        diagnostics: configuration.diagnostics,
+        reports: configuration.reports,
+        programs: configuration.programs,
+        accepted: AcceptedList::of(&configuration.machine),
+        files: configuration.files,
+        missing: configuration.missing,
+        embedded: configuration.embedded,
+    }
+}
+
 /// Checks one list of any kind, for a kernel version if that is known. A start-up list is checked with every list that
 /// it names; any other list by itself, so nothing is reported about related lists.
 pub fn check_list(
@@ -81,23 +107,7 @@ pub fn check_list(
     let kind = ListKind::detect(&entries);
     let is_project = is_xml(source.text());
     if is_project || kind == Some(ListKind::Startup) {
-        let mut configuration = Configuration::default();
-        configuration.machine.build = build;
-        configuration.read_startup(&source, files);
-        configuration.check_drives();
-        let first = configuration.diagnostics.first();
-        let is_refused =
-            first.is_some_and(|said| said.code == Code::Fc125 && said.place.file == *source.name());
-        return ListsReport {
-            kind: (!is_project || !is_refused).then_some(ListKind::Startup),
-            diagnostics: configuration.diagnostics,
-            reports: configuration.reports,
-            programs: configuration.programs,
-            accepted: AcceptedList::of(&configuration.machine),
-            files: configuration.files,
-            missing: configuration.missing,
-            embedded: configuration.embedded,
-        };
+        return check_machine(&source, build, files);
     }
     let mut diagnostics = entries.diagnostics.clone();
     diagnostics.extend(kind.into_iter().flat_map(|kind| kind.check_keys(&entries)));

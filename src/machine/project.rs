@@ -57,7 +57,7 @@ impl Loader<'_> {
         self.missing += files.missing;
         self.startup_folder = Some(folder(file.name()).to_owned());
         let startup = self.startup_of(&files.project);
-        Ok(self.listed(startup))
+        Ok(self.listed(&startup))
     }
 
     /// Reads a file of a project, and those that it refers to.
@@ -244,12 +244,12 @@ impl Loader<'_> {
         }
         let lines = list.source.lines();
         let end = Span::new(0, list.source.text().trim_end().len()).end;
-        let last = lines.line(end.saturating_sub(1));
+        let last_line = lines.line(end.saturating_sub(1));
         self.project.add(EmbeddedList {
             file: list.source.name().clone(),
             item,
             element: list.element.value.clone(),
-            lines: lines.first()..=last,
+            lines: lines.first()..=last_line,
         });
         self.embedded.insert(name.clone(), list.source.clone());
         list.element.with(name)

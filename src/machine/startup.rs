@@ -19,12 +19,12 @@ impl Loader<'_> {
     pub(super) fn startup(&mut self, list: &Entries) -> Vec<AxisDraft> {
         self.startup_folder = Some(folder(list.source().name()).to_owned());
         let startup = StartupList::from_entries(list, &mut self.diagnostics);
-        self.listed(startup)
+        self.listed(&startup)
     }
 
     /// Returns the axes of the lists that a start-up list or a project names.
-    pub(super) fn listed(&mut self, startup: StartupList) -> Vec<AxisDraft> {
-        let default = self.default_values(&startup);
+    pub(super) fn listed(&mut self, startup: &StartupList) -> Vec<AxisDraft> {
+        let default = self.default_values(startup);
         let shared = default.frict_comp().map(|given| given.file().into());
         let mut listed: Vec<(Given<String>, AxisDraft)> = Vec::new();
         for asked in startup.axis_lists.iter().take(MAX_AXES) {
@@ -41,7 +41,7 @@ impl Loader<'_> {
             }
         }
         let is_whole = listed.len() == startup.axis_lists.len();
-        let mut axes = self.channels(&startup, &mut listed, &default);
+        let mut axes = self.channels(startup, &mut listed, &default);
         for (asked, mut draft) in listed {
             if let Some(name) = &draft.values.name {
                 draft.name.clone_from(&name.value);

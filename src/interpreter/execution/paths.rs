@@ -147,7 +147,10 @@ impl Interpreter {
                 "the axes of the channel",
             ),
             (mine.cycles != theirs.cycles, "the modal cycles in force"),
-            (differ_in_words(mine, theirs), "the modal G functions in force"),
+            (
+                differ_in_words(mine, theirs),
+                "the modal G functions in force",
+            ),
         ];
         let others = others.into_iter().filter(|(differ, _)| *differ);
         let named = variables.iter().map(|name| format!("`{name}`"));

@@ -1,4 +1,5 @@
-//! JUnit reports, which CI servers show as tests: a file is a test, and an error or a warning in it a failure (R18.29).
+//! Reports in the format of `JUnit`, which CI servers show as tests: a file is a test, and an error or a warning in it a
+//! failure (R18.29).
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

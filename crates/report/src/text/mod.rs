@@ -402,7 +402,7 @@ impl<W: Write> Text<W> {
             text.push_str(&visible_line(&place.file));
             text.push(':');
         }
-        text.push_str(&format!("{}:{}", start.line, start.column));
+        text.extend([&start.line.to_string(), ":", &start.column.to_string()]);
         if let Some(axis) = &diagnostic.axis {
             text.push_str(", axis ");
             text.push_str(&visible_line(axis));

@@ -26,7 +26,7 @@ def test_the_command_is_on_the_path() -> None:
 def test_the_module_is_the_command_too() -> None:
     arguments = [sys.executable, "-m", "frictcomp", "run", "-"]
     told = subprocess.run(arguments, input=b"N10 M30\n", capture_output=True, check=True)
-    assert b"N10 M30" in told.stdout
+    assert b"1 block without a change" in told.stdout
 
 
 def test_the_package_is_typed() -> None:

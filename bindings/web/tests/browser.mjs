@@ -309,7 +309,7 @@ const tests = {
     await page.locator("#panel-contour").getByLabel("axes start at").fill("X0, Y0, Z10");
     await page.getByRole("button", { name: "Drive", exact: true }).click();
     await page.locator("#contour img").waitFor();
-    const wanted = spawnSync(command, ["contour", "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
+    const wanted = spawnSync(command, ["contour", "-v", "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
     assert.match(wanted.stdout.toString(), /largest deviation +38/);
     assert.equal(await page.locator("#contour .figures").textContent(), wanted.stdout.toString());
     await look(page, "contour");

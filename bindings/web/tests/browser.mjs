@@ -353,7 +353,7 @@ const tests = {
       page.getByRole("button", { name: "Download value list" }).click(),
     ]);
     const list = join(folder, "tuned.lis");
-    const wanted = spawnSync(command, ["tune", "--feeds", "2000", "--radii", "20", "--write-list", list]);
+    const wanted = spawnSync(command, ["tune", "-v", "--feeds", "2000", "--radii", "20", "--write-list", list]);
     assert.equal(await page.locator("#tuned .figures").textContent(), wanted.stdout.toString());
     assert.equal(readFileSync(await download.path(), "utf8"), readFileSync(list, "utf8"));
     await close(page);

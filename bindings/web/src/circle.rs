@@ -107,7 +107,7 @@ pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result
     let (report, lists) = simulate(dropped, settings)?;
     Ok(json(&CircleAnswer {
         svg: circle(&report).render(Frame::Alone),
-        text: fitted(&render_text(&report, Detail::Full), FALLBACK_WIDTH),
+        text: fitted(&render_text(&report, Detail::Brief), FALLBACK_WIDTH),
         lists,
     }))
 }

@@ -117,7 +117,7 @@ pub(crate) fn answer(
     let picture = contour.sink().take_picture().filter(|_| has_moved);
     let chart = picture.map(|picture| picture.chart(&subject.heading(&contour)));
     let text = fitted(
-        &render_text(&mut contour, &subject, Detail::Full),
+        &render_text(&mut contour, &subject, Detail::Brief),
         FALLBACK_WIDTH,
     );
     Ok(json(&ContourAnswer {

@@ -50,7 +50,7 @@ pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let [axis, _] = &report.tuned.axes;
     Ok(json(&TuningAnswer {
         svg: tuning(reports).render(Frame::Alone),
-        text: fitted(&render_text(reports, Detail::Full), FALLBACK_WIDTH),
+        text: fitted(&render_text(reports, Detail::Brief), FALLBACK_WIDTH),
         list: render_tuned(&report, axis, None, &ListHead::default()),
     }))
 }

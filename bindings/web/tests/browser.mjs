@@ -309,7 +309,7 @@ const tests = {
     await page.locator("#panel-contour").getByLabel("axes start at").fill("X0, Y0, Z10");
     await page.getByRole("button", { name: "Drive", exact: true }).click();
     await page.locator("#contour img").waitFor();
-    const wanted = spawnSync(command, ["contour", "-v", "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
+    const wanted = spawnSync(command, ["contour", "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
     assert.match(wanted.stdout.toString(), /largest deviation +38/);
     assert.equal(await page.locator("#contour .figures").textContent(), wanted.stdout.toString());
     await look(page, "contour");
@@ -353,7 +353,7 @@ const tests = {
       page.getByRole("button", { name: "Download value list" }).click(),
     ]);
     const list = join(folder, "tuned.lis");
-    const wanted = spawnSync(command, ["tune", "-v", "--feeds", "2000", "--radii", "20", "--write-list", list]);
+    const wanted = spawnSync(command, ["tune", "--feeds", "2000", "--radii", "20", "--write-list", list]);
     assert.equal(await page.locator("#tuned .figures").textContent(), wanted.stdout.toString());
     assert.equal(readFileSync(await download.path(), "utf8"), readFileSync(list, "utf8"));
     await close(page);

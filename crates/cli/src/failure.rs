@@ -90,7 +90,7 @@ fn options_for(error: &HostError) -> Option<String> {
             "`--config` takes a `frictcomp.toml`"
         }
         HostError::NotAStartupList { .. } => {
-            "`--startup` takes the list that names all others, `hochlauf.lis`"
+            "`--startup` takes the list that names all others, `hochlauf.lis`, and `--project` a TwinCAT project"
         }
         HostError::Trace(TraceError::Cycles { .. } | TraceError::SeveralClocks(_)) => {
             "record one row per CNC cycle, give the cycle with `--cycle-time-ms`, or make cycles of \

@@ -71,7 +71,7 @@ fn the_verdict_comes_first_and_conditions_with_v() {
     assert!(text(&["circle", "-v"]).contains("reading:"));
     let document = json(&["circle", "--format", "json"]);
     assert_eq!(document["headline"]["text"], verdict);
-    assert_eq!(document["headline"]["standing"], "good");
+    assert_eq!(document["headline"]["standing"], "plain");
 }
 
 #[test]

@@ -18,6 +18,8 @@ pub enum Standing {
     /// It depends on what is not known.
     #[default]
     Open,
+    /// The result is a measurement or a simulation that judges nothing.
+    Plain,
 }
 
 impl Standing {
@@ -27,6 +29,7 @@ impl Standing {
             Self::Good => "good",
             Self::Bad => "bad",
             Self::Open => "open",
+            Self::Plain => "plain",
         }
     }
 }

@@ -48,7 +48,7 @@ impl IdentifyReport {
                 Standing::Open,
                 format!("; {}: {}", fault.code, fault.message),
             ),
-            None => (Standing::Good, String::new()),
+            None => (Standing::Plain, String::new()),
         };
         let (Some(slowest), Some(fastest)) = (found.pairs.first(), found.pairs.last()) else {
             return Headline::new(Standing::Bad, format!("no friction{axis} is found{fault}"));

@@ -26,7 +26,7 @@ impl TraceReport<'_> {
         let recording = self.recording;
         let channels = counted(recording.channels().len(), "channel");
         let text = format!("{}: {}, {channels}", self.name, recording.layout().as_str());
-        Headline::new(Standing::Good, text)
+        Headline::new(Standing::Plain, text)
     }
 }
 

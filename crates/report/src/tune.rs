@@ -101,7 +101,7 @@ impl TuneReport {
         let feeds = self.tuned.feeds.iter().map(|it| it.glitch_off_um);
         let (on, off) = (self.tuned.worst_um(), feeds.fold(0.0, f64::max));
         let standing = if on < off {
-            Standing::Good
+            Standing::Plain
         } else {
             Standing::Bad
         };

@@ -178,6 +178,7 @@ impl BlockScratch {
         self.outcomes.clear();
         self.changes.clear();
         self.left_open = None;
+        self.earlier = None;
         self.doubted.clear();
         self.also_moved.clear();
         self.word_row = None;

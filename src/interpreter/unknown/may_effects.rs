@@ -25,13 +25,13 @@ use crate::interpreter::values::plain::subscript;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::language::{
-    AxisAction, AxisCommand, GAction, GFunction, HashAction, Moves, Plc, Touches,
+    AxisAction, AxisCommand, GAction, GFunction, HashAction, Moves, Plc, Touches, is_read_only,
 };
 use crate::syntax::ast::{
     Address, Block, BlockReference, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, Node, Operand, Owner, ReturnLevels, Word,
 };
-use crate::syntax::{Stretch, VariableName, is_letter, is_program_number};
+use crate::syntax::{Stretch, VariableFamily, VariableName, is_letter, is_program_number};
 use crate::text::Span;
 
 /// A region that is being analysed.
@@ -373,16 +373,26 @@ impl MayEffects<'_> {
     }
 
     fn assigns(&mut self, place: Expression, at: &BlockContext<'_>) {
-        if let Some(target) = Self::target(place, at) {
-            self.writes(target);
+        let Some(target) = Self::target(place, at) else {
+            return;
+        };
+        if let Location::Variable(name) | Location::Elements(name) = &target {
+            let is_refused = is_read_only(name.array());
+            self.region.refuse_if(is_refused, self.place);
         }
+        self.writes(target);
     }
 
     /// A deleted variable is unknown, and so are the elements that it may have.
     fn deletes(&mut self, place: Expression, at: &BlockContext<'_>) {
         let target = Self::target(place, at);
         match &target {
-            Some(Location::Variable(name)) => self.writes(Location::Elements(name.clone())),
+            Some(Location::Variable(name)) => {
+                // A calling program may have it (20933).
+                let may_be_refused = name.family() == VariableFamily::Cycle;
+                self.region.refuse_if(may_be_refused, self.place);
+                self.writes(Location::Elements(name.clone()));
+            }
             Some(Location::Parameter(Owner::Program, index)) => {
                 self.writes(Location::Elements(VariableName::parameter(*index)));
             }

@@ -125,7 +125,7 @@ impl CircleReport {
         match (worsts.as_deref(), &self.subject) {
             (Some([(off, _), (on, at)]), _) => Headline::new(
                 if on < off {
-                    Standing::Good
+                    Standing::Plain
                 } else {
                     Standing::Bad
                 },
@@ -135,7 +135,7 @@ impl CircleReport {
                 let advice = self.sides.iter().flat_map(|side| advice_lines(self, side));
                 let advice: Vec<String> = advice.take(1).collect();
                 let (standing, advice) = match advice.as_slice() {
-                    [] => (Standing::Good, String::new()),
+                    [] => (Standing::Plain, String::new()),
                     said => (Standing::Bad, format!("; {}", said.join("; "))),
                 };
                 Headline::new(

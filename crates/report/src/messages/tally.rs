@@ -89,7 +89,7 @@ impl Tally {
     pub fn on_programs(&self, name: &str) -> Headline {
         let all: u64 = self.programs.values().sum();
         let worst = self.programs.keys().next();
-        let standing = worst.map_or(Standing::Good, |it| it.standing());
+        let standing = worst.map_or(Standing::Open, |it| it.standing());
         let phrase = |(result, count): (&ProgramResult, &u64)| {
             let [one, several] = result.words();
             format!("{count} {}", if *count == 1 { one } else { several })

@@ -216,7 +216,7 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
         let style = match headline.standing {
             Standing::Good => style(State::Active),
             Standing::Bad => style(State::Inactive),
-            Standing::Open => style(State::Unknown),
+            Standing::Open | Standing::Plain => style(State::Unknown),
         };
         Paragraph::new(style, &headline.text).write(out, look);
     }

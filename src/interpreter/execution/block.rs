@@ -63,12 +63,17 @@ impl Interpreter {
     #[inline]
     fn begin_block(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) -> usize {
         self.scratch.clear();
-        if !(self.joined.is_empty() && self.joined_withheld.is_empty()) {
+        if !(self.joined.is_empty() && self.joined_withheld.is_empty())
+            && !self.state.track.is_shadow()
+        {
             self.scratch.diagnostics.append(&mut self.joined);
             self.scratch
                 .aside
                 .withheld
                 .append(&mut self.joined_withheld);
+        }
+        if !self.state.track.shadow.moved.is_empty() && !self.state.track.is_shadow() {
+            self.take_moves_of_shadows();
         }
         let first = self.scratch.diagnostics.len();
         self.state.seq += 1;
@@ -80,6 +85,23 @@ impl Interpreter {
             self.search(at);
         }
         first
+    }
+
+    /// Remembers the axes that a shadow moves.
+    #[cold]
+    fn note_moves_of_shadow(&mut self) {
+        let words = self.scratch.moved.iter().map(|word| word.axis);
+        let axes = words.chain(self.scratch.also_moved.iter().map(|moved| moved.axis));
+        self.state.track.shadow.moved.extend(axes);
+    }
+
+    /// The axes that shadows moved stand at an unknown position.
+    #[cold]
+    fn take_moves_of_shadows(&mut self) {
+        for axis in std::mem::take(&mut self.state.track.shadow.moved) {
+            self.state.control.modal.havoc_position(axis);
+            self.scratch.perhaps_move(axis);
+        }
     }
 
     /// Finds the programs that a block calls.
@@ -170,7 +192,35 @@ impl Interpreter {
         };
         self.limit_messages(first);
         self.note_doubts(at);
-        let flow = observer.event(Event::Executed(Executed {
+        if self.state.track.is_shadow() {
+            self.note_moves_of_shadow();
+            self.scratch.clear_said();
+            return match step {
+                None => ControlFlow::Continue(()),
+                Some(step) => ControlFlow::Break(NextBlock::Step(step)),
+            };
+        }
+        let flow = self.raise(number, stopped, at, observer);
+        self.scratch.clear_said();
+        match step {
+            step if flow.is_break() => {
+                self.state.parked = step;
+                ControlFlow::Break(NextBlock::Paused)
+            }
+            None => ControlFlow::Continue(()),
+            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
+        }
+    }
+
+    /// Informs the observer of a block.
+    fn raise(
+        &self,
+        number: Option<i64>,
+        stopped: bool,
+        at: &BlockContext<'_>,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<()> {
+        observer.event(Event::Executed(Executed {
             seq: self.state.seq,
             file: at.file,
             line: at.line,
@@ -206,16 +256,20 @@ impl Interpreter {
             modal: &self.state.control.modal,
             occurred: &self.state.occurred,
             version: self.version,
-        }));
-        self.scratch.clear_said();
-        match step {
-            step if flow.is_break() => {
-                self.state.parked = step;
-                ControlFlow::Break(NextBlock::Paused)
-            }
-            None => ControlFlow::Continue(()),
-            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
-        }
+        }))
+    }
+
+    /// Informs the observer of a block with a skip mark that it may decide on.
+    #[cold]
+    pub(crate) fn offer_skip(
+        &mut self,
+        at: &BlockContext<'_>,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<()> {
+        self.state.seq += 1;
+        self.state.blocks += 1;
+        let number = self.block_number(at);
+        self.raise(number, false, at, observer)
     }
 
     /// Accounts for the work and the changes of a block. Returns whether the program is over.

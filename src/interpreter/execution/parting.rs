@@ -7,6 +7,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{BranchSide, Path};
+use crate::interpreter::run::shadow::Meeting;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
 
@@ -16,8 +17,11 @@ impl Interpreter {
     pub(crate) fn take_sides(&mut self, step: Option<&ControlStep>, finder: &mut dyn Finder) {
         let sides = std::mem::take(&mut self.sides);
         let here = self.state.control.frames.running().map_or(0, |it| it.next);
+        let meeting = self.meeting(&sides);
         let base = self.state.leave_path();
         let mut open: Vec<Path> = Vec::new();
+        // The answer of a user is the one way that is followed.
+        let is_chosen = self.options.branches == Branches::Passed && sides.len() == 1;
         for side in sides {
             let ways = base.track.reach.and(&side.ways);
             if ways.is_never() {
@@ -28,8 +32,11 @@ impl Interpreter {
             self.state.track.reach = ways;
             let (to, is_back) = (side.to, side.to < here);
             self.state.apply_side(side);
+            if let Some(meeting) = meeting.filter(|meeting| meeting.entry != to) {
+                self.state.track.shadow.until.get_or_insert(meeting);
+            }
             // Ways that lead back join at the loop's head, as other ways do.
-            let goes_on = if is_back && self.options.branches != Branches::Passed {
+            let goes_on = if is_back && !is_chosen {
                 self.come_back(to, finder)
             } else {
                 ControlStep::Jump(to)
@@ -56,6 +63,27 @@ impl Interpreter {
         } else {
             self.enter_first();
         }
+    }
+
+    /// The block at which the sides of a question meet again, where one way is followed and the others are its shadows.
+    fn meeting(&self, sides: &[BranchSide]) -> Option<Meeting> {
+        if self.options.follows_ways() || sides.len() < 2 {
+            return None;
+        }
+        let frames = &self.state.control.frames;
+        let (frame, asked) = (frames.running()?, frames.entry()?);
+        let marked = sides.iter().find_map(|side| side.marked);
+        let index = self.programs.index(frame.unit);
+        let entry = match marked {
+            Some(marked) => marked.after,
+            None if index.is_linked(asked) => index.links(asked).end + 1,
+            None => frame.next,
+        };
+        Some(Meeting {
+            depth: frames.depth(),
+            unit: frame.unit,
+            entry,
+        })
     }
 }
 

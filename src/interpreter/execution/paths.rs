@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use super::endless::watches;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -140,7 +141,13 @@ impl Interpreter {
         }
         let [mine, theirs] = sides;
         let variables = mine.memory.differing_variables(&theirs.memory);
+        let has_moved =
+            self.options.motions == Motions::Taken && !self.state.track.shadow.moved.is_empty();
         let others = [
+            (
+                has_moved,
+                "the positions of the axes that these blocks move",
+            ),
             (mine.couplings != theirs.couplings, "the axis couplings"),
             (
                 mine.channel_axes != theirs.channel_axes,

@@ -9,6 +9,7 @@ use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::event::{EndedBy, Event, Joined, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::RunOutcome;
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, NextBlock};
 
 impl Interpreter {
@@ -37,10 +38,20 @@ impl Interpreter {
             if let Some(level) = self.undecided_level(&parsed.block)
                 && self.part_by_skip(level, &parsed)
             {
+                let flow = if self.offered.is_empty() {
+                    ControlFlow::Continue(())
+                } else {
+                    let shown = ShownBlockLines::default();
+                    let level = self.state.control.frames.level();
+                    self.offer_skip(&BlockContext::of_parsed(&parsed, level, &shown), observer)
+                };
                 if let Some(frame) = self.state.control.frames.running_mut() {
                     frame.next = next;
                 }
                 self.take_sides(None, finder);
+                if flow.is_break() {
+                    return RunOutcome::Paused;
+                }
                 continue;
             }
             let called_from = self
@@ -155,6 +166,13 @@ impl Interpreter {
             self.widen(finder);
             self.tell_joined(observer);
         }
+        let State {
+            track,
+            control,
+            waiting,
+            ..
+        } = &mut self.state;
+        track.follow_again(&control.frames, waiting.is_empty());
     }
 
     /// Executes a step. Returns the end of the run if it is the last one of the last way.
@@ -178,6 +196,9 @@ impl Interpreter {
         let Some(frame) = self.state.control.frames.running() else {
             return;
         };
+        if self.state.track.is_shadow() {
+            return;
+        }
         let place = self.programs.index(frame.unit).block_place(frame.next);
         self.show_ways();
         // A run stops at blocks: a request to stop takes effect at the next one.

@@ -26,7 +26,6 @@ impl Interpreter {
     pub(crate) fn is_past_ways(&self) -> bool {
         self.state.work.ways() > self.options.limits.ways
             && !self.state.is_widened
-            && self.options.follows_ways()
             && self.state.work.ways() > self.ways_bound()
     }
 

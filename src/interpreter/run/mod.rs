@@ -23,6 +23,7 @@ pub(super) mod path;
 pub(super) mod region;
 pub(super) mod saved_config;
 pub(super) mod search;
+pub(super) mod shadow;
 pub(super) mod stack;
 pub(super) mod state;
 pub(super) mod step;

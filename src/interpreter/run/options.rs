@@ -26,8 +26,8 @@ pub enum Branches {
     /// Every way is executed, and what they agree on is known.
     #[default]
     Followed,
-    /// No way is executed, and whatever any of them could change is unknown (R2.51). This also applies
-    /// where blocks report their motion.
+    /// Events are raised on one way only: the blocks that another answer would pass over are executed without
+    /// events, and what the ways agree on is known after them. This also applies where blocks report their motion.
     Passed,
 }
 
@@ -55,7 +55,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether a run parts where only the machine knows the way. A driven path has no side ways (R14.8).
+    /// Whether all ways raise events; else one does, and the others are its shadows (R14.8).
     pub(crate) fn follows_ways(&self) -> bool {
         self.branches == Branches::Followed && self.motions != Motions::Taken
     }

@@ -10,6 +10,7 @@ use super::control::ControlState;
 use super::event::EndedBy;
 use super::loop_heads::Arrival;
 use super::search::EarlierStates;
+use super::shadow::Shadow;
 use super::stack::{CallFrame, CallStack, Seeking};
 use super::state::State;
 use super::stopping::FailedAt;
@@ -55,6 +56,8 @@ pub(crate) struct RunTrack {
     /// The error that has ended it, where the run goes on as if the failing command were not there (R9.20).
     #[serde(default)]
     pub(crate) failed: Option<Box<FailedAt>>,
+    /// What it is to the way that is followed, where one is (R14.8).
+    pub(crate) shadow: Shadow,
 }
 
 /// A condition whose values only the program writes: asked again, it has the same answer.
@@ -245,6 +248,7 @@ impl RunTrack {
             searching,
             // In both or in none.
             failed: _,
+            shadow,
         } = other;
         if self.loops.len() < loops.len() {
             self.loops.clone_from(loops);
@@ -271,6 +275,7 @@ impl RunTrack {
         if searching.is_none() {
             self.searching = None;
         }
+        self.shadow.join(shadow);
     }
 }
 

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, Membership};
-use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -121,9 +120,6 @@ impl Interpreter {
         let Some(program) = self.state.control.frames.program() else {
             return false;
         };
-        if !self.options.follows_ways() {
-            return false;
-        }
         let calls = self.state.control.frames.iter();
         let calls = calls.filter(|frame| frame.program() == program).count();
         !self.state.is_widened
@@ -147,11 +143,20 @@ impl Interpreter {
         if self.scratch.unread.get() {
             return false;
         }
-        if self.options.branches == Branches::Passed {
-            return question.kept.is_none() && self.take_chosen(question, goals, at);
+        if !self.options.follows_ways() && question.kept.is_some() {
+            // One way is followed: the one on which the value is as the program set it.
+            return false;
         }
         if !self.may_part(goals.len(), at) {
             return false;
+        }
+        self.offered.clear();
+        let offers = self.options.branches == Branches::Passed;
+        if offers && question.key().is_none() {
+            // The next block that reads the value asks anew.
+            for goal in &mut goals {
+                goal.values.clear();
+            }
         }
         if let Some(kept) = &question.kept
             && let Some(own) = goals.get_mut(kept.sides.trailing_zeros() as usize)
@@ -162,9 +167,11 @@ impl Interpreter {
             self.note_open_loop();
         }
         let condition = self.ask(question, goals.iter().map(Goal::says).collect(), at);
-        let answers = answers(condition, goals.len());
-        let sides = goals.into_iter().zip(answers);
-        self.sides = sides.map(|(goal, answer)| goal.side(answer)).collect();
+        let answers: Vec<WayAnswer> = answers(condition, goals.len()).collect();
+        let chosen = offers.then(|| self.chosen_among(&answers)).flatten();
+        let sides = goals.into_iter().zip(&answers);
+        let sides = sides.filter(|(_, answer)| chosen.is_none_or(|chosen| chosen == **answer));
+        self.sides = sides.map(|(goal, answer)| goal.side(*answer)).collect();
         true
     }
 
@@ -202,48 +209,26 @@ impl Interpreter {
         Some([ways.next()?, ways.next()?])
     }
 
-    /// Takes the answer that was chosen beforehand, or that an earlier one implies; without either, offers the
-    /// answers. Returns whether one is taken.
-    fn take_chosen(
-        &mut self,
-        question: MachineQuestion,
-        mut goals: Vec<Goal>,
-        at: &BlockContext<'_>,
-    ) -> bool {
-        let can = at.macro_depth == 0
-            && self.options.motions != Motions::Taken
-            && self.sides.is_empty()
-            && (2..=MAX_ANSWERS).contains(&goals.len())
-            && self.state.conditions.len() + 1 < MAX_CONDITIONS;
-        if !can {
-            return false;
+    /// The answer that was chosen beforehand, or that an earlier one implies; without either, offers the answers.
+    fn chosen_among(&mut self, answers: &[WayAnswer]) -> Option<WayAnswer> {
+        if self.state.track.is_shadow() {
+            return None;
         }
-        if question.key().is_none() {
-            // The next block that reads the value asks anew.
-            for goal in &mut goals {
-                goal.values.clear();
-            }
-        }
-        let condition = self.ask(question, Vec::new(), at);
-        let answers: Vec<WayAnswer> = answers(condition, goals.len()).collect();
         let reach = &self.state.track.reach;
         let fits = |answer: &&WayAnswer| !reach.and(&WaySet::of(**answer)).is_never();
         let mut possible = answers.iter().filter(fits);
-        let only = possible.next().filter(|_| possible.next().is_none());
-        let answer = match only {
-            Some(only) => Some(only),
-            None => self.chosen.pop_front().and_then(|place| answers.get(place)),
-        };
-        let Some(answer) = answer else {
-            let ways = answers
-                .iter()
-                .map(|it| ways_of(&WaySet::of(*it), &self.state.conditions));
-            self.offered = ways.flatten().flatten().collect();
-            return false;
-        };
-        let place = answer.sides.trailing_zeros() as usize;
-        self.sides = vec![goals.swap_remove(place).side(*answer)];
-        true
+        if let Some(only) = possible.next().filter(|_| possible.next().is_none()) {
+            return Some(*only);
+        }
+        let chosen = self.chosen.pop_front();
+        if let Some(chosen) = chosen.and_then(|place| answers.get(place)) {
+            return Some(*chosen);
+        }
+        let ways = answers
+            .iter()
+            .map(|it| ways_of(&WaySet::of(*it), &self.state.conditions));
+        self.offered = ways.flatten().flatten().collect();
+        None
     }
 
     /// The number of the condition that a question asks for.

@@ -10,7 +10,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Call, CallName, Operand};
+use crate::syntax::ast::{Call, CallName, Operand, CallScope};
 use crate::text::Span;
 
 impl Interpreter {
@@ -41,7 +41,10 @@ impl Interpreter {
                 word: None,
             })),
             Value::Unknown(cause) => {
-                self.havoc_call(call, at, &cause);
+                self.havoc_by_call(&cause);
+                if call.scope == CallScope::Local {
+                    self.pass_over_locals(&cause);
+                }
                 if self.scratch.unread.get() {
                     return Ok(None);
                 }

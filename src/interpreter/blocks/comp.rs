@@ -334,6 +334,19 @@ impl Interpreter {
             .push(at.diagnostic(fault).with_axis(name.clone()));
     }
 
+    /// What the control says of a command that it refuses whatever came before.
+    pub(crate) fn refusal_of(
+        &self,
+        command: &CompCommand,
+        at: &BlockContext<'_>,
+    ) -> Option<Diagnostic> {
+        let mut compensation = self.state.control.compensation.clone();
+        let axis = compensation.resolve(&command.axis);
+        let result = axis
+            .and_then(|axis| compensation.switch(axis, command.selection, &mut Vec::new()));
+        result.err().map(|error| self.refusal(&error, command, at))
+    }
+
     fn refusal(
         &self,
         error: &CompensationError,

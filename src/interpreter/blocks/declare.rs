@@ -89,7 +89,6 @@ impl Interpreter {
         declarations: &[Declaration],
         at: &BlockContext<'_>,
     ) -> Result<(), Box<Fault>> {
-        self.journal.begin_anew();
         self.state.write_anything();
         for declaration in declarations {
             refuse_declaration(declaration, at)?;
@@ -246,9 +245,7 @@ impl Interpreter {
 impl State {
     /// Something is declared or deleted.
     fn write_anything(&mut self) {
-        let seq = self.seq;
         let (control, track) = (&mut self.control, &mut self.track);
-        track.ways.write_anything(seq);
         track.write_anything(&mut control.memory);
     }
 }

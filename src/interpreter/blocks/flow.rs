@@ -12,7 +12,6 @@ use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, Lin
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::unknown::branching::Goal;
@@ -46,7 +45,7 @@ impl Interpreter {
         if !at.block.jumps {
             return Ok(None);
         }
-        let (value, doubt) = if self.jumps_back(at) {
+        let (value, doubt) = if self.jumps_back(span, at) {
             let value = self.loop_value(*condition, at)?;
             let doubt = Doubt::of(&value);
             (value, doubt)
@@ -54,11 +53,7 @@ impl Interpreter {
             self.asked_value(*condition, at)?
         };
         if let Some(doubt) = doubt {
-            if self.part_at_jump(*condition, &doubt, at) {
-                return Ok(Some(false));
-            }
-            if let Doubt::Unknown(cause) = &doubt {
-                self.leave_jump(cause, span, at);
+            if self.part_at_jump(*condition, &doubt, span, at) {
                 return Ok(Some(false));
             }
         }
@@ -91,7 +86,8 @@ impl Interpreter {
         let links = index.links(entry);
         let after = ControlStep::Jump(links.end + 1);
         if let Some(level) = self.split_level() {
-            return Ok(self.skip_unknown(entry..links.end, &Unknown::SkipLevel(level), span, at));
+            self.pass_over_part(Unknown::SkipLevel(level), span, at);
+            return Ok(None);
         }
         Ok(match flow {
             Flow::If(condition) => self.branch(*condition, links.next, span, at)?,
@@ -116,8 +112,9 @@ impl Interpreter {
                 {
                     return Ok(None);
                 }
-                if let Value::Unknown(cause) = &value {
-                    self.skip_unknown(entry..links.end, cause, span, at)
+                if let Value::Unknown(cause) = value {
+                    self.part_undecided(flow, (cause, span), at);
+                    None
                 } else {
                     self.state.control.seek(Seeking::Case(value));
                     Some(ControlStep::Jump(links.next))
@@ -126,8 +123,10 @@ impl Interpreter {
             Flow::Case(operand) => match seeking {
                 Some(Seeking::Case(wanted)) => {
                     let value = self.value(*operand, at)?;
-                    if let Value::Unknown(cause) = &value {
-                        self.skip_unknown(entry..links.end, cause, span, at)
+                    if let Value::Unknown(cause) = value {
+                        self.state.control.seek(Seeking::Case(wanted));
+                        self.part_undecided(flow, (cause, span), at);
+                        None
                     } else if same_case(&wanted, &value) {
                         None
                     } else {
@@ -194,14 +193,13 @@ impl Interpreter {
                 return Ok(None);
             }
         }
-        Ok(match (&value, value.truth()) {
-            (Value::Unknown(cause), _) => self.skip_unknown(self.current_block(), cause, span, at),
-            (_, Some(true)) => None,
-            (_, Some(false)) => {
+        Ok(match value.truth() {
+            Some(true) => None,
+            Some(false) => {
                 self.state.control.seek(Seeking::Condition);
                 Some(ControlStep::Jump(next))
             }
-            (_, None) => return Err(no_condition(span)),
+            None => return Err(no_condition(span)),
         })
     }
 
@@ -241,18 +239,16 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
         let value = self.loop_value(condition, at)?;
-        Ok(match (&value, value.truth()) {
-            (Value::Unknown(cause), _) => {
-                let goals = [region.start + 1, region.end + 1].map(Goal::block);
-                let doubt = Doubt::Unknown(cause.clone());
-                if self.part_at(condition, &doubt, (ConditionKind::Loop, span), goals, at) {
-                    return Ok(None);
-                }
-                self.skip_unknown(region, cause, span, at)
-            }
-            (_, Some(true)) => None,
-            (_, Some(false)) => Some(ControlStep::Jump(region.end + 1)),
-            (_, None) => return Err(no_condition(span)),
+        if let Value::Unknown(cause) = value {
+            let goals = [region.start + 1, region.end + 1].map(Goal::block);
+            let doubt = Doubt::Unknown(cause);
+            self.part_at(condition, &doubt, (ConditionKind::Loop, span), goals, at);
+            return Ok(None);
+        }
+        Ok(match value.truth() {
+            Some(true) => None,
+            Some(false) => Some(ControlStep::Jump(region.end + 1)),
+            None => return Err(no_condition(span)),
         })
     }
 
@@ -264,17 +260,15 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
         let value = self.loop_value(condition, at)?;
-        if let Value::Unknown(cause) = &value {
+        if let Value::Unknown(cause) = value {
             let span = flow_span(at.block);
-            let doubt = Doubt::Unknown(cause.clone());
+            let doubt = Doubt::Unknown(cause);
             let mut goals = [region.start, region.end + 1].map(Goal::block);
             if repeats == Truth::Fails {
                 goals.reverse();
             }
-            if self.part_at(condition, &doubt, (ConditionKind::Loop, span), goals, at) {
-                return Ok(None);
-            }
-            return Ok(self.skip_unknown(region, cause, span, at));
+            self.part_at(condition, &doubt, (ConditionKind::Loop, span), goals, at);
+            return Ok(None);
         }
         let is_repeated = value.truth() == Some(repeats == Truth::Holds);
         Ok(is_repeated.then_some(ControlStep::Jump(region.start)))
@@ -297,10 +291,8 @@ impl Interpreter {
         for value in [counter, &end, &step] {
             if let Value::Unknown(cause) = value {
                 let goals = [opener + 1, region_end + 1].map(Goal::block);
-                if self.part_at_count(cause, span, goals, at) {
-                    return Ok(None);
-                }
-                return Ok(self.skip_unknown(opener..region_end, cause, span, at));
+                self.part_at_count(cause, span, goals, at);
+                return Ok(None);
             }
         }
         let (Some(counter), Some(end), Some(step)) =
@@ -310,9 +302,8 @@ impl Interpreter {
         };
         if is_last_pass_open(counter, end, step) {
             let goals = [opener + 1, region_end + 1].map(Goal::block);
-            if self.part_at_count(&Unknown::Rounding, span, goals, at) {
-                return Ok(None);
-            }
+            self.part_at_count(&Unknown::Rounding, span, goals, at);
+            return Ok(None);
         }
         let passed = if step > 0.0 {
             counter > end
@@ -398,11 +389,7 @@ impl Interpreter {
             Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
             Value::Unknown(cause) => {
                 self.perhaps_stop((Unknown::MissingLabel, StopScope::Block), span, at);
-                if !self.part_at_target(target, cause, span, at)
-                    && self.note_jump(&Exit::AnyLabel, cause)
-                {
-                    self.doubt_jump("where this jump goes", cause, span, at);
-                }
+                self.part_at_target(target, cause, span, at);
                 return Ok(None);
             }
         };
@@ -467,69 +454,6 @@ impl Interpreter {
         }
     }
 
-    /// A jump that may be taken (R2.91): the dry run continues after it.
-    pub(crate) fn leave_jump(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
-        if self.pass_jump(cause, span, at) {
-            self.doubt_jump("whether this jump is taken", cause, span, at);
-        }
-    }
-
-    /// Passes over the jump at a place of a block, or over those of the `$IF` there, up to the next one;
-    /// they may be taken. Returns whether anything differs if they are.
-    pub(crate) fn pass_jump(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) -> bool {
-        let items = &at.block.items;
-        let first = items.partition_point(|item| item.span().start < span.start);
-        let mut differs = false;
-        for (place, item) in items.iter().enumerate().skip(first) {
-            if place > first && matches!(item, Item::Flow(Flow::If(_), _)) {
-                break;
-            }
-            if let Item::Flow(Flow::Goto(target), _) = item {
-                let exit = self.exit(target, at).unwrap_or(Exit::AnyLabel);
-                differs |= self.note_jump(&exit, cause);
-                if place == first {
-                    break;
-                }
-            }
-        }
-        differs
-    }
-
-    /// Passes over the blocks that a statement whose operands cannot be computed decides on.
-    pub(crate) fn undecided(
-        &mut self,
-        flow: &Flow,
-        cause: &Unknown,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) -> Option<ControlStep> {
-        let whole = self.current_block();
-        let region = match flow {
-            Flow::Goto(_) => {
-                let _ = self.note_jump(&Exit::AnyLabel, cause);
-                return None;
-            }
-            Flow::EndFor | Flow::EndDo(_) | Flow::EndWhile | Flow::Until(_) => {
-                let frame = self.state.control.frames.running()?;
-                self.programs.index(frame.unit).links(whole.start).opener..whole.start
-            }
-            _ => whole,
-        };
-        self.skip_unknown(region, cause, span, at)
-    }
-
-    /// FC902: a jump that is not known offline (R2.91).
-    fn doubt_jump(&mut self, what: &str, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
-        if self.scratch.unread.get() {
-            return;
-        }
-        let value = cause.seen_from(at.file);
-        let message = format!(
-            "{what} depends on {value}; the dry run continues after it, and where both ways meet what differs is unknown"
-        );
-        let fault = Fault::new(Code::Fc902, span, message).with_help(cause.advice());
-        self.tell_once(cause, what, fault, at);
-    }
 }
 
 impl ControlState {

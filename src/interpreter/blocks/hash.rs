@@ -11,7 +11,6 @@ use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::unknown::branching::MAX_CONDITIONS;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::question::{Condition, ConditionKind};
@@ -74,7 +73,7 @@ impl Interpreter {
             HashAction::NamePrograms => self.name_programs(hash, at),
             HashAction::Describe => self.state.control.describe(hash, at),
             HashAction::EndDescription if self.state.control.end_description(command.words) => {}
-            HashAction::RealTimeLoop => self.real_time_loop(hash.span, at, outcome),
+            HashAction::RealTimeLoop => self.real_time_loop(hash.span, at),
             HashAction::ReportError => return self.report_error(hash, at, outcome),
             HashAction::ExchangeAxes(exchange) => self.exchange_axes(exchange, hash, at),
             HashAction::SaveConfig(action) => return self.saved_config(action, hash, at),
@@ -128,9 +127,7 @@ impl Interpreter {
 
     /// Whether the section is executed is one question to the machine.
     fn begin_optional(&mut self, span: Span, at: &BlockContext<'_>) -> OptionalSection {
-        let can_part =
-            self.options.follows_ways() && self.state.conditions.len() + 1 < MAX_CONDITIONS;
-        if !can_part {
+        if !self.state.can_ask() {
             return OptionalSection::Inside;
         }
         OptionalSection::Asked(self.state.ask_anew(Condition::new(
@@ -289,11 +286,11 @@ impl Interpreter {
     }
 
     /// `#RT WHILE` runs as long as its condition on a real-time variable holds (tf5261, 783727499).
-    fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
+    fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>) {
         let whole = self.current_block();
         if !whole.is_empty() {
             let cause = Unknown::text("V.RTG.LOOP.ENABLED");
-            outcome.step = self.skip_unknown(whole, &cause, span, at);
+            self.pass_over_part(cause, span, at);
         }
     }
 }

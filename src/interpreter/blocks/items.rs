@@ -211,7 +211,7 @@ impl Interpreter {
                 let condition = condition.or_else(|fault| {
                     let cause = cause_of(&fault, at);
                     self.undecidable(*fault, at)?;
-                    let _ = self.pass_jump(&cause, *span, at);
+                    self.part_at_undecided_jump((cause, *span), at);
                     Ok::<_, Box<Fault>>(Some(false))
                 })?;
                 if condition.is_some() {
@@ -222,16 +222,15 @@ impl Interpreter {
                     return Ok(());
                 }
                 if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(outcome, at) {
-                    if !self.part_at_probe(at) {
-                        self.leave_jump(&Unknown::Probe, *span, at);
-                    }
+                    self.part_at_probe(*span, at);
                     return Ok(());
                 }
                 let step = self.flow(flow, *span, at);
                 outcome.step = step.or_else(|fault| {
                     let cause = cause_of(&fault, at);
                     self.undecidable(*fault, at)?;
-                    Ok::<_, Box<Fault>>(self.undecided(flow, &cause, *span, at))
+                    self.part_undecided(flow, (cause, *span), at);
+                    Ok::<_, Box<Fault>>(None)
                 })?;
                 Ok(())
             }

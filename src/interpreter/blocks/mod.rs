@@ -18,8 +18,6 @@ mod reported;
 pub(super) mod required;
 pub(super) mod resolve;
 pub(super) mod sequence;
-pub(super) mod skipping;
 pub(super) mod travel;
-pub(super) mod trying;
 pub(super) mod waiting;
 pub(super) mod words;

@@ -5,16 +5,14 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
-use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName};
+use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, Links};
 use crate::interpreter::programs::unit::Parsed;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::AfterError;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::Marked;
-use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::unknown::branching::{Goal, MachineQuestion};
 use crate::interpreter::values::cause::Unknown;
@@ -26,6 +24,7 @@ use crate::interpreter::values::plain::{
 use crate::interpreter::values::value::{Value, same_case};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::question::{ConditionKind, MAX_ANSWERS};
+use crate::interpreter::ways::set::WaySet;
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, Expression, Flow, Item, Operand};
@@ -46,13 +45,12 @@ impl Interpreter {
         };
         let [mut yes, mut no] = goals;
         let tested = self.tested_state(condition, at);
-        let tested = tested.filter(|_| self.options.branches == Branches::Followed);
         if let Some((of, truth)) = tested {
             let goals = match truth {
                 Truth::Holds => [yes, no],
                 Truth::Fails => [no, yes],
             };
-            return self.part_by_state(of, goals, at);
+            return self.part_by_state(of, goals);
         }
         for (goal, truth) in [(&mut yes, Truth::Holds), (&mut no, Truth::Fails)] {
             let found = conclusions(at.block, at.text, expression, truth);
@@ -159,14 +157,20 @@ impl Interpreter {
         &mut self,
         condition: Operand,
         doubt: &Doubt,
+        place: Span,
         at: &BlockContext<'_>,
     ) -> bool {
-        let Some((to, span)) = self.only_jump(at) else {
-            return false;
+        let next = self.next_block();
+        let Some((goal, span)) = self.jump_after(place, at) else {
+            return self.part_at(condition, doubt, (ConditionKind::Branch, place), [next, next].map(Goal::block), at);
         };
-        let next = self.state.control.frames.running().map_or(0, |it| it.next);
         let asked = (ConditionKind::Branch, span);
-        match (self.jump_across(to), condition) {
+        let across = if goal.labels.is_none() {
+            self.jump_across(goal.to)
+        } else {
+            JumpAcross::Nothing
+        };
+        match (across, condition) {
             (JumpAcross::WithinLoop, Operand::Expression(condition)) => {
                 let question = self.question_of(condition, doubt, asked, at);
                 let what = "this jump stays within its loop, which the control refuses";
@@ -175,16 +179,124 @@ impl Interpreter {
                 return true;
             }
             (JumpAcross::Nothing, _) => {}
-            _ => _ = self.check_jump(to, span, at),
+            _ => _ = self.check_jump(goal.to, span, at),
         }
-        let goals = [to, next].map(Goal::block);
-        self.part_at(condition, doubt, asked, goals, at)
+        self.part_at(condition, doubt, asked, [goal, Goal::block(next)], at)
     }
 
-    /// Whether the one jump of a block goes back, so that its condition is that of a loop.
-    pub(crate) fn jumps_back(&mut self, at: &BlockContext<'_>) -> bool {
-        let next = self.state.control.frames.running().map_or(0, |it| it.next);
-        self.only_jump(at).is_some_and(|(to, _)| to < next)
+    /// The run parts at a `$IF … $GOTO` whose condition cannot be computed.
+    pub(crate) fn part_at_undecided_jump(
+        &mut self,
+        (cause, place): (Unknown, Span),
+        at: &BlockContext<'_>,
+    ) {
+        if let Some((goal, span)) = self.jump_after(place, at) {
+            let goals = vec![goal, Goal::block(self.next_block())];
+            self.part_by_cause(ConditionKind::Branch, (cause, span), goals, at);
+        }
+    }
+
+    /// The run parts at a question of which only the value that decides is known.
+    fn part_by_cause(
+        &mut self,
+        kind: ConditionKind,
+        (cause, span): (Unknown, Span),
+        goals: Vec<Goal>,
+        at: &BlockContext<'_>,
+    ) {
+        let text = span.of(at.text).trim();
+        let texts = (1..goals.len()).map(|answer| match goals.len() {
+            2 => text.into(),
+            _ => format!("answer {answer} of {text}").into(),
+        });
+        let question = MachineQuestion {
+            kind,
+            span,
+            texts: texts.collect(),
+            cause,
+            reads: None,
+            kept: None,
+        };
+        self.part(question, goals, at);
+    }
+
+    /// The run parts at a statement of a control block whose operands are not known: it may go on wherever the statement
+    /// can lead.
+    pub(crate) fn part_undecided(
+        &mut self,
+        flow: &Flow,
+        (cause, span): (Unknown, Span),
+        at: &BlockContext<'_>,
+    ) {
+        let next = self.next_block();
+        let entry = next.saturating_sub(1);
+        let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
+            return;
+        };
+        let index = self.programs.index(unit);
+        let links = index.is_linked(entry).then(|| index.links(entry));
+        let (kind, goals) = match (flow, links) {
+            (Flow::Goto(target), _) => {
+                let target = *target;
+                return self.part_at_target(&target, &cause, span, at);
+            }
+            (_, None) => return,
+            (Flow::If(_) | Flow::ElseIf(_), Some(links)) => {
+                let mut other = Goal::block(links.next);
+                other.seeking = (links.next != links.end).then_some(Seeking::Condition);
+                (ConditionKind::Branch, vec![Goal::block(next), other])
+            }
+            (Flow::Switch(..), Some(links)) => (ConditionKind::Case, self.each_case(unit, links)),
+            (Flow::Case(_), Some(links)) => {
+                let mut other = Goal::block(links.next);
+                let frame = self.state.control.frames.running_mut();
+                other.seeking = frame.and_then(|frame| frame.seeking.take());
+                (ConditionKind::Case, vec![Goal::block(next), other])
+            }
+            (Flow::EndFor, Some(links)) => {
+                let goals = [links.opener + 1, next].map(Goal::block);
+                (ConditionKind::Loop, goals.into())
+            }
+            (Flow::EndDo(_) | Flow::Until(_), Some(links)) => {
+                let goals = [links.opener, next].map(Goal::block);
+                (ConditionKind::Loop, goals.into())
+            }
+            (_, Some(links)) => {
+                let goals = [next, links.end + 1].map(Goal::block);
+                (ConditionKind::Loop, goals.into())
+            }
+        };
+        self.part_by_cause(kind, (cause, span), goals, at);
+    }
+
+    /// The blocks of the cases of a `$SWITCH`, whichever values they have, and the block after it.
+    fn each_case(&mut self, unit: usize, switch: Links) -> Vec<Goal> {
+        let mut goals = Vec::new();
+        let mut entry = switch.next;
+        let mut after = switch.end;
+        while entry < switch.end {
+            let parsed = self.programs.parsed(unit, entry);
+            let mut items = parsed.block.items.iter();
+            if items.any(|item| matches!(item, Item::Flow(Flow::Default, _))) {
+                after = entry;
+                break;
+            }
+            goals.push(Goal::block(entry + 1));
+            let next = self.programs.index(unit).links(entry).next;
+            if next <= entry {
+                break;
+            }
+            entry = next;
+        }
+        goals.push(Goal::block(after));
+        goals
+    }
+
+    /// Whether the jump after a condition goes back, so that its condition is that of a loop.
+    pub(crate) fn jumps_back(&mut self, place: Span, at: &BlockContext<'_>) -> bool {
+        let next = self.next_block();
+        let jump = self.jump_after(place, at);
+        jump.is_some_and(|(goal, _)| goal.labels.is_none() && goal.to < next)
     }
 
     /// The run parts where a jump computes its target: one way for each label that it may mean.
@@ -194,19 +306,25 @@ impl Interpreter {
         cause: &Unknown,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> bool {
+    ) {
         let expression = match *target {
             BlockReference::Number(Operand::Expression(number)) => number,
             BlockReference::Variable(variable) => variable,
-            BlockReference::Number(Operand::Number(_)) | BlockReference::Label(_) => return false,
+            BlockReference::Number(Operand::Number(_)) | BlockReference::Label(_) => return,
         };
         let Some(frame) = self.state.control.frames.running() else {
-            return false;
+            return;
         };
         let index = self.programs.index(frame.unit);
         let Some(mut labels) = index.few_labels(frame.section, MAX_ANSWERS) else {
-            return false;
+            if let Some(goal) = Goal::any(index.labels(frame.section).collect()) {
+                self.sides.push(goal.side(WaySet::always()));
+            }
+            return;
         };
+        if labels.is_empty() {
+            return;
+        }
         self.state.work.charge_region(ITEM * labels.len());
         if matches!(target, BlockReference::Number(_)) {
             labels.retain(|(name, _)| matches!(name, LabelName::Number(_)));
@@ -233,15 +351,14 @@ impl Interpreter {
             texts,
             kept: None,
         };
-        self.part(question, goals, at)
+        self.part(question, goals, at);
     }
 
     /// The run parts where a probe answers, or does not (R2.91).
-    pub(crate) fn part_at_probe(&mut self, at: &BlockContext<'_>) -> bool {
-        let Some((to, span)) = self.only_jump(at) else {
-            return false;
+    pub(crate) fn part_at_probe(&mut self, place: Span, at: &BlockContext<'_>) {
+        let Some((goal, span)) = self.jump_after(place, at) else {
+            return;
         };
-        let next = self.state.control.frames.running().map_or(0, |it| it.next);
         let question = MachineQuestion {
             kind: ConditionKind::Probe,
             span,
@@ -250,33 +367,69 @@ impl Interpreter {
             reads: None,
             kept: None,
         };
-        self.part(question, [to, next].map(Goal::block).into(), at)
+        let goals = vec![goal, Goal::block(self.next_block())];
+        self.part(question, goals, at);
     }
 
-    /// Returns the target of the one jump of a block; `None` where it is not known, or where the block
-    /// does more than jump and move.
-    fn only_jump(&mut self, at: &BlockContext<'_>) -> Option<(EntryIndex, Span)> {
+    /// An M function of which only the machine knows the number may end the program or return from it.
+    pub(crate) fn part_at_unknown_m(&mut self, span: Span, at: &BlockContext<'_>) {
+        let question = |what: &str| MachineQuestion {
+            kind: ConditionKind::Stop,
+            span,
+            texts: vec![what.into()],
+            cause: Unknown::text("M"),
+            reads: None,
+            kept: None,
+        };
+        let [ends, goes_on] = self.part_at_end(question("M ends the program"), at);
+        self.end_on(ends, at);
+        self.state.go_on_with(goes_on);
+        let running = self.state.control.frames.running();
+        if let Some(frame) = running.filter(|frame| frame.level > 0) {
+            let end = self.programs.section(frame.program()).end;
+            let goals = [end, frame.next].map(Goal::block);
+            self.part(question("M returns"), goals.into(), at);
+        }
+    }
+
+    /// The block after the one being executed.
+    fn next_block(&self) -> EntryIndex {
+        self.state.control.frames.running().map_or(0, |it| it.next)
+    }
+
+    /// The jump at a place of a block or after it, before its next condition; `None` where its label does not exist.
+    fn jump_after(&mut self, place: Span, at: &BlockContext<'_>) -> Option<(Goal, Span)> {
+        let mut items = at.block.items.iter();
+        let after = items.by_ref().skip_while(|item| item.span().start < place.start);
+        let mut is_first = true;
         let mut jump = None;
-        for item in &at.block.items {
+        for item in after {
             match item {
-                Item::Flow(Flow::Goto(target), span) if jump.is_none() => {
+                Item::Flow(Flow::Goto(target), span) => {
                     jump = Some((*target, *span));
+                    break;
                 }
-                Item::Flow(Flow::If(_), _) | Item::Word(_) | Item::Label(_) => {}
-                _ => return None,
+                Item::Flow(Flow::If(_), _) if !is_first => return None,
+                _ => {}
             }
+            is_first = false;
         }
         let (target, span) = jump?;
-        if let BlockReference::Variable(_) = target {
-            return None;
-        }
-        let exit = self.exit(&target, at).ok()?;
-        let Exit::Label(name) = exit else {
-            return None;
+        let value = match target {
+            BlockReference::Label(name) => Value::Text(name.of(at.text).into()),
+            BlockReference::Number(operand) => self.value(operand, at).ok()?,
+            BlockReference::Variable(place) => self.value(Operand::Expression(place), at).ok()?,
         };
         let frame = self.state.control.frames.running()?;
         let index = self.programs.index(frame.unit);
-        Some((index.label(frame.section, name)?, span))
+        let name = match value {
+            Value::Number(number) => LabelName::numbered(number),
+            Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
+            Value::Unknown(_) => {
+                return Some((Goal::any(index.labels(frame.section).collect())?, span));
+            }
+        };
+        Some((Goal::block(index.label(frame.section, name)?), span))
     }
 
     /// Parts the run at a `$SWITCH`: one way for each case, and one for everything else.
@@ -379,7 +532,7 @@ impl Interpreter {
         while after < section_end && is_marked(after) {
             after += 1;
         }
-        // If only part of a structure has the mark, R2.51 applies to all of it (R2.90).
+        // A structure of which only a part has the mark is passed over (R2.51, R2.90).
         let mut links = index.links.range(entry..after);
         if !links.all(|(_, links)| is_marked(links.opener) && is_marked(links.end)) {
             return false;
@@ -442,24 +595,6 @@ impl Interpreter {
         let mut conditions = self.state.conditions.iter();
         self.machine.readings.of(Open::SkipLevel).is_some()
             && conditions.any(|it| it.kind == ConditionKind::Skip(level) && it.place != *here)
-    }
-
-    /// Returns the target of a jump that is not taken.
-    pub(crate) fn exit(
-        &mut self,
-        target: &BlockReference,
-        at: &BlockContext<'_>,
-    ) -> Result<Exit, Box<Fault>> {
-        let value = match target {
-            BlockReference::Label(name) => return Ok(Exit::label(name.of(at.text))),
-            BlockReference::Number(operand) => self.value(*operand, at)?,
-            BlockReference::Variable(place) => self.value(Operand::Expression(*place), at)?,
-        };
-        Ok(match value {
-            Value::Number(number) => Exit::Label(LabelName::numbered(number)),
-            Value::Text(name) => Exit::label(&name),
-            Value::Unknown(_) => Exit::AnyLabel,
-        })
     }
 
     /// Notes the level as a value of the machine.

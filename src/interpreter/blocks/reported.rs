@@ -9,7 +9,6 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::step::ControlStep;
-use crate::interpreter::run::ways::{Branch, JumpTarget};
 use crate::interpreter::unknown::branching::MachineQuestion;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::functions::numeric;
@@ -87,7 +86,7 @@ impl Interpreter {
                     reads: Some(Asking::of_unknown(Writer::Nothing, Unknown::RemedyClass)),
                     kept: None,
                 };
-                let ways = self.part_at_error(question, at);
+                let ways = self.part_at_end(question, at);
                 if self.perhaps_end(ways, AfterError::Reset, at) {
                     self.end_with(AfterError::Reset, at, outcome);
                 }
@@ -120,8 +119,9 @@ impl Interpreter {
         after: AfterError,
         at: &BlockContext<'_>,
     ) -> bool {
-        let ways = self.part_at_error(question, at);
-        if let Some([ends, _]) = ways.as_ref().filter(|[ends, _]| !ends.is_never()) {
+        let ways = self.part_at_end(question, at);
+        let [ends, _] = &ways;
+        if !ends.is_never() {
             limit_to(&mut said, &ways_of(ends, &self.state.conditions));
             self.scratch.of_some_ways.push(said);
         }
@@ -160,7 +160,6 @@ impl Interpreter {
     }
 
     /// An error ends the program at the block, or it goes on, which only the machine knows: both ways are followed.
-    /// Where they cannot be, it goes on.
     pub(crate) fn perhaps_stop(
         &mut self,
         (error, scope): (Unknown, StopScope),
@@ -176,39 +175,27 @@ impl Interpreter {
             cause: error,
             kept: None,
         };
-        let ways = self.part_at_error(question, at);
-        if ways.is_some() {
-            self.perhaps_end(ways, AfterError::Reset, at);
-        }
+        let ways = self.part_at_end(question, at);
+        self.perhaps_end(ways, AfterError::Reset, at);
     }
 
-    /// The program ends here on some ways that lead to the block, and goes on on the others; where they cannot be told
-    /// apart, it may end (R2.52). Returns whether it ends on all ways.
+    /// The program ends here on some ways that lead to the block, and goes on on the others. Returns whether it ends on
+    /// all ways.
     pub(crate) fn perhaps_end(
         &mut self,
-        ways: Option<[WaySet; 2]>,
+        [ends, goes_on]: [WaySet; 2],
         after: AfterError,
         at: &BlockContext<'_>,
     ) -> bool {
-        match ways {
-            Some([ends, _]) if ends.is_never() => {}
-            Some([_, goes_on]) if goes_on.is_never() => return true,
-            Some([ends, goes_on]) => {
-                self.stop_on(&ends, after, at);
-                if self.options.stop != StopPolicy::KeepGoing {
-                    self.state.go_on_with(goes_on);
-                }
-            }
-            None if self.options.stop == StopPolicy::KeepGoing => {}
-            None => {
-                let frame = self.state.control.frames.running();
-                self.departing.push(Branch {
-                    to: JumpTarget::End,
-                    cause: Unknown::RemedyClass,
-                    here: frame.map_or(0, |frame| frame.next),
-                    say: Some(Span::new(0, at.text.len())),
-                });
-            }
+        if ends.is_never() {
+            return false;
+        }
+        if goes_on.is_never() {
+            return true;
+        }
+        self.stop_on(&ends, after, at);
+        if self.options.stop != StopPolicy::KeepGoing {
+            self.state.go_on_with(goes_on);
         }
         false
     }

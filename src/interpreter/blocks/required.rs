@@ -8,7 +8,7 @@ use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::AfterError;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::{Branches, StopPolicy};
+use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::ways::history::Split;
 use crate::interpreter::ways::possible_state::ways_of;
 use crate::interpreter::ways::words::limit_to;
@@ -124,7 +124,7 @@ impl Interpreter {
         let Some(Split { on, off }) = split.map(|split| split.and(reach)) else {
             return false;
         };
-        if on.is_never() || off.is_never() || self.options.branches == Branches::Passed {
+        if on.is_never() || off.is_never() {
             return false;
         }
         let mut refused = moves_without(&self.machine.axis(axis).name, kind, span, at);

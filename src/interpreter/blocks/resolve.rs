@@ -215,7 +215,7 @@ impl Interpreter {
         self.pass_over(&name, wanted.span, at);
         self.leave_to_machine(&program);
         let keeps = self.machine.programs.keeps(&name);
-        if !keeps.compensation && self.scratch.undecided.is_none() {
+        if !keeps.compensation {
             self.scratch.left_open = Some(LeftOpen {
                 program: program.clone(),
                 place: at.place(wanted.span),
@@ -323,8 +323,7 @@ impl Interpreter {
             let region = section.start..section.end;
             let name = self.programs.index(found.unit).source.name().clone();
             let cause = Unknown::Cycle(name);
-            self.havoc_region(found.unit, region, &cause);
-            self.havoc_called(finder);
+            self.perhaps_execute(found.unit, region, &cause, finder);
             return None;
         }
         Some(Request {
@@ -428,7 +427,6 @@ impl Interpreter {
         finder: &mut dyn Finder,
     ) -> ControlStep {
         if self.state.control.ending.is_none() {
-            self.meet_at_end(finder);
             if let Some(name) = self.machine.programs.end.clone() {
                 let wanted =
                     WantedCall::program(CallScope::Global, name, Span::new(0, at.text.len()));

@@ -4,9 +4,8 @@ use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::wanted::{CalledPart, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::block_scratch::{BlockScratch, PassedBy};
+use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::step::{AwaitedBlock, ControlStep, Destination};
@@ -52,7 +51,7 @@ impl Interpreter {
                 Value::Unknown(cause) => cause,
                 Value::Number(_) | Value::Text(_) => Unknown::text("REPEAT"),
             };
-            self.unknown_part(name, "how often a part is executed", &cause, span, at);
+            self.unknown_call("how often a part is executed", &cause, span, at);
             return Ok(());
         };
         let first = self.label_of(sequence.first, at)?;
@@ -63,7 +62,7 @@ impl Interpreter {
         let (first, last) = match (first, last) {
             (Ok(first), Ok(last)) => (first, last),
             (Err(cause), _) | (_, Err(cause)) => {
-                self.unknown_part(name, "which part is executed", &cause, span, at);
+                self.unknown_call("which part is executed", &cause, span, at);
                 return Ok(());
             }
         };
@@ -80,33 +79,6 @@ impl Interpreter {
             ..wanted
         });
         Ok(())
-    }
-
-    /// A call of a part of a program whose blocks only the machine knows: any of them may be executed.
-    /// Without a name it is a part of the calling program.
-    fn unknown_part(
-        &mut self,
-        name: String,
-        what: &str,
-        cause: &Unknown,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
-        self.unknown_call(what, cause, span, at);
-        let Some(ProgramId { unit, section }) = self.state.control.frames.program() else {
-            return;
-        };
-        if name.is_empty() {
-            let own = self.programs.section(ProgramId { unit, section });
-            self.note_passed(unit, own.start..own.end, cause, PassedBy::Call);
-        } else {
-            self.pending.push(RegionCall {
-                call: WantedCall::program(CallScope::Global, name, at.in_block(span)),
-                cause: cause.clone(),
-                unit,
-                region: None,
-            });
-        }
     }
 
     /// Returns the label that a target names, or the value that decides where it is not known offline.
@@ -188,21 +160,6 @@ impl Interpreter {
                     Ok(name) => name,
                     Err(cause) => {
                         self.unknown_return("where the program continues", &cause, back.span, at);
-                        let program = self
-                            .state
-                            .control
-                            .frames
-                            .at_level(level)
-                            .map(CallFrame::program);
-                        if let Some(program) = program {
-                            let whole = self.programs.section(program);
-                            self.note_passed(
-                                program.unit,
-                                whole.start..whole.end,
-                                &cause,
-                                PassedBy::Call,
-                            );
-                        }
                         outcome.step =
                             Some(ControlStep::ReturnTo(Destination { level, entry: None }));
                         return Ok(());

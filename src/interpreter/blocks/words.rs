@@ -14,7 +14,6 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
-use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::language::{AxisWords, GAction, GFunction, Group};
@@ -310,10 +309,7 @@ impl Interpreter {
             (b'M', None) => {
                 self.unknown_word("M", span, at);
                 self.scratch.plc_acts = true;
-                // It may be M30 or M17.
-                for exit in [Exit::End, Exit::Return] {
-                    let _ = self.note_jump(&exit, &Unknown::text("M"));
-                }
+                self.part_at_unknown_m(span, at);
             }
             (b'M', Some(FIRST_ABOVE_M..)) => {
                 let what = format!("`{}` is above M1000", span.of(at.text).trim());

@@ -1,17 +1,13 @@
 //! Programs that words call, and the unknown state where the program is not known (R2.14, R2.75).
 
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::modal::is_named_m;
-use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
+use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
-use crate::language::{CoordinateEffect, GFunction};
 use crate::syntax::Fault;
-use crate::syntax::ast::CallScope;
 use crate::text::Span;
 
 /// Program configured for a word.
@@ -44,21 +40,6 @@ impl Interpreter {
         Configured::None
     }
 
-    /// The programs that words with a letter call.
-    pub(crate) fn programs_of_words(&self, letter: u8) -> Vec<String> {
-        let letter = char::from(letter);
-        let configured = self.machine.programs.words.iter();
-        let configured = configured.map(|(word, name)| (word, name.clone()));
-        let named = self.state.control.named.iter();
-        let named = named.filter_map(|(word, name)| match name {
-            Value::Text(name) => Some((word, name.to_string())),
-            Value::Number(_) | Value::Unknown(_) => None,
-        });
-        let all = configured.chain(named);
-        let all = all.filter(|(word, name)| word.starts_with(letter) && !name.is_empty());
-        all.map(|(_, name)| name).collect()
-    }
-
     /// Whether any word calls a program.
     #[inline]
     pub(crate) fn calls_by_words(&self) -> bool {
@@ -69,9 +50,6 @@ impl Interpreter {
     pub(crate) fn unknown_word(&mut self, letter: &str, span: Span, at: &BlockContext<'_>) {
         let cause = Unknown::text(letter);
         self.havoc_by_call(&cause);
-        if let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) {
-            self.look_through_words(letter.as_bytes()[0], span, unit, &cause);
-        }
         self.state.control.modal.note_transformed(letter);
         if self.scratch.unread.get() {
             return;
@@ -142,109 +120,5 @@ impl Interpreter {
             .control
             .modal
             .note_transformed(&format!("G{number}"));
-    }
-
-    /// A call that may be of any local subprogram: looks for what the control refuses there.
-    pub(crate) fn look_through_locals(&mut self, span: Span, unit: usize, cause: &Unknown) {
-        let calling = self.programs.unit_mut(unit);
-        if calling.open_calls.insert(b'L') {
-            let names = calling.index.local_names().map(str::to_owned).collect();
-            self.look_through(names, CallScope::Local, span, unit, cause);
-        }
-    }
-
-    /// A word with an unknown number, which may call any program that one of its letter calls.
-    fn look_through_words(&mut self, letter: u8, span: Span, unit: usize, cause: &Unknown) {
-        if self.programs.unit_mut(unit).open_calls.insert(letter) {
-            let names = self.programs_of_words(letter);
-            self.look_through(names, CallScope::Global, span, unit, cause);
-        }
-    }
-
-    fn look_through(
-        &mut self,
-        names: Vec<String>,
-        scope: CallScope,
-        span: Span,
-        unit: usize,
-        cause: &Unknown,
-    ) {
-        let calls = names.into_iter().map(|name| RegionCall {
-            call: WantedCall::program(scope, name, span),
-            cause: cause.clone(),
-            unit,
-            region: None,
-        });
-        self.pending.extend(calls);
-    }
-
-    /// A word in a region that may or may not be executed.
-    pub(crate) fn havoc_function(&mut self, word: FunctionWord, unit: usize, cause: &Unknown) {
-        let mut configured = vec![self.configured(word)];
-        let has_program = !matches!(configured[0], Configured::None);
-        let gives_data = word.letter == b'T' && self.machine.programs.data_with_tool;
-        if gives_data {
-            configured.push(self.configured(word.of_data()));
-        }
-        if word.letter == b'D' || gives_data {
-            self.state.control.modal.select_tool_data(None);
-        }
-        for configured in configured {
-            match configured {
-                Configured::None => {}
-                Configured::Unknown(_) => self.havoc_all(cause),
-                Configured::Program(name) => self.pending.push(RegionCall {
-                    call: WantedCall::program(CallScope::Global, name, Span::default()),
-                    cause: cause.clone(),
-                    unit,
-                    region: None,
-                }),
-            }
-        }
-        let letter = char::from(word.letter);
-        match (letter, word.number) {
-            (_, Some(number)) => {
-                let number = u32::try_from(number).unwrap_or(u32::MAX);
-                let function = GFunction::known(number).filter(|_| letter == 'G');
-                let known = match letter {
-                    'M' => is_named_m(i64::from(number)),
-                    'G' => function.is_some_and(|it| it.coordinates == CoordinateEffect::None),
-                    _ => true,
-                };
-                let harmless = &self.machine.harmless;
-                let is_harmless = harmless.has_function(word.letter, i64::from(number));
-                if function.is_some_and(GFunction::is_call) {
-                    if is_harmless {
-                        self.pass_over_implicit(number);
-                    } else if !has_program {
-                        self.pending.push(RegionCall {
-                            call: WantedCall::of_word(number, Span::default()),
-                            cause: cause.clone(),
-                            unit,
-                            region: None,
-                        });
-                    }
-                    return;
-                }
-                if is_harmless {
-                    return;
-                }
-                if letter == 'G' && function.is_none() {
-                    self.pass_over_implicit(number);
-                } else if !known {
-                    let word = format!("{letter}{number}");
-                    self.state.control.modal.note_transformed(&word);
-                }
-            }
-            ('M', None) => {
-                self.havoc_all(cause);
-                self.look_through_words(b'M', Span::default(), unit, cause);
-            }
-            ('G', None) => {
-                self.havoc_all(cause);
-                self.look_through_words(b'G', Span::default(), unit, cause);
-            }
-            (_, None) => {}
-        }
     }
 }

@@ -357,14 +357,10 @@ impl Interpreter {
             return self.havoc_own(own);
         }
         self.scratch.wrote = true;
-        self.journal.write(location, &value);
         self.note_use(|used| used.write(location, &value));
         let state = &mut self.state;
         let control = &mut state.control;
         state.track.write(location, &mut control.memory);
-        if state.track.ways.is_open() {
-            state.track.ways.write(location, state.seq);
-        }
         match location {
             Location::Parameter(Owner::Call, index) => {
                 if let Some(frame) = control.frames.running_mut() {

@@ -18,11 +18,6 @@ impl Interpreter {
         let keeps = self.machine.programs.keeps(&name);
         self.scratch.plc_acts = true;
         if !keeps.compensation {
-            if let Some(undecided) = &mut self.scratch.undecided {
-                undecided
-                    .differing
-                    .name(format!("all that `{name}` could change"));
-            }
             self.havoc_couplings();
             self.havoc_compensation();
         }

@@ -29,11 +29,6 @@ impl Interpreter {
     /// Everything that a program could change becomes unknown: every kind of every axis, positions and
     /// modal words, parameters and variables (R2.52).
     pub(crate) fn havoc_all(&mut self, cause: &Unknown) {
-        if let Some(undecided) = &mut self.scratch.undecided {
-            undecided
-                .differing
-                .name("everything that a program can change");
-        }
         self.havoc_memory(cause);
         self.state.control.memory.havoc_macros(cause, |_, _| false);
         self.state.control.modal.havoc_words();
@@ -63,7 +58,6 @@ impl Interpreter {
 
     /// Every parameter and variable becomes unknown.
     pub(crate) fn havoc_memory(&mut self, cause: &Unknown) {
-        self.journal.begin_anew();
         self.scratch.plc_acts = true;
         self.scratch.wrote = true;
         self.state

@@ -18,7 +18,6 @@ impl Interpreter {
     /// is read as keeping what was switched.
     pub fn restart(&mut self) {
         self.state.control.memory.restart();
-        self.journal.begin_anew();
         if !self.machine.readings.takes_second(Question::Restart) {
             self.set_compensation(self.machine.compensation());
         }

@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::undecided::MentionedUnknowns;
+use crate::interpreter::run::mentioned::MentionedUnknowns;
 use crate::interpreter::values::cause::Unknown;
 use crate::syntax::Fault;
 use crate::text::Span;

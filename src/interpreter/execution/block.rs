@@ -19,7 +19,6 @@ use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::ways::block_site::BlockSite;
 use crate::interpreter::ways::history::KindEffect;
 use crate::interpreter::ways::words::limit_to;
-use crate::language::AxisWords;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Item};
 use crate::text::Span;
@@ -61,7 +60,7 @@ impl Interpreter {
     /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
     /// messages.
     #[inline]
-    fn begin_block(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) -> usize {
+    fn begin_block(&mut self, at: &BlockContext<'_>) -> usize {
         self.scratch.clear();
         if !(self.joined.is_empty() && self.joined_withheld.is_empty())
             && !self.state.track.is_shadow()
@@ -78,9 +77,6 @@ impl Interpreter {
         let first = self.scratch.diagnostics.len();
         self.state.seq += 1;
         self.state.blocks += 1;
-        if self.state.track.ways.has_targets() {
-            self.arrive(finder);
-        }
         if self.state.track.searching.is_some() {
             self.search(at);
         }
@@ -138,18 +134,16 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> ControlFlow<NextBlock> {
-        let first = self.begin_block(at, finder);
+        let first = self.begin_block(at);
         let mut outcome = BlockOutcome::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
-        let undecided = self.undecided_level(at.block);
-        if let Some(level) = undecided {
-            self.perhaps_execute(level, at, &mut outcome);
-        } else if !self.is_halted() {
+        if !self.is_halted() {
             self.remembered_items(at, &mut outcome, limit);
         }
         self.look_at_motion(&outcome, at);
-        self.havoc_ways(at, finder);
+        self.outdate_readings(at);
+        self.pass_over_parts(&mut outcome, finder);
         let calls = self.take_calls(&mut outcome, at, finder);
         if let Some(name) = outcome.looks_for.take() {
             self.look_for_file(name, at, finder);
@@ -157,8 +151,7 @@ impl Interpreter {
         if self.scratch.plc_acts {
             self.let_plc_act();
         }
-        let refused =
-            undecided.is_none() && (limit.is_some() || self.scratch.diagnostics.iter().any(stops));
+        let refused = limit.is_some() || self.scratch.diagnostics.iter().any(stops);
         let stopped = refused && self.options.stop == StopPolicy::FirstError;
         if refused {
             self.fail(AfterError::Reset, at);
@@ -174,20 +167,18 @@ impl Interpreter {
             Some(ControlStep::End(EndedBy::Budget))
         } else if stopped {
             Some(ControlStep::End(ended_by(&self.scratch.diagnostics)))
-        } else if undecided.is_some() {
-            outcome.step
         } else if calls.is_empty() && outcome.goes_on() && self.state.control.cycles.is_empty() {
             None
         } else {
             match self.step(outcome, calls, at, finder) {
                 Some(ControlStep::Jump(target)) if self.state.control.frames.is_passed(target) => {
-                    Some(self.come_round(target, at, finder))
+                    Some(self.come_round(target, finder))
                 }
                 step => step,
             }
         };
         let step = match step {
-            Some(ControlStep::End(EndedBy::Error)) => Some(self.end_by_error(at, finder)),
+            Some(ControlStep::End(EndedBy::Error)) => Some(self.end_by_error(at)),
             step => step,
         };
         self.limit_messages(first);
@@ -292,10 +283,9 @@ impl Interpreter {
         is_over
     }
 
-    /// Ends the way at an error of the control. Whatever the control may have done instead ends with it.
+    /// Ends the way at an error of the control.
     #[cold]
-    fn end_by_error(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) -> ControlStep {
-        self.meet_at_end(finder);
+    fn end_by_error(&mut self, at: &BlockContext<'_>) -> ControlStep {
         let after = std::mem::take(&mut self.scratch.after_error);
         let ways = self.state.track.reach.clone();
         self.stop_on(&ways, after, at);
@@ -315,24 +305,11 @@ impl Interpreter {
         work.diagnostics.append(&mut work.of_some_ways);
     }
 
-    /// Makes unknown the effects of a block that may call, or leave for, something else.
+    /// The machine may change values between the questions of blocks.
     #[inline]
-    fn havoc_ways(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) {
+    fn outdate_readings(&mut self, at: &BlockContext<'_>) {
         if !self.state.track.readings.is_empty() {
             self.state.track.outdate_readings(at.block);
-        }
-        if !self.pending.is_empty() {
-            self.havoc_called(finder);
-            self.move_followers(AxisWords::Other);
-        }
-        if !self.scratch.passed.is_empty() {
-            self.try_passed();
-        }
-        if let Some(undecided) = self.scratch.undecided.take() {
-            self.tell_undecided(*undecided);
-        }
-        if !self.departing.is_empty() {
-            self.depart(finder, at);
         }
     }
 

@@ -35,7 +35,6 @@ impl Interpreter {
             CallForm::Cycle if self.machine.channel.has(ChannelSwitch::KeepCycleChanges) => None,
             CallForm::Cycle => Some(Box::new(self.state.control.modal.save())),
         };
-        self.journal.begin_anew();
         let depth = self.state.control.frames.depth();
         self.state.track.change_level(depth);
         self.state.control.frames.push(CallFrame {
@@ -58,7 +57,6 @@ impl Interpreter {
 
     pub(crate) fn leave(&mut self) {
         if let Some(frame) = self.state.control.frames.pop() {
-            self.journal.begin_anew();
             let depth = self.state.control.frames.depth();
             self.state.track.change_level(depth);
             self.state.track.loops.retain(|known| known.depth <= depth);
@@ -73,9 +71,6 @@ impl Interpreter {
                 if let Some(kept) = kept {
                     self.state.control.modal.join(&kept);
                 }
-            }
-            if self.state.track.ways.has_targets() {
-                self.leave_ways(&frame);
             }
         }
     }

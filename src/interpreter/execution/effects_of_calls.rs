@@ -30,7 +30,7 @@ impl Interpreter {
     fn call_on_ways(&mut self) -> ControlFlow<EndedBy> {
         let track = &self.state.track;
         let Some(called) = self.called().filter(|_| {
-            !self.state.is_widened && track.searching.is_none() && !track.ways.has_targets()
+            track.searching.is_none()
         }) else {
             return ControlFlow::Continue(());
         };
@@ -86,14 +86,10 @@ impl Interpreter {
             callers.push(running);
         }
         control.frames = callers;
-        if !control.memory.has_macros_of(&self.state.control.memory) {
-            self.regions.clear();
-        }
         self.state.control = control;
         self.state.track.asked = track.asked;
         self.state.track.assumed = track.assumed;
         self.state.track.failed = track.failed;
-        self.journal.begin_anew();
         self.version += 1;
     }
 
@@ -120,10 +116,6 @@ impl Interpreter {
         let Some(called) = called else {
             return;
         };
-        if self.state.track.ways.has_targets() {
-            // Where it may have gone instead is no part of its effect.
-            return self.state.call_effects.remove(called);
-        }
         let mut way = self.entry_of_call();
         way.control.frames.clear();
         let context = context(&self.state.control.frames, called.0);

@@ -4,26 +4,24 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::merging::MetWays;
-use crate::comp::{AxisIndex, Compensation, KindSet};
+use crate::comp::KindSet;
 use crate::diagnostic::{Code, Collected, Diagnostic};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
-use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
-use crate::interpreter::run::ways::AxisKinds;
 use crate::interpreter::ways::set::WaySet;
 use crate::lists::ChannelSwitch;
 use crate::syntax::ast::Block;
 use crate::syntax::{Fault, RawBlock};
-use crate::text::{Place, Span};
+use crate::text::Span;
 
 impl Interpreter {
     /// Whether faults of the main program keep it from running.
@@ -121,10 +119,9 @@ impl Interpreter {
         self.let_plc_act();
         notes.to_mut().extend(self.joined.drain(..));
         notes.to_mut().extend(self.scratch.of_some_ways.drain(..));
-        notes.to_mut().extend(self.take_held());
         notes.to_mut().extend(self.missed_search());
         let at = self.scratch.end.take();
-        let mut ends = self.all_ends(by, at.as_ref());
+        let mut ends = self.own_end(by, at.as_ref());
         if !ended.ends.is_empty() {
             ends.splice(..1.min(ends.len()), ended.ends);
         }
@@ -175,31 +172,22 @@ impl Interpreter {
         RunOutcome::Ended(by)
     }
 
-    /// Every end that the program may reach, with the state that is left there.
-    fn all_ends(&mut self, by: EndedBy, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
-        let others = std::mem::take(&mut self.state.track.ways.ends);
-        let own = self.state.track.ways.own.take();
+    /// The end of the program where all ways reach one.
+    fn own_end(&self, by: EndedBy, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
         let last = self.state.last.as_ref().map(Last::place);
         let place = at.map(|end| end.place.clone()).or(last);
-        let reached = place.map(|place| ProgramEnd {
-            place,
-            by,
-            is_passed_into: at.is_some_and(|end| end.is_passed_into),
-            cause: None,
-            compensation: self.state.control.left_with(own.as_deref()),
-        });
-        let others = others.into_iter().filter_map(|end| {
-            let place = self.programs.place_of(end.place)?;
-            let is_reached = at.is_some_and(|at| at.place == place);
-            (!is_reached).then(|| ProgramEnd {
+        let reached = place.map(|place| {
+            let mut compensation = self.state.control.compensation.clone();
+            let _ = compensation.program_end();
+            ProgramEnd {
                 place,
-                by: end.by,
-                is_passed_into: false,
-                cause: Some(end.cause),
-                compensation: self.state.control.left_with(Some(&end.kinds)),
-            })
+                by,
+                is_passed_into: at.is_some_and(|end| end.is_passed_into),
+                cause: None,
+                compensation,
+            }
         });
-        reached.into_iter().chain(others).collect()
+        reached.into_iter().collect()
     }
 
     /// Blocks that no run of the program and of the files that it calls reached, for their syntax.
@@ -227,8 +215,7 @@ impl Interpreter {
             }
             if unit.executed[place] {
                 // Branches that `#IF` left out are not read at all (R2.73).
-                let decided = !unit.undecided.contains(&entry);
-                let end = unit.index.interpreted_to(entry).filter(|_| decided);
+                let end = unit.index.interpreted_to(entry);
                 unread_up_to = unread_up_to.max(end.unwrap_or_default());
                 continue;
             }
@@ -268,36 +255,9 @@ impl Interpreter {
 }
 
 impl ProgramStore {
-    /// The place of a block that was not executed.
-    fn place_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Place> {
-        let index = &self.units().get(unit)?.index;
-        let mut block = Block::default();
-        let mut reader = index.reader(entry)?;
-        let raw = reader.next(&mut block)?;
-        Some(Place {
-            file: index.source.name().clone(),
-            text: raw.text.into(),
-            first_line: raw.line,
-            span: Span::new(0, raw.text.len()),
-        })
-    }
-
     /// Returns the faults that keep the main program from running at all.
     pub(crate) fn refused(&self) -> Collected {
         let main = self.units().first();
         main.map_or(Collected::default(), |unit| unit.index.refused.clone())
-    }
-}
-
-impl ControlState {
-    /// The state after a program end with these kinds.
-    fn left_with(&self, kinds: Option<&[AxisKinds]>) -> Compensation {
-        let mut compensation = self.compensation.clone();
-        for (position, kinds) in kinds.unwrap_or_default().iter().enumerate() {
-            let axis = AxisIndex::new(position);
-            compensation.restore(axis, kinds.selected, kinds.unknown);
-        }
-        let _ = compensation.program_end();
-        compensation
     }
 }

@@ -5,8 +5,7 @@
 //! that only count, `P1 = P1 + 1`, and that nothing else reads may differ. The whole state is
 //! compared, so it need not be known what a pass reads.
 //!
-//! Where a value that is not known offline may lead out of such a loop, the loop is not endless: the
-//! run follows that way (R2.51, R2.52).
+//! Where a value that is not known offline leads out of such a loop on another way, the loop is not endless.
 
 use std::ops::RangeInclusive;
 
@@ -15,14 +14,11 @@ use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
-use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::path::{LeftLoop, Loop, Mark};
+use crate::interpreter::run::path::{Loop, Mark};
 use crate::interpreter::run::path::{Path, RunTrack};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
-use crate::interpreter::run::ways::{Leaving, WayOut};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::reads::Reads;
@@ -35,38 +31,19 @@ const LONGEST_PERIOD: u64 = 8;
 /// The weight of values beyond which nothing is compared.
 const MAX_WEIGHT: usize = 10_000;
 
-/// The passes after which a loop that a value of the machine may end is left, whatever its state.
-const MOST_PASSES: u64 = 1 << 20;
-
-/// Number of times that a loop is run until its state repeats. A loop that is left more often is
-/// inside another loop, and nested loops must not multiply their passes.
-const RUN_THROUGH: u32 = 2;
-
-/// Reason why a loop need not be run any further.
-#[derive(Debug)]
-enum Enough {
-    /// Its state repeats.
-    Repeated,
-    /// It was run often enough; holds the value that may end it.
-    TooMany(Unknown),
-}
-
 impl Interpreter {
-    /// Returns the next step where a block jumps back; it leaves a loop that only a value of the machine
-    /// ends.
+    /// Returns the next step where a block jumps back.
     pub(crate) fn come_round(
         &mut self,
         target: EntryIndex,
-        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> ControlStep {
-        let mut why = self.note_pass(target);
+        let repeats = self.note_pass(target);
         let is_left = self.state.is_left_meanwhile();
         // The program may wait for what the PLC writes (R2.99).
         if self.state.control.memory.holds_any() {
-            if matches!(why, Some(Enough::Repeated)) {
+            if repeats {
                 self.let_plc_act();
-                why = None;
                 self.state.forget_passes();
             } else if is_left {
                 let names = self.state.names_of_exits();
@@ -77,14 +54,7 @@ impl Interpreter {
             return self.follow_loop(target, Repeats::Known, finder);
         }
         self.state.drop_heads_in_known_loop();
-        let left = why.and_then(|why| {
-            if let Enough::TooMany(cause) = &why {
-                self.havoc_loop(cause, finder);
-            }
-            let out = self.state.track.way_out()?;
-            self.leave_loop(&why, &out, at, finder)
-        });
-        left.unwrap_or(ControlStep::Jump(target))
+        ControlStep::Jump(target)
     }
 
     /// Returns the next step where a way that only the machine decides leads back.
@@ -93,8 +63,13 @@ impl Interpreter {
         self.follow_loop(target, Repeats::Unknown, finder)
     }
 
-    /// Counts a pass of a loop. Returns the reason why it need not be run any further, if there is one.
-    fn note_pass(&mut self, target: EntryIndex) -> Option<Enough> {
+    /// Counts a pass of a loop. Returns whether it begins in the state of an earlier one.
+    fn note_pass(&mut self, target: EntryIndex) -> bool {
+        self.count_pass(target).is_some() && self.state.repeats()
+    }
+
+    /// Counts a pass of a loop; `None` where it need not be compared with earlier ones.
+    fn count_pass(&mut self, target: EntryIndex) -> Option<()> {
         let depth = self.state.control.frames.depth();
         let place = self.state.control.frames.program()?;
         let from = self.state.control.frames.running()?.next.checked_sub(1)?;
@@ -132,89 +107,17 @@ impl Interpreter {
         let last = self.state.track.loops.last_mut()?;
         last.from = last.from.max(from);
         last.passes += 1;
-        let (passes, is_due) = (last.passes, last.is_due());
-        if passes == 1
-            && let Some(cause) = self.state.track.left_often(place.unit, head)
-        {
-            return Some(Enough::TooMany(cause));
-        }
-        if !is_due {
-            return None;
-        }
-        if self.state.repeats() {
-            return Some(Enough::Repeated);
-        }
-        let out = self
-            .state
-            .track
-            .way_out()
-            .filter(|_| passes >= MOST_PASSES)?;
-        Some(Enough::TooMany(out.cause))
+        let is_due = last.is_due();
+        is_due.then_some(())
     }
 
-    /// Makes unknown what the innermost loop could change in the passes that are not run.
+    /// Makes unknown what the innermost loop could change in the passes that are not run. Returns the block after it.
     #[cold]
-    pub(super) fn havoc_loop(&mut self, cause: &Unknown, finder: &mut dyn Finder) {
+    pub(super) fn havoc_loop(&mut self, cause: &Unknown, finder: &mut dyn Finder) -> EntryIndex {
         let Some(last) = self.state.track.loops.last() else {
-            return;
+            return 0;
         };
-        let (unit, head, from) = (last.unit, last.head, last.from);
-        let region = self.havoc_region(unit, head..from.saturating_add(1), cause);
-        self.note_exits(&region, head..=from, cause, None);
-        self.havoc_called(finder);
-        self.take_departing();
-        if !self.scratch.changes.is_empty() {
-            self.version += 1;
-        }
-    }
-
-    /// Leaves the innermost loop, and reports that (FC902).
-    #[cold]
-    fn leave_loop(
-        &mut self,
-        why: &Enough,
-        out: &WayOut,
-        at: &BlockContext<'_>,
-        finder: &mut dyn Finder,
-    ) -> Option<ControlStep> {
-        let known = self.state.track.loops.pop()?;
-        let (unit, head) = (known.unit, known.head);
-        let mut left = self.state.track.left_loops.iter_mut();
-        match left.find(|it| (it.unit, it.head) == (unit, head)) {
-            Some(left) => left.times = left.times.saturating_add(1),
-            None => self.state.track.left_loops.push(LeftLoop {
-                unit,
-                head,
-                times: 1,
-                cause: out.cause.clone(),
-            }),
-        }
-        let decides = out.cause.seen_from(at.file);
-        let passes = match known.passes {
-            1 => "one pass".to_owned(),
-            passes => format!("{passes} passes"),
-        };
-        let message = match why {
-            Enough::Repeated => format!(
-                "when this loop ends depends on {decides}; the dry run leaves it after {passes}"
-            ),
-            Enough::TooMany(_) => format!(
-                "whether this loop ends may depend on {decides}; the dry run leaves it after {passes}, \
-                 and what it could change is unknown"
-            ),
-        };
-        let said = Diagnostic::new(
-            Code::Fc902,
-            self.programs.index(unit).block_place(head),
-            message,
-        );
-        let said = said.with_help(out.cause.advice());
-        self.scratch.diagnostics.push(said);
-        Some(match out.to {
-            Leaving::To(block) => ControlStep::Jump(block),
-            Leaving::Return => ControlStep::Return,
-            Leaving::End => self.program_end(EndedBy::M30, at, finder),
-        })
+        self.pass_over_blocks(last.head..last.from.saturating_add(1), cause, finder)
     }
 
     /// FC910 where the innermost loop is known to be endless.
@@ -326,25 +229,12 @@ impl State {
 }
 
 impl RunTrack {
-    /// The value that may end a loop that was left often enough.
-    fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Unknown> {
-        let mut left = self.left_loops.iter();
-        let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
-        (found.times >= RUN_THROUGH).then(|| found.cause.clone())
-    }
-
     /// Returns the number of repetitions of the loop that begins at a block.
     pub(crate) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
         let loops = self.loops.iter().rev();
         let mut known = loops.filter(|known| known.unit == unit);
         let found = known.find(|known| known.head == opener);
         found.map(|known| known.passes)
-    }
-
-    /// Returns a place where the innermost loop may be left.
-    fn way_out(&self) -> Option<WayOut> {
-        let last = self.loops.last()?;
-        self.ways.out_of(last.depth, last.from, last.since)
     }
 }
 

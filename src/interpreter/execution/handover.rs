@@ -49,7 +49,6 @@ impl Interpreter {
             self.state.control.couplings.lose(axes);
         }
         self.state.control.memory.take_over(carried);
-        self.journal.begin_anew();
     }
 
     /// Takes over the position of an axis, and that a program named it.

@@ -61,10 +61,8 @@ impl Interpreter {
             Repeats::Known => MOST_FOLLOWED_PASSES,
         };
         if known.passes > most + MOST_JOINED_PASSES {
-            let after = known.from.saturating_add(1);
             self.state.track.loops.push(known);
-            self.havoc_loop(&Unknown::Passes, finder);
-            return ControlStep::Jump(after);
+            return ControlStep::Jump(self.havoc_loop(&Unknown::Passes, finder));
         }
         let now = self.at_head(target);
         let blocks = known.head..=known.from;
@@ -120,7 +118,6 @@ impl Interpreter {
             self.state.track.assumed = track.assumed;
             self.state.track.asked = track.asked;
             self.state.track.failed = track.failed;
-            self.journal.begin_anew();
             self.version += 1;
         }
         arrival

@@ -67,7 +67,7 @@ impl Interpreter {
 
     /// The block at which the sides of a question meet again, where one way is followed and the others are its shadows.
     fn meeting(&self, sides: &[BranchSide]) -> Option<Meeting> {
-        if self.options.follows_ways() || sides.len() < 2 {
+        if !self.options.follows_one_way() || sides.len() < 2 {
             return None;
         }
         let frames = &self.state.control.frames;
@@ -109,6 +109,7 @@ impl State {
         if side.marked.is_some() {
             self.track.marked = side.marked;
         }
+        self.track.labels = side.labels;
     }
 }
 

@@ -17,7 +17,6 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Path;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::waiting_paths::FirstWaiting;
-use crate::interpreter::unknown::telling::of_axes;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::possible_state::{change_since, ways_of};
@@ -34,11 +33,7 @@ impl Interpreter {
             track,
             parted: _,
         } = path;
-        if !control.memory.has_macros_of(&self.state.control.memory) {
-            self.regions.clear();
-        }
         (self.state.control, self.state.track) = (control, track);
-        self.journal.begin_anew();
         self.state.watching = watches(&self.state.track);
         self.version += 1;
     }
@@ -214,6 +209,20 @@ impl ControlState {
         }
         kinds
     }
+}
+
+/// Limit of the axes that a message names.
+const MAX_NAMED: usize = 8;
+
+/// The name of a kind of several axes in a message.
+pub(crate) fn of_axes(kind: Kind, axes: &[&str]) -> String {
+    let shown: Vec<String> = axes
+        .iter()
+        .take(MAX_NAMED)
+        .map(|it| format!("`{it}`"))
+        .collect();
+    let more = if axes.len() > MAX_NAMED { " …" } else { "" };
+    format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
 }
 
 /// Whether two ways differ in G functions other than that of the motion.

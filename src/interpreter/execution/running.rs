@@ -21,7 +21,7 @@ impl Interpreter {
     ) -> RunOutcome {
         loop {
             self.choose_way(finder, observer);
-            let (unit, next) = match self.due_block(finder) {
+            let (unit, next) = match self.due_block() {
                 ControlFlow::Continue(Some(due)) => due,
                 ControlFlow::Continue(None) => continue,
                 ControlFlow::Break(by) => return RunOutcome::Ended(by),
@@ -101,7 +101,7 @@ impl Interpreter {
             let Some(step) = self.part_and_step(step, finder) else {
                 continue;
             };
-            if let Some(by) = self.follow_to_end(step, finder) {
+            if let Some(by) = self.follow_to_end(step) {
                 return RunOutcome::Ended(by);
             }
         }
@@ -110,10 +110,7 @@ impl Interpreter {
     /// The next block of the running program. `None` where the run first goes on elsewhere, `Break` where the last way
     /// ends.
     #[inline]
-    fn due_block(
-        &mut self,
-        finder: &mut dyn Finder,
-    ) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
+    fn due_block(&mut self) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
         let Some(frame) = self.state.control.frames.running() else {
             let ending = self.state.control.ending.take();
             return self.go_on_elsewhere(ending.unwrap_or(EndedBy::EndOfFile));
@@ -132,7 +129,6 @@ impl Interpreter {
         }
         if is_past || passage.is_some_and(|passage| next > passage.last) {
             if level == 0 {
-                self.meet_at_end(finder);
                 return self.go_on_elsewhere(EndedBy::EndOfFile);
             }
             self.end_of_pass();
@@ -176,17 +172,10 @@ impl Interpreter {
     }
 
     /// Executes a step. Returns the end of the run if it is the last one of the last way.
-    pub(crate) fn follow_to_end(
-        &mut self,
-        step: ControlStep,
-        finder: &mut dyn Finder,
-    ) -> Option<EndedBy> {
+    pub(crate) fn follow_to_end(&mut self, step: ControlStep) -> Option<EndedBy> {
         let ControlFlow::Break(by) = self.follow(step) else {
             return None;
         };
-        if !self.scratch.covered {
-            self.meet_at_end(finder);
-        }
         self.end_path(by)
     }
 

@@ -18,7 +18,7 @@ use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
 use crate::interpreter::run::path::RunTrack;
 use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::run::stopping::one;
-use crate::interpreter::run::undecided::MentionedUnknowns;
+use crate::interpreter::run::mentioned::MentionedUnknowns;
 use crate::interpreter::values::cause::MissingProgram;
 use crate::lists::ChannelSwitch;
 use crate::syntax::ast::{CallForm, CallScope};
@@ -91,7 +91,7 @@ impl Interpreter {
             Some(ControlStep::Begin) => {
                 return self.begin(finder, observer);
             }
-            Some(step) => match self.follow_to_end(step, finder) {
+            Some(step) => match self.follow_to_end(step) {
                 Some(by) => RunOutcome::Ended(by),
                 None => self.run(finder, observer),
             },
@@ -126,7 +126,7 @@ impl Interpreter {
         self.state.track = RunTrack::default();
         self.begin_search();
         self.state.work.begin_ways();
-        self.state.is_widened = false;
+        self.state.widened = 0;
         self.state.waiting.clear();
         self.state.loop_heads.clear();
         self.state.call_effects.clear();
@@ -136,12 +136,8 @@ impl Interpreter {
         self.joined_withheld.clear();
         self.state.mentioned = MentionedUnknowns::default();
         self.programs.clear();
-        self.pending.clear();
-        self.departing.clear();
         self.scratch.changes.clear();
-        self.regions.clear();
         self.lost = Collected::default();
-        self.journal.begin_anew();
     }
 
     pub(crate) fn announce(

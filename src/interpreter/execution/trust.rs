@@ -11,7 +11,6 @@ use crate::interpreter::run::search::EarlierStates;
 use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, Request};
-use crate::interpreter::run::ways::Ways;
 use crate::interpreter::ways::history::History;
 use crate::machine::Machine;
 use crate::text::Place;
@@ -76,7 +75,6 @@ impl<'a> Trust<'a> {
             self.has_cycles(&control.cycles),
             "a cycle that is not there",
         )?;
-        self.check_ways(&track.ways)?;
         let named = track.reach.conditions().chain(track.readings.conditions());
         self.check_conditions(named)?;
         let readings = track.readings.fit();
@@ -175,18 +173,6 @@ impl<'a> Trust<'a> {
             | None => true,
         };
         holds(parked, "a step to a block that is not there")
-    }
-
-    fn check_ways(&self, ways: &Ways) -> Validity {
-        let axes = self.machine.axes.len();
-        holds(
-            ways.fit(axes, self.state.conditions.len()),
-            "a way of other axes",
-        )?;
-        let tails = ways.tails().all(|(place, _)| self.has(place));
-        holds(tails, "a way through a program that is not there")?;
-        let cycles = ways.cycles().all(|cycles| self.has_cycles(cycles));
-        holds(cycles, "a cycle on a way that is not there")
     }
 
     fn has(&self, found: ProgramId) -> bool {

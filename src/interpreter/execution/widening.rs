@@ -14,7 +14,8 @@ use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Last, Path};
-use crate::interpreter::unknown::telling::of_axes;
+use super::paths::of_axes;
+use crate::interpreter::unknown::branching::MAX_OPEN;
 use crate::interpreter::values::cause::Unknown;
 
 /// Most values that the advice names.
@@ -24,16 +25,16 @@ impl Interpreter {
     /// Whether following the ways of the program takes more work than its budget, and they are still followed.
     #[inline]
     pub(crate) fn is_past_ways(&self) -> bool {
-        self.state.work.ways() > self.options.limits.ways
-            && !self.state.is_widened
-            && self.state.work.ways() > self.ways_bound()
+        let is_past = self.state.work.ways() > self.options.limits.ways
+            && self.state.work.ways() > self.ways_bound();
+        is_past || self.state.waiting.len() > MAX_OPEN
     }
 
     /// Takes all ways to the end of the outermost control block that any of them is in, and reports what is unknown
     /// from there on (FC908).
     #[cold]
     pub(crate) fn widen(&mut self, finder: &mut dyn Finder) {
-        self.state.is_widened = true;
+        self.state.widened += 1;
         let cause = Unknown::Ways;
         let mut left = BTreeSet::new();
         let mut ways = self.state.waiting.take_all();
@@ -60,22 +61,19 @@ impl Interpreter {
         self.state.call_effects.clear();
         joined.track.open_loops.clear();
         joined.track.marked = None;
+        joined.track.labels = None;
         self.enter_path(joined);
         self.scratch.havoc_last_motion();
         for (unit, section) in left {
             let section = self.programs.section(ProgramId { unit, section });
-            let region = self.havoc_region(unit, section.start..section.end, &cause);
-            self.note_far_exits(&region, &cause);
+            let blocks = section.start..section.end;
+            self.perhaps_execute(unit, blocks, &cause, finder);
         }
-        if let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) {
-            let region = self.havoc_region(unit, passed.clone(), &cause);
-            self.note_exits(&region, passed.start..=passed.end, &cause, None);
+        let after = self.pass_over_blocks(passed.clone(), &cause, finder);
+        if let Some(frame) = self.state.control.frames.running_mut() {
+            frame.next = after;
         }
-        self.havoc_called(finder);
-        self.take_departing();
-        if self.is_past_regions() {
-            self.havoc_all(&cause);
-        }
+        let passed = passed.start..after;
         self.version += 1;
         let said = self.too_many_ways(&passed);
         self.joined.extend(said);
@@ -145,7 +143,7 @@ impl Interpreter {
 
 impl Index {
     /// A range of blocks with all of each control block that it touches.
-    fn around(&self, mut blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+    pub(crate) fn around(&self, mut blocks: Range<EntryIndex>) -> Range<EntryIndex> {
         loop {
             let mut whole = blocks.clone();
             for links in self.links.values() {

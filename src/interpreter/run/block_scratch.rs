@@ -6,7 +6,6 @@ use std::ops::Range;
 use super::event::{Aside, Note, Outcome};
 use super::lone_part::LonePart;
 use super::search::EarlierStates;
-use super::undecided::Undecided;
 use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::coordinates::axis_words::AxisWord;
@@ -47,25 +46,15 @@ pub(crate) struct LeftOpen {
     pub(crate) place: Place,
 }
 
-/// Blocks that the dry run passes over and the control may execute.
+/// Blocks of a file that the block being executed passes over.
 #[derive(Debug, Clone)]
-pub(crate) struct PassedOver {
+pub(crate) struct PassedBlocks {
     pub(crate) unit: usize,
     pub(crate) blocks: Range<EntryIndex>,
     /// The value that decides whether they are executed.
     pub(crate) cause: Unknown,
-    pub(crate) by: PassedBy,
-}
-
-/// Reason why blocks are passed over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PassedBy {
-    /// A control block whose branch is not known.
-    Branch,
-    /// A way that the control may take instead.
-    Way,
-    /// A call that may be made; the dry run may execute them later.
-    Call,
+    /// Whether the run goes on after them.
+    pub(crate) goes_on_after: bool,
 }
 
 /// Buffers that are used again for each block.
@@ -99,10 +88,8 @@ pub(crate) struct BlockScratch {
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Errors that end some of the ways that lead to the block, and not the others.
     pub(crate) of_some_ways: Vec<Diagnostic>,
-    /// Parts of the block that may or may not be executed.
-    pub(crate) undecided: Option<Box<Undecided>>,
-    /// The blocks that it passes over.
-    pub(crate) passed: Vec<PassedOver>,
+    /// The blocks that it passes over, which only the machine may execute.
+    pub(crate) passed: Vec<PassedBlocks>,
     /// Number of messages on the last block.
     pub(crate) said: u64,
     /// Number of messages on the block that are left out, and the place of the first of them.
@@ -199,7 +186,6 @@ impl BlockScratch {
         self.again = 0;
         self.diagnostics.clear();
         self.aside.withheld.clear();
-        self.undecided = None;
         self.unknown_call = None;
         self.lone = None;
         self.geometry = None;

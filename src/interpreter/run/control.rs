@@ -13,7 +13,6 @@ use super::event::EndedBy;
 use super::saved_config::SavedConfig;
 use super::search::EarlierStates;
 use super::stack::CallStack;
-use super::ways::join_names;
 use crate::comp::Compensation;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::values::cause::Unknown;
@@ -202,5 +201,22 @@ impl ControlState {
             && *channel_axes == other.channel_axes
             && *described == other.described;
         same.then(|| memory.differing_numbers(&other.memory))?
+    }
+}
+
+/// Makes unknown the words that may call another program on one way.
+fn join_names(
+    names: &mut BTreeMap<String, Value>,
+    other: &BTreeMap<String, Value>,
+    cause: &Unknown,
+) {
+    if names == other {
+        return;
+    }
+    let words: Vec<String> = names.keys().chain(other.keys()).cloned().collect();
+    for word in words {
+        if names.get(&word) != other.get(&word) {
+            names.insert(word, Value::Unknown(cause.clone()));
+        }
     }
 }

@@ -9,15 +9,13 @@ use super::block_scratch::BlockScratch;
 use super::call_effects::CallEffects;
 use super::channel_axes::AxisNameMeaning;
 use super::control::ControlState;
-use super::journal::{Journal, RegionCall, Regions};
 use super::loop_heads::LoopHeads;
 use super::options::{Options, SourceMode};
 use super::path::{BranchSide, RunTrack};
 use super::state::State;
 use super::step::AwaitedBlock;
-use super::undecided::MentionedUnknowns;
+use super::mentioned::MentionedUnknowns;
 use super::waiting_paths::WaitingPaths;
-use super::ways::Branch;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
@@ -72,10 +70,6 @@ pub struct Interpreter {
     pub(crate) programs: ProgramStore,
     /// Label at which a main program that is read line by line continues.
     pub(crate) awaited: Option<AwaitedBlock>,
-    /// Calls in regions that may or may not be executed.
-    pub(crate) pending: Vec<RegionCall>,
-    /// Ways that leave at the block being executed.
-    pub(crate) departing: Vec<Branch>,
     /// Targets of the answers to the condition of the current block.
     pub(crate) sides: Vec<BranchSide>,
     /// The states that are possible, as users see them, and where they count.
@@ -84,17 +78,12 @@ pub struct Interpreter {
     pub(crate) joined: Vec<Diagnostic>,
     /// Such messages that are withheld, because they were reported before or nothing differs.
     pub(crate) joined_withheld: Vec<Diagnostic>,
-    /// Refusals of the control in blocks of called programs, each with its file, until it is known whether
-    /// the dry run executes them.
-    pub(crate) held: Vec<((usize, EntryIndex), Diagnostic)>,
     /// The answers among which the user may choose where no way is followed.
     pub(crate) offered: Vec<WayCondition>,
     /// The places of the chosen answers to the next such conditions.
     pub(crate) chosen: VecDeque<usize>,
-    pub(crate) regions: Regions,
     /// Messages on lines that are not blocks and not kept.
     pub(crate) lost: Collected,
-    pub(crate) journal: Journal,
     pub(crate) state: State,
     /// The use of variables that outlive programs, if requested.
     pub(crate) used: Option<RefCell<VariableUse>>,
@@ -169,7 +158,7 @@ impl Interpreter {
             seq: 0,
             blocks: 0,
             work: WorkBudget::default(),
-            is_widened: false,
+            widened: 0,
             opaque: BTreeMap::new(),
             once: BTreeSet::new(),
             occurred,
@@ -213,18 +202,13 @@ impl Interpreter {
             letters,
             names,
             awaited: None,
-            pending: Vec::new(),
-            departing: Vec::new(),
             sides: Vec::new(),
             joined: Vec::new(),
             joined_withheld: Vec::new(),
-            held: Vec::new(),
             offered: Vec::new(),
             chosen: VecDeque::new(),
             shown: ShownWays::default(),
-            regions: Regions::new(),
             lost: Collected::default(),
-            journal: Journal::default(),
             used: None,
             state,
             version: 1,
@@ -238,7 +222,6 @@ impl Interpreter {
             .control
             .memory
             .give(VariableName::read(name), setting.into());
-        self.journal.begin_anew();
     }
 
     /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and records

@@ -55,9 +55,9 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether all ways raise events; else one does, and the others are its shadows (R14.8).
-    pub(crate) fn follows_ways(&self) -> bool {
-        self.branches == Branches::Followed && self.motions != Motions::Taken
+    /// Whether events are raised on one way only, and the others are its shadows (R14.8).
+    pub(crate) fn follows_one_way(&self) -> bool {
+        self.branches == Branches::Passed || self.motions == Motions::Taken
     }
 
     /// Sets [`stop`](Self::stop).

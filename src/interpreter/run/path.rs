@@ -14,7 +14,6 @@ use super::shadow::Shadow;
 use super::stack::{CallFrame, CallStack, Seeking};
 use super::state::State;
 use super::stopping::FailedAt;
-use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::values::cause::Unknown;
@@ -35,10 +34,6 @@ use crate::text::{Place, Span};
 pub(crate) struct RunTrack {
     /// The loops that were repeated, the outermost first.
     pub(crate) loops: Vec<Loop>,
-    /// The loops that were left where a value of the machine may end them.
-    pub(crate) left_loops: Vec<LeftLoop>,
-    /// Ways that the control may have taken instead (R2.52).
-    pub(crate) ways: Ways,
     /// The answers of the machine that lead here.
     pub(crate) reach: WaySet,
     /// Conditions whose values nothing has written since they were asked.
@@ -58,6 +53,8 @@ pub(crate) struct RunTrack {
     pub(crate) failed: Option<Box<FailedAt>>,
     /// What it is to the way that is followed, where one is (R14.8).
     pub(crate) shadow: Shadow,
+    /// The jump labels at which it continues, where it waits at the first of them and may also be at any other.
+    pub(crate) labels: Option<Arc<[EntryIndex]>>,
 }
 
 /// A condition whose values only the program writes: asked again, it has the same answer.
@@ -235,8 +232,6 @@ impl RunTrack {
     fn join(&mut self, other: &Self) {
         let Self {
             loops,
-            left_loops,
-            ways,
             reach,
             asked,
             // Joined before, using the conditions that both ways name.
@@ -249,16 +244,11 @@ impl RunTrack {
             // In both or in none.
             failed: _,
             shadow,
+            labels,
         } = other;
         if self.loops.len() < loops.len() {
             self.loops.clone_from(loops);
         }
-        for left in left_loops {
-            if !self.left_loops.iter().any(|it| it.is_of(left)) {
-                self.left_loops.push(left.clone());
-            }
-        }
-        self.ways.join(ways);
         self.reach.or(reach);
         // A condition that reads nothing is not written on any way.
         self.asked
@@ -276,6 +266,9 @@ impl RunTrack {
             self.searching = None;
         }
         self.shadow.join(shadow);
+        if self.labels.is_none() {
+            self.labels.clone_from(labels);
+        }
     }
 }
 
@@ -434,6 +427,8 @@ pub(crate) struct BranchSide {
     /// The state of a kind that follows from it.
     pub(crate) state: Option<(AxisIndex, Kind, Membership)>,
     pub(crate) marked: Option<Marked>,
+    /// The jump labels at which it continues, where it may be any of them.
+    pub(crate) labels: Option<Arc<[EntryIndex]>>,
 }
 
 impl BranchSide {
@@ -446,6 +441,7 @@ impl BranchSide {
             values: Vec::new(),
             state: None,
             marked: None,
+            labels: None,
         }
     }
 }
@@ -543,22 +539,6 @@ impl Loop {
     /// Whether the state is compared at this pass, or kept to be compared with.
     pub(crate) fn is_due(&self) -> bool {
         self.mark.is_some() || (self.passes >= FIRST_LOOK && self.passes.is_power_of_two())
-    }
-}
-
-/// A loop that was left where a value of the machine may end it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct LeftLoop {
-    pub(crate) unit: usize,
-    pub(crate) head: EntryIndex,
-    pub(crate) times: u32,
-    pub(crate) cause: Unknown,
-}
-
-impl LeftLoop {
-    /// Whether it is the same loop.
-    pub(crate) fn is_of(&self, other: &Self) -> bool {
-        (self.unit, self.head) == (other.unit, other.head)
     }
 }
 

@@ -10,7 +10,7 @@ use super::control::ControlState;
 use super::loop_heads::LoopHeads;
 use super::path::{EndedPath, Last, Path, RunTrack};
 use super::step::ControlStep;
-use super::undecided::MentionedUnknowns;
+use super::mentioned::MentionedUnknowns;
 use super::waiting_paths::WaitingPaths;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
@@ -44,8 +44,8 @@ pub(crate) struct State {
     /// Executed blocks of the session.
     pub(crate) blocks: u64,
     pub(crate) work: WorkBudget,
-    /// Whether the program has used up its budget of ways: no further way is followed.
-    pub(crate) is_widened: bool,
+    /// How often the program has used up its budget of ways.
+    pub(crate) widened: u64,
     /// Words and commands that were passed over.
     pub(crate) opaque: BTreeMap<String, u64>,
     /// The words of the program that were reported, once each (R2.94).

@@ -67,8 +67,22 @@ impl WaitingPaths {
         }
     }
 
-    /// Takes the way whose block comes first in the text.
+    /// Takes the way whose block comes first in the text. One that may be at any of several labels goes on waiting at the
+    /// next of them.
     pub(crate) fn take_first(&mut self) -> Option<Path> {
-        self.0.pop()
+        let mut first = self.0.pop()?;
+        if let Some(labels) = first.track.labels.take() {
+            let here = first.control.frames.running().map_or(0, |frame| frame.next);
+            let passed = labels.partition_point(|label| *label <= here);
+            if let Some(next) = labels.get(passed) {
+                let mut later = first.clone();
+                if let Some(frame) = later.control.frames.running_mut() {
+                    frame.next = *next;
+                }
+                later.track.labels = Some(labels);
+                self.push(later);
+            }
+        }
+        Some(first)
     }
 }

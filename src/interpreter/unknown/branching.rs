@@ -21,10 +21,10 @@ use crate::interpreter::ways::set::{WayAnswer, WaySet};
 use crate::interpreter::ways::words::WayCondition;
 use crate::text::Span;
 
-/// Most ways that are open at a time; beyond them a condition is treated by R2.51.
-const MAX_OPEN: usize = 400;
+/// Most ways that are open at a time; beyond them they are joined (FC908).
+pub(crate) const MAX_OPEN: usize = 400;
 
-/// Most conditions that ways may name.
+/// Most conditions that ways may name; beyond them a way does not tell its answers.
 pub(crate) const MAX_CONDITIONS: usize = 4096;
 
 /// Most conditions on values of the program whose answers are remembered; older ones are asked again.
@@ -63,6 +63,8 @@ pub(crate) struct Goal {
     pub(crate) values: Vec<(Location, Value)>,
     /// Values that the answer rules out.
     pub(crate) ruled_out: Vec<(Location, Value)>,
+    /// The jump labels at which the way continues, where it may be any of them.
+    pub(crate) labels: Option<Arc<[EntryIndex]>>,
 }
 
 impl Goal {
@@ -73,11 +75,12 @@ impl Goal {
         }
     }
 
-    fn side(self, answer: WayAnswer) -> BranchSide {
+    pub(crate) fn side(self, ways: WaySet) -> BranchSide {
         BranchSide {
             seeking: self.seeking,
             values: self.values,
-            ..BranchSide::to(WaySet::of(answer), self.to)
+            labels: self.labels,
+            ..BranchSide::to(ways, self.to)
         }
     }
 
@@ -88,7 +91,17 @@ impl Goal {
             seeking: None,
             values: Vec::new(),
             ruled_out: Vec::new(),
+            labels: None,
         }
+    }
+
+    /// Any of some jump labels in the order of the text; `None` where there is none.
+    pub(crate) fn any(labels: Vec<EntryIndex>) -> Option<Self> {
+        let first = *labels.first()?;
+        Some(Self {
+            labels: Some(labels.into()),
+            ..Self::block(first)
+        })
     }
 }
 
@@ -115,64 +128,76 @@ impl Interpreter {
         self.chosen.push_back(place);
     }
 
-    /// Whether a number of ways that part at the block can be followed.
-    pub(crate) fn may_part(&self, answers: usize, at: &BlockContext<'_>) -> bool {
-        let Some(program) = self.state.control.frames.program() else {
-            return false;
-        };
-        let calls = self.state.control.frames.iter();
-        let calls = calls.filter(|frame| frame.program() == program).count();
-        !self.state.is_widened
-            && calls == 1
-            && at.macro_depth == 0
-            && self.sides.is_empty()
-            && (2..=MAX_ANSWERS).contains(&answers)
-            && self.state.waiting.len() + answers <= MAX_OPEN
-            && self.state.conditions.len() + 1 < MAX_CONDITIONS
-            && !self.programs.index(program.unit).entries.is_empty()
-            && !self.is_exhausted()
-    }
-
-    /// The run parts at a question: one way for each answer. Whether it can.
+    /// The run parts at a question: one way for each answer. A further question of a block is asked where the answers to
+    /// those before it let the run go on. Returns whether it parts; it does not where one way is followed that the
+    /// program itself decides, unless the PLC interferes.
     pub(crate) fn part(
         &mut self,
         question: MachineQuestion,
         mut goals: Vec<Goal>,
         at: &BlockContext<'_>,
     ) -> bool {
-        if self.scratch.unread.get() {
-            return false;
-        }
-        if !self.options.follows_ways() && question.kept.is_some() {
-            // One way is followed: the one on which the value is as the program set it.
-            return false;
-        }
-        if !self.may_part(goals.len(), at) {
+        if self.options.follows_one_way() && question.kept.is_some() {
             return false;
         }
         self.offered.clear();
         let offers = self.options.branches == Branches::Passed;
+        if let Some(kept) = &question.kept
+            && let Some(own) = goals.get_mut(kept.sides.trailing_zeros() as usize)
+        {
+            own.values.clear();
+        }
         if offers && question.key().is_none() {
             // The next block that reads the value asks anew.
             for goal in &mut goals {
                 goal.values.clear();
             }
         }
-        if let Some(kept) = &question.kept
-            && let Some(own) = goals.get_mut(kept.sides.trailing_zeros() as usize)
-        {
-            own.values.clear();
-        }
         if question.kind == ConditionKind::Loop {
             self.note_open_loop();
         }
-        let condition = self.ask(question, goals.iter().map(Goal::says).collect(), at);
-        let answers: Vec<WayAnswer> = answers(condition, goals.len()).collect();
+        let answers = self.answers_to(question, &goals, at);
         let chosen = offers.then(|| self.chosen_among(&answers)).flatten();
-        let sides = goals.into_iter().zip(&answers);
-        let sides = sides.filter(|(_, answer)| chosen.is_none_or(|chosen| chosen == **answer));
-        self.sides = sides.map(|(goal, answer)| goal.side(*answer)).collect();
+        let own = self.state.control.frames.running().map(|frame| frame.next);
+        let before = self.sides.iter().position(|side| Some(side.to) == own);
+        let before = match before {
+            Some(place) => self.sides.remove(place),
+            None if self.sides.is_empty() => BranchSide::to(WaySet::always(), 0),
+            None => return true,
+        };
+        let sides = goals.into_iter().zip(answers);
+        let sides = sides.filter(|(_, ways)| chosen.as_ref().is_none_or(|chosen| chosen == ways));
+        let sides = sides.map(|(goal, ways)| {
+            let mut side = goal.side(before.ways.and(&ways));
+            side.values.extend(before.values.iter().cloned());
+            side
+        });
+        self.sides.extend(sides);
         true
+    }
+
+    /// The ways on which each goal is reached. Beyond the number of answers that a question may have, the last one stands
+    /// for all others; beyond that of conditions, the ways are not told apart.
+    fn answers_to(
+        &mut self,
+        question: MachineQuestion,
+        goals: &[Goal],
+        at: &BlockContext<'_>,
+    ) -> Vec<WaySet> {
+        let count = goals.len().min(MAX_ANSWERS);
+        if count < 2 || !self.state.can_ask() {
+            return vec![WaySet::always(); goals.len()];
+        }
+        let question = MachineQuestion {
+            texts: question.texts.into_iter().take(count - 1).collect(),
+            ..question
+        };
+        let says = goals.iter().take(count).map(Goal::says).collect();
+        let condition = self.ask(question, says, at);
+        let mut ways: Vec<WaySet> = answers(condition, count).map(WaySet::of).collect();
+        let last = ways.last().cloned().unwrap_or_else(WaySet::always);
+        ways.resize(goals.len(), last);
+        ways
     }
 
     /// Joins a loop whose own condition is not known at its head from the second pass on.
@@ -187,46 +212,44 @@ impl Interpreter {
         }
     }
 
-    /// The ways on which an error ends the program at the block, and those on which it goes on; `None` where ways are
-    /// not followed.
-    pub(crate) fn part_at_error(
+    /// The ways on which the program ends at the block, and those on which it goes on.
+    pub(crate) fn part_at_end(
         &mut self,
         question: MachineQuestion,
         at: &BlockContext<'_>,
-    ) -> Option<[WaySet; 2]> {
-        let can = self.options.follows_ways()
-            && !self.scratch.unread.get()
-            && self.state.conditions.len() + 1 < MAX_CONDITIONS;
-        if !can {
-            return None;
-        }
+    ) -> [WaySet; 2] {
         self.state
             .work
             .charge_ways(1_000 + 20 * self.machine.axes.len() as u64);
+        let reach = self.state.track.reach.clone();
+        if !self.state.can_ask() {
+            return [reach.clone(), reach];
+        }
         let condition = self.ask(question, vec![ImpliedValues::default(); 2], at);
+        let [ends, goes_on] = [1, 2].map(|sides| WayAnswer {
+            condition,
+            sides,
+            of: 2,
+        });
         let reach = &self.state.track.reach;
-        let mut ways = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
-        Some([ways.next()?, ways.next()?])
+        [ends, goes_on].map(|answer| reach.and(&WaySet::of(answer)))
     }
 
     /// The answer that was chosen beforehand, or that an earlier one implies; without either, offers the answers.
-    fn chosen_among(&mut self, answers: &[WayAnswer]) -> Option<WayAnswer> {
+    fn chosen_among(&mut self, answers: &[WaySet]) -> Option<WaySet> {
         if self.state.track.is_shadow() {
             return None;
         }
         let reach = &self.state.track.reach;
-        let fits = |answer: &&WayAnswer| !reach.and(&WaySet::of(**answer)).is_never();
-        let mut possible = answers.iter().filter(fits);
+        let mut possible = answers.iter().filter(|it| !reach.and(it).is_never());
         if let Some(only) = possible.next().filter(|_| possible.next().is_none()) {
-            return Some(*only);
+            return Some(only.clone());
         }
         let chosen = self.chosen.pop_front();
         if let Some(chosen) = chosen.and_then(|place| answers.get(place)) {
-            return Some(*chosen);
+            return Some(chosen.clone());
         }
-        let ways = answers
-            .iter()
-            .map(|it| ways_of(&WaySet::of(*it), &self.state.conditions));
+        let ways = answers.iter().map(|it| ways_of(it, &self.state.conditions));
         self.offered = ways.flatten().flatten().collect();
         None
     }
@@ -327,15 +350,11 @@ impl Interpreter {
         &mut self,
         (axis, kind): (AxisIndex, Kind),
         goals: [Goal; 2],
-        at: &BlockContext<'_>,
     ) -> bool {
         let Some(split) = self.state.control.history.states(axis, kind) else {
             return false;
         };
         let ways = [split.on.clone(), split.off.clone()];
-        if !self.may_part(2, at) {
-            return false;
-        }
         let states = [Membership::In, Membership::Out];
         let sides = goals.into_iter().zip(ways).zip(states);
         let sides = sides.map(|((goal, ways), state)| BranchSide {
@@ -350,6 +369,11 @@ impl Interpreter {
 }
 
 impl State {
+    /// Whether ways may name a further condition.
+    pub(crate) fn can_ask(&self) -> bool {
+        self.conditions.len() + 1 < MAX_CONDITIONS
+    }
+
     /// Whether the condition was asked before at the same place, and its value not written since.
     fn is_asked_again(&self, place: usize) -> bool {
         let State {

@@ -3,11 +3,10 @@
 
 use std::sync::Arc;
 
-use super::branching::{MAX_CONDITIONS, answers};
+use super::branching::answers;
 use crate::comp::{AxisIndex, Kind, KindSet, Membership};
 use crate::interpreter::run::block_scratch::LeftOpen;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::Branches;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::history::Split;
@@ -19,9 +18,6 @@ impl Interpreter {
     /// Each configured kind of each axis is selected after the call, or is not.
     #[cold]
     pub(crate) fn leave_open(&mut self, left: &LeftOpen) {
-        if self.options.branches == Branches::Passed {
-            return;
-        }
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
             let unknown = self.state.control.compensation.unknown(axis);
             let configured = self.machine.axis(axis).configured;
@@ -63,7 +59,7 @@ impl Interpreter {
 
     /// Opens a kind of an axis on the ways that lead here, by a condition on whether it is selected.
     fn open(&mut self, (axis, kind): (AxisIndex, Kind), condition: Condition) -> Option<u32> {
-        if self.state.conditions.len() + 1 >= MAX_CONDITIONS {
+        if !self.state.can_ask() {
             return None;
         }
         let condition = self.state.ask_anew(condition);

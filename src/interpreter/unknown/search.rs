@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::branching::{MAX_CONDITIONS, answers};
+use super::branching::answers;
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::run::block_context::BlockContext;
@@ -82,9 +82,7 @@ impl Interpreter {
             self.scratch.diagnostics.push(said);
         }
         self.version += 1;
-        let can_part =
-            self.options.follows_ways() && self.state.conditions.len() + 1 < MAX_CONDITIONS;
-        if !can_part {
+        if !self.state.can_ask() {
             for (axis, kind) in differing {
                 self.havoc(axis, KindSet::of(kind));
             }

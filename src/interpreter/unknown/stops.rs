@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::branching::{MAX_CONDITIONS, answers};
+use super::branching::answers;
 use crate::comp::{AxisIndex, Kind};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
@@ -11,7 +11,6 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::path::{EndedPath, Passed};
 use crate::interpreter::run::stopping::{FailedAt, stops};
-use crate::interpreter::run::ways::Ways;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
@@ -34,8 +33,6 @@ impl Interpreter {
         for (ways, next) in sides {
             (self.state.control, self.state.track) = here.clone();
             self.state.go_on_with(ways);
-            // Whatever else the control may have done is on the way that goes on.
-            self.state.track.ways = Ways::default();
             match next {
                 NextStart::Reset => self.reset_after_stop(),
                 NextStart::Restart => {
@@ -133,8 +130,7 @@ impl Interpreter {
     ) -> Vec<(WaySet, NextStart)> {
         let is_open = after == AfterError::ResetOrRestart
             && self.state.control.compensation != self.machine.compensation()
-            && self.options.follows_ways()
-            && self.state.conditions.len() + 1 < MAX_CONDITIONS;
+            && self.state.can_ask();
         if !is_open {
             return vec![(ways.clone(), NextStart::Reset)];
         }

@@ -1,6 +1,6 @@
-//! Parts of a program that may or may not be executed, and what differs if they are (R2.90, R2.95).
+//! The unknown values that messages of a program were about (R2.95).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -11,37 +11,6 @@ use crate::text::Place;
 
 /// Unknown values that are remembered; beyond them a message may be said again.
 const MAX_ROOTS: usize = 1000;
-
-/// A part of the program that may or may not be executed, until it is known what it could change.
-#[derive(Debug, Clone)]
-pub(crate) struct Undecided {
-    /// The value that decides.
-    pub(crate) cause: Unknown,
-    /// The position of its message among those of the block.
-    pub(crate) said: usize,
-    /// The number of doubts of the block before it.
-    pub(crate) doubted: usize,
-    pub(crate) differing: Differing,
-}
-
-/// Differences between the ways other than compensation states.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Differing {
-    /// Whether anything differs that a user may ask for.
-    pub(crate) decides: bool,
-    /// Its names in a message.
-    pub(crate) named: BTreeSet<String>,
-    /// Alternative target of the control.
-    pub(crate) leaves: Option<&'static str>,
-}
-
-impl Differing {
-    /// Adds a named difference.
-    pub(crate) fn name(&mut self, name: impl Into<String>) {
-        self.decides = true;
-        self.named.insert(name.into());
-    }
-}
 
 /// The unknown values that messages of the program were about, by what makes them unknown.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

@@ -1,0 +1,524 @@
+//! Blocks that are passed over: whatever they could change is unknown after them (R2.51).
+//!
+//! This is left for what cannot be executed: the passes of a loop, or ways, beyond their budgets; a control block of
+//! which only some parts have a skip mark; a program that may be in force as a modal cycle. The blocks are read, and
+//! what they name is unknown.
+
+use std::collections::{BTreeSet, HashSet};
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::comp::{AxisIndex, Kind, KindSet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::effects::called_words::Configured;
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::{EntryIndex, Index, LabelName, ProgramId};
+use crate::interpreter::programs::store::Caller;
+use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
+use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
+use crate::interpreter::run::block_scratch::{OwnEnd, PassedBlocks};
+use crate::interpreter::run::channel_axes::Addressed;
+use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::outcome::BlockOutcome;
+use crate::interpreter::run::step::ControlStep;
+use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::values::expression::unquoted;
+use crate::interpreter::values::location::Location;
+use crate::interpreter::values::plain::subscript;
+use crate::interpreter::values::value::{Value, rounded};
+use crate::interpreter::values::work_budget::ITEM;
+use crate::interpreter::ways::set::WaySet;
+use crate::language::{GFunction, HashAction, Touches};
+use crate::syntax::ast::{
+    Address, Block, BlockReference, CallName, CallScope, Effect as Unread, Expression, Flow, Hash,
+    Item, Node, Operand, Repetition, Word,
+};
+use crate::syntax::{Fault, Stretch, VariableName, is_letter, is_program_number};
+use crate::text::{Place, Span};
+
+/// What blocks could do, by their text.
+#[derive(Default)]
+struct PossibleEffects {
+    switched: Vec<(String, KindSet)>,
+    written: BTreeSet<Location>,
+    /// Names of macros that are defined.
+    macros: BTreeSet<String>,
+    calls: Vec<WantedCall>,
+    /// Whether they could change anything.
+    is_open: bool,
+    lets_plc_act: bool,
+    jumps: Vec<LabelName>,
+    /// Whether they may jump to any label.
+    jumps_anywhere: bool,
+    returns: bool,
+    ends: Vec<Place>,
+    refused: Vec<Diagnostic>,
+}
+
+/// Reads blocks for their possible effects.
+struct EffectReader<'a> {
+    run: &'a Interpreter,
+    effects: PossibleEffects,
+    expanded: HashSet<String>,
+}
+
+impl EffectReader<'_> {
+    fn blocks(&mut self, index: &Index, range: Range<EntryIndex>) {
+        let Some(mut reader) = index.reader(range.start) else {
+            return;
+        };
+        let mut block = Block::default();
+        let mut left = range.len();
+        while left > 0 && !self.run.is_exhausted() {
+            let Some(raw) = reader.next(&mut block) else {
+                return;
+            };
+            if raw.stretch != Stretch::Block {
+                continue;
+            }
+            left -= 1;
+            self.run.state.work.charge_region(ITEM + raw.text.len());
+            let shown = ShownBlockLines::default();
+            let at = BlockContext::of_raw(index.source.name(), &raw, &block, &shown);
+            // Blocks that are skipped change nothing (R2.3).
+            if !self.run.is_skipped(&block) {
+                self.block(&at);
+            }
+        }
+    }
+
+    fn block(&mut self, at: &BlockContext<'_>) {
+        for word in &at.block.words {
+            self.word(word, at);
+        }
+        for item in &at.block.items {
+            self.item(item, at);
+        }
+    }
+
+    fn item(&mut self, item: &Item, at: &BlockContext<'_>) {
+        match item {
+            Item::Comp(command) => {
+                self.effects.refused.extend(self.run.refusal_of(command, at));
+                let kinds = command.selection.kinds();
+                self.effects.switched.push((command.axis.clone(), kinds));
+            }
+            Item::Assign(assignment) => self.assigns(assignment.target.place, at),
+            Item::Word(word) => self.word(word, at),
+            Item::Call(call) => {
+                let is_repeated = call.repetition != Repetition::Once;
+                match self.program_name(call.name, at) {
+                    Some(name) if !is_repeated => {
+                        let span = at.in_block(call.span);
+                        let wanted = WantedCall::program(call.scope, name, span);
+                        self.effects.calls.push(wanted);
+                    }
+                    _ => self.effects.is_open = true,
+                }
+            }
+            Item::GCall(call) => self.function(FunctionWord::g(call.number)),
+            Item::Hash(hash) => self.hash(hash, at),
+            Item::MacroUse(span) => self.expand(*span, at),
+            Item::MacroDefinition(name, _) => {
+                let name = unquoted(name.of(at.text)).trim();
+                self.effects.macros.insert(name.to_owned());
+            }
+            Item::Unread(Unread::Everything, span) => {
+                self.effects.is_open |= !self.run.machine.harmless.has_command(span.of(at.text));
+            }
+            Item::Unread(Unread::Parameters, _) => {
+                self.effects.written.insert(Location::Parameters);
+            }
+            Item::Flow(flow, _) => self.flow(flow, at),
+            Item::Sequence(_) => self.effects.is_open = true,
+            Item::Return(_) => self.effects.returns = true,
+            Item::Unread(Unread::Spindle, _)
+            | Item::Bracket { .. }
+            | Item::BadCommand(_)
+            | Item::BareNumber(..)
+            | Item::Label(_) => {}
+        }
+    }
+
+    fn flow(&mut self, flow: &Flow, at: &BlockContext<'_>) {
+        match flow {
+            Flow::For { counter, .. } => self.assigns(counter.place, at),
+            Flow::Switch(Some(target), _) => self.assigns(target.place, at),
+            Flow::Goto(BlockReference::Label(name)) => {
+                let name = name.of(at.text).trim_matches(['[', ']']).to_owned();
+                self.effects.jumps.push(LabelName::Text(name));
+            }
+            Flow::Goto(BlockReference::Number(Operand::Number(number))) => {
+                self.effects.jumps.push(LabelName::numbered(*number));
+            }
+            Flow::Goto(_) => self.effects.jumps_anywhere = true,
+            _ => {}
+        }
+    }
+
+    fn hash(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+        for target in &hash.written {
+            self.assigns(target.place, at);
+        }
+        let named = |axis: &AxisIndex| self.run.machine.axis(*axis).name.clone();
+        let all = |axes: Vec<AxisIndex>, kinds: KindSet| -> Vec<_> {
+            axes.iter().map(|axis| (named(axis), kinds)).collect()
+        };
+        match hash.command.action {
+            HashAction::WriteMachineData => {
+                let axes = self.run.perhaps_transferred(&hash.brackets, at.text);
+                self.effects.switched.extend(all(axes, KindSet::ALL));
+            }
+            HashAction::PassOver | HashAction::Dwell | HashAction::Wait => {}
+            HashAction::ReportError => self.effects.ends.push(at.place(hash.span)),
+            _ => self.effects.is_open = true,
+        }
+        if hash.command.touches == Touches::Friction {
+            let axes = self.run.axes_or_all(&hash.brackets, at.text);
+            let frict = KindSet::of(Kind::Frict);
+            self.effects.switched.extend(all(axes, frict));
+        }
+        self.effects.lets_plc_act |= hash.command.lets_plc_act();
+    }
+
+    fn word(&mut self, word: &Word, at: &BlockContext<'_>) {
+        let number = match word.value {
+            Some(Operand::Number(number)) => rounded(number),
+            _ => None,
+        };
+        let Address::Letter(letter) = word.address else {
+            return;
+        };
+        self.effects.lets_plc_act |= self.run.lets_plc_act_at(letter, number);
+        match (letter, number) {
+            (b'M', Some(2 | 30)) => {
+                let whole = Span::new(0, at.text.trim_end().len());
+                self.effects.ends.push(at.place(whole));
+            }
+            (b'M', Some(17 | 29)) => self.effects.returns = true,
+            (b'G' | b'M', None) => self.effects.is_open = true,
+            (b'G' | b'M' | b'T' | b'D', _) => self.function(FunctionWord { letter, number }),
+            (b'O', _) if is_program_number(at.block) => {}
+            (b'A'..=b'Z', _) => self.effects.is_open |= !is_letter(letter),
+            _ => {}
+        }
+    }
+
+    fn function(&mut self, word: FunctionWord) {
+        let data = (word.letter == b'T').then(|| word.of_data());
+        for word in [word].into_iter().chain(data) {
+            match self.run.configured(word) {
+                Configured::Program(name) => {
+                    let wanted = WantedCall::program(CallScope::Global, name, Span::default());
+                    self.effects.calls.push(wanted);
+                    return;
+                }
+                Configured::Unknown(_) => self.effects.is_open = true,
+                Configured::None => {}
+            }
+        }
+        let number = word.number.and_then(|number| u32::try_from(number).ok());
+        if let Some(number) = number.filter(|_| word.letter == b'G')
+            && GFunction::known(number).is_some_and(GFunction::is_call)
+            && !self.run.machine.harmless.has_function(b'G', i64::from(number))
+        {
+            let wanted = WantedCall::of_word(number, Span::default());
+            self.effects.calls.push(wanted);
+        }
+    }
+
+    /// The code of a macro, once however often it is used: macros that use each other would be read endlessly.
+    fn expand(&mut self, used: Span, at: &BlockContext<'_>) {
+        let name = unquoted(used.of(at.text)).trim().to_owned();
+        if !self.expanded.insert(name.clone()) {
+            return;
+        }
+        let code = match self.run.state.control.memory.macro_code(&name) {
+            Some(Value::Text(code)) => Arc::clone(code),
+            Some(Value::Unknown(_)) => {
+                self.effects.is_open = true;
+                return;
+            }
+            Some(Value::Number(_)) | None => return,
+        };
+        self.run.state.work.charge_region(ITEM + code.len());
+        let block = crate::syntax::parse_block(&code);
+        let shown = ShownBlockLines::default();
+        let code = MacroCode {
+            text: &code,
+            block: &block,
+            depth: at.macro_depth,
+        };
+        self.block(&at.in_macro(&code, at.in_block(used), &shown));
+    }
+
+    /// The name of a called program; `None` where only the machine knows it.
+    fn program_name(&self, name: CallName, at: &BlockContext<'_>) -> Option<String> {
+        match name {
+            CallName::Literal(span) => Some(span.of(at.text).trim().to_owned()),
+            CallName::Quoted(span) => {
+                let name = unquoted(span.of(at.text));
+                match self.run.state.control.memory.macro_or_text(name) {
+                    Value::Text(name) => Some(name.trim().to_owned()),
+                    Value::Number(_) | Value::Unknown(_) => None,
+                }
+            }
+            CallName::Variable(_) => None,
+        }
+    }
+
+    /// The possible targets of an assignment. A place that has to be computed may be different each time.
+    fn assigns(&mut self, place: Expression, at: &BlockContext<'_>) {
+        let Some(root) = place.end.checked_sub(1) else {
+            return;
+        };
+        let inner = place.start as usize..root as usize;
+        let operands = at.block.nodes.get(inner).unwrap_or_default();
+        let is_plain = operands.iter().all(|node| matches!(node, Node::Number(_)));
+        let root = root as usize;
+        let (Some(node), Some(span)) = (at.block.nodes.get(root), at.block.spans.get(root)) else {
+            return;
+        };
+        let array = || VariableName::array_of(span.of(at.text));
+        let target = match node {
+            Node::Parameter { owner, index } => Location::Parameter(*owner, *index),
+            Node::Variable { subscripts: 0 } => Location::Variable(array()),
+            Node::Variable { .. } if is_plain => {
+                let values = operands.iter().map(subscript).collect();
+                Location::Variable(VariableName::with_values(span.of(at.text), values))
+            }
+            Node::Variable { .. } => Location::Elements(array()),
+            Node::IndexedParameter { .. } | Node::Unread => Location::Parameters,
+            _ => return,
+        };
+        self.effects.written.insert(target);
+    }
+}
+
+impl Interpreter {
+    /// Passes over the control block being executed, which cannot be followed.
+    pub(crate) fn pass_over_part(&mut self, cause: Unknown, span: Span, at: &BlockContext<'_>) {
+        let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
+            return;
+        };
+        let whole = self.current_block();
+        self.tell_passed((&cause, span), at);
+        self.scratch.passed.push(PassedBlocks {
+            unit,
+            blocks: whole.start..whole.end + 1,
+            cause,
+            goes_on_after: true,
+        });
+    }
+
+    /// Passes over the call of a local subprogram, which may be any of the file.
+    pub(crate) fn pass_over_locals(&mut self, cause: &Unknown) {
+        let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
+            return;
+        };
+        let sections = self.programs.index(unit).sections.iter();
+        let locals = sections.filter(|section| section.local);
+        let locals = locals.map(|section| PassedBlocks {
+            unit,
+            blocks: section.start..section.end,
+            cause: cause.clone(),
+            goes_on_after: false,
+        });
+        self.scratch.passed.extend(locals);
+    }
+
+    /// Makes unknown what the parts that the block passes over could change.
+    #[inline]
+    pub(crate) fn pass_over_parts(&mut self, outcome: &mut BlockOutcome, finder: &mut dyn Finder) {
+        while let Some(passed) = self.scratch.passed.pop() {
+            if passed.goes_on_after {
+                let after = self.pass_over_blocks(passed.blocks, &passed.cause, finder);
+                outcome.step = Some(ControlStep::Jump(after));
+            } else {
+                self.perhaps_execute(passed.unit, passed.blocks, &passed.cause, finder);
+            }
+        }
+    }
+
+    /// Passes over blocks of the running program, and over those to which they may lead. Returns the block after them.
+    pub(crate) fn pass_over_blocks(
+        &mut self,
+        blocks: Range<EntryIndex>,
+        cause: &Unknown,
+        finder: &mut dyn Finder,
+    ) -> EntryIndex {
+        let Some(program) = self.state.control.frames.program() else {
+            return blocks.end;
+        };
+        let blocks = self.reached_from(program, blocks);
+        self.perhaps_execute(program.unit, blocks.clone(), cause, finder);
+        blocks.end
+    }
+
+    /// Blocks with all of each control block that they touch, and those to which they jump.
+    fn reached_from(&self, program: ProgramId, blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+        let index = self.programs.index(program.unit);
+        let section = self.programs.section(program);
+        let mut known = blocks;
+        loop {
+            let mut whole = index.around(known.clone());
+            let effects = self.possible_effects(program.unit, whole.clone());
+            let jumps = effects.jumps.into_iter();
+            for to in jumps.filter_map(|name| index.label(program.section, name)) {
+                whole = whole.start.min(to)..whole.end.max(to);
+            }
+            if effects.jumps_anywhere {
+                whole = section.start..section.end;
+            }
+            if effects.returns {
+                whole.end = section.end;
+            }
+            if whole == known || self.is_exhausted() {
+                return whole;
+            }
+            known = whole;
+        }
+    }
+
+    fn possible_effects(&self, unit: usize, blocks: Range<EntryIndex>) -> PossibleEffects {
+        let mut reader = EffectReader {
+            run: self,
+            effects: PossibleEffects::default(),
+            expanded: HashSet::new(),
+        };
+        reader.blocks(self.programs.index(unit), blocks);
+        reader.effects
+    }
+
+    /// Makes unknown what blocks of a file, and the programs that they call, could change.
+    #[cold]
+    pub(crate) fn perhaps_execute(
+        &mut self,
+        unit: usize,
+        blocks: Range<EntryIndex>,
+        cause: &Unknown,
+        finder: &mut dyn Finder,
+    ) {
+        let mut found = vec![(unit, blocks)];
+        let mut seen = HashSet::new();
+        while let Some((unit, blocks)) = found.pop() {
+            if !seen.insert((unit, blocks.start)) || self.is_exhausted() {
+                continue;
+            }
+            let effects = self.possible_effects(unit, blocks);
+            let file = self.programs.index(unit).source.name().clone();
+            for wanted in &effects.calls {
+                if self.is_external(wanted) {
+                    self.leave_to_machine(&wanted.missing());
+                    continue;
+                }
+                let caller = Caller { unit, file: &file };
+                match self
+                    .programs
+                    .find(wanted, caller, finder, &self.state.work)
+                {
+                    Ok(Some(program)) => {
+                        let section = self.programs.section(program);
+                        found.push((program.unit, section.start..section.end));
+                    }
+                    Ok(None) => {}
+                    Err(_) => {
+                        self.havoc_all(cause);
+                        self.may_end_at(None, EndedBy::Error);
+                    }
+                }
+            }
+            self.suffer(effects, cause);
+        }
+        self.version += 1;
+    }
+
+    fn suffer(&mut self, effects: PossibleEffects, cause: &Unknown) {
+        let unknown = || Value::Unknown(cause.clone());
+        for (name, kinds) in &effects.switched {
+            match self.state.control.addressed(name) {
+                Ok(Addressed::Axis(axis)) => {
+                    self.see(axis);
+                    self.havoc(axis, *kinds);
+                }
+                Ok(Addressed::Absent(Some(axis))) => self.havoc(axis, *kinds),
+                Ok(Addressed::Any | Addressed::Absent(None)) => self.havoc_any_axis(*kinds),
+                Err(_) => {}
+            }
+        }
+        for target in &effects.written {
+            self.write(target, unknown());
+        }
+        for name in &effects.macros {
+            self.state.control.memory.havoc_macro(name, cause);
+            self.scratch.wrote = true;
+        }
+        self.state.control.modal.havoc_words();
+        self.state.control.modal.havoc_positions();
+        self.perhaps_move_all();
+        if effects.lets_plc_act {
+            self.let_plc_act();
+        }
+        if effects.is_open {
+            self.havoc_all(cause);
+            self.state.control.cycles.havoc();
+            self.state.control.havoc_exchange();
+            self.state.control.files.change(None);
+        }
+        let refused = effects.refused.into_iter().map(|mut said| {
+            let value = cause.seen_from(&said.place.file);
+            let message = &mut said.message;
+            *message = format!("{message}; whether the block is executed depends on {value}");
+            said
+        });
+        for said in refused {
+            self.may_end_at(Some(said.place.clone()), EndedBy::Error);
+            self.joined.push(said);
+        }
+        for place in effects.ends {
+            self.may_end_at(Some(place), EndedBy::M30);
+        }
+    }
+
+    /// The program may end at a block in the state in which it goes on.
+    pub(crate) fn may_end_at(&mut self, place: Option<Place>, by: EndedBy) {
+        if by == EndedBy::Error && self.options.stop == StopPolicy::KeepGoing {
+            return;
+        }
+        let here = (self.state.control.clone(), self.state.track.clone());
+        if by == EndedBy::Error {
+            self.reset_after_stop();
+        }
+        let end = self.scratch.end.take();
+        self.scratch.end = place.map(|place| OwnEnd {
+            place,
+            is_passed_into: false,
+        });
+        let ended = self.ended_path(by);
+        self.state.end_way(ended);
+        self.scratch.end = end;
+        (self.state.control, self.state.track) = here;
+        self.version += 1;
+    }
+
+    /// The program ends at the block on some ways.
+    pub(crate) fn end_on(&mut self, ways: WaySet, at: &BlockContext<'_>) {
+        let here = (self.state.control.clone(), self.state.track.clone());
+        self.state.go_on_with(ways);
+        let whole = Span::new(0, at.text.trim_end().len());
+        self.may_end_at(Some(at.place(whole)), EndedBy::M30);
+        (self.state.control, self.state.track) = here;
+    }
+
+    /// FC901: a control block that cannot be followed is passed over.
+    fn tell_passed(&mut self, (cause, span): (&Unknown, Span), at: &BlockContext<'_>) {
+        let message = format!(
+            "how this control block is executed depends on {}; whatever it could change is unknown from here on",
+            cause.seen_from(at.file)
+        );
+        let fault = Fault::new(Code::Fc901, span, message).with_help(cause.advice());
+        self.tell_once(cause, "control block", fault, at);
+    }
+}

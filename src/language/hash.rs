@@ -773,12 +773,6 @@ impl HashCommand {
                 || self.motion.is_some()
                 || self.touches == Touches::Friction)
     }
-
-    /// Whether it determines which axes follow others, apart from coupling groups.
-    pub(crate) fn links_axes(&self) -> bool {
-        let moves = self.motion.map(|motion| motion.moves);
-        matches!(moves, Some(Moves::Gantry | Moves::Follower))
-    }
 }
 
 impl serde::Serialize for HashCommand {

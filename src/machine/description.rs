@@ -3,9 +3,7 @@
 use super::axis::Axis;
 use super::harmless::HarmlessWords;
 use super::programs::ConfiguredPrograms;
-use crate::comp::{
-    AxisIndex, AxisSetup, CncBuild, CompCommand, Compensation, Kind, KindSet, Selection,
-};
+use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation, KindSet};
 use crate::diagnostic::NamedFix;
 use crate::lists::{ChannelSettings, Origin};
 use crate::readings::{Question, Readings};
@@ -165,17 +163,6 @@ impl Machine {
             setup.parameterised = axis.parameterised();
             setup
         })
-    }
-
-    /// Whether the control refuses a command because of the axis alone: it is not there, or has no friction
-    /// compensation to switch on (R1.24).
-    pub(crate) fn refuses(&self, command: &CompCommand) -> bool {
-        let Some(axis) = self.find(&command.axis) else {
-            return true;
-        };
-        let is_on =
-            matches!(command.selection, Selection::On(kinds) if kinds.contains(Kind::Frict));
-        is_on && !self.axis(axis).configured.contains(Kind::Frict)
     }
 
     /// Returns the position of an axis by its name.

@@ -10,7 +10,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Call, CallName, Operand, CallScope};
+use crate::syntax::ast::{Call, CallName, CallScope, Operand};
 use crate::text::Span;
 
 impl Interpreter {

@@ -342,8 +342,8 @@ impl Interpreter {
     ) -> Option<Diagnostic> {
         let mut compensation = self.state.control.compensation.clone();
         let axis = compensation.resolve(&command.axis);
-        let result = axis
-            .and_then(|axis| compensation.switch(axis, command.selection, &mut Vec::new()));
+        let result =
+            axis.and_then(|axis| compensation.switch(axis, command.selection, &mut Vec::new()));
         result.err().map(|error| self.refusal(&error, command, at))
     }
 

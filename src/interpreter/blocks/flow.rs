@@ -453,7 +453,6 @@ impl Interpreter {
             _ => JumpAcross::Nothing,
         }
     }
-
 }
 
 impl ControlState {

@@ -162,7 +162,13 @@ impl Interpreter {
     ) -> bool {
         let next = self.next_block();
         let Some((goal, span)) = self.jump_after(place, at) else {
-            return self.part_at(condition, doubt, (ConditionKind::Branch, place), [next, next].map(Goal::block), at);
+            return self.part_at(
+                condition,
+                doubt,
+                (ConditionKind::Branch, place),
+                [next, next].map(Goal::block),
+                at,
+            );
         };
         let asked = (ConditionKind::Branch, span);
         let across = if goal.labels.is_none() {
@@ -400,7 +406,9 @@ impl Interpreter {
     /// The jump at a place of a block or after it, before its next condition; `None` where its label does not exist.
     fn jump_after(&mut self, place: Span, at: &BlockContext<'_>) -> Option<(Goal, Span)> {
         let mut items = at.block.items.iter();
-        let after = items.by_ref().skip_while(|item| item.span().start < place.start);
+        let after = items
+            .by_ref()
+            .skip_while(|item| item.span().start < place.start);
         let mut is_first = true;
         let mut jump = None;
         for item in after {

@@ -12,8 +12,8 @@ use super::pace::{Pace, ProgrammedFeed};
 use super::slope::SlopeSelection;
 use crate::comp::AxisIndex;
 use crate::language::{
-    ChainStep, ContouringCommand, GAction, GFunction, Group, HashAction, HashCommand, HashWords,
-    Holds, OnOff, Simplification, Simplifications,
+    ChainStep, ContouringCommand, GAction, GFunction, Group, HashCommand, HashWords, Holds, OnOff,
+    Simplification, Simplifications,
 };
 use crate::machine::{ChannelSettings, SlopeProfile};
 
@@ -332,14 +332,6 @@ impl Modal {
         }
     }
 
-    /// A `#` command that may or may not have been executed.
-    pub(crate) fn havoc_hash(&mut self, command: HashWords) {
-        self.skewed &= command.action != HashAction::Rotate;
-        let mut after = self.clone();
-        after.hash(command);
-        self.havoc_chain(after);
-    }
-
     /// A step of the coordinate chain, with this state after it, may or may not have been executed.
     fn havoc_chain(&mut self, after: Self) {
         if after != *self {
@@ -453,11 +445,6 @@ impl Modal {
     /// Forgets the position of one axis.
     pub fn havoc_position(&mut self, axis: AxisIndex) {
         self.positions[axis.get()] = None;
-    }
-
-    /// Forgets what G92 set for an axis.
-    pub(crate) fn havoc_reference(&mut self, axis: AxisIndex) {
-        self.references[axis.get()] = None;
     }
 
     /// Any word may have been executed.

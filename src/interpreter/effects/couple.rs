@@ -213,12 +213,6 @@ impl Interpreter {
 }
 
 impl ControlState {
-    /// These axes may be coupled by groups whose members are unknown.
-    pub(crate) fn havoc_definitions(&mut self, axes: &[AxisIndex]) {
-        let changed = self.couplings.havoc_definitions(axes);
-        self.mark_coupled(changed);
-    }
-
     /// Axes that follow others have unknown positions from here on: `slave=master` (PM/207120267).
     fn lose_followers(&mut self, group: &str) {
         let groups = self.couplings.groups();

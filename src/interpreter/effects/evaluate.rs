@@ -65,23 +65,6 @@ impl Interpreter {
         value
     }
 
-    /// Notes the values of the machine that a block would read.
-    pub(crate) fn note_reads(&self, at: &BlockContext<'_>) {
-        if self.options.notes == Notes::None {
-            return;
-        }
-        let nodes = at.block.nodes.iter().enumerate();
-        let read = nodes.filter(|(_, node)| matches!(node, Node::Variable { subscripts: 0 }));
-        for (place, _) in read {
-            let node = Span::new(place, place + 1);
-            let read = Operand::Expression(Expression {
-                start: node.start,
-                end: node.end,
-            });
-            let _ = self.with_evaluator(at, |evaluator| evaluator.value(read, &mut Vec::new()));
-        }
-    }
-
     pub(crate) fn with_evaluator<T>(
         &self,
         at: &BlockContext<'_>,

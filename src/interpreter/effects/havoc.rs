@@ -4,13 +4,11 @@ use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::stack::Retains;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::found::VariableUse;
 use crate::interpreter::values::location::Location;
-use crate::interpreter::values::memory::unescaped;
 use crate::interpreter::values::value::Value;
-use crate::language::{Certainty, HashAction, HashWords, Holds, MotionKind};
+use crate::language::{Certainty, MotionKind};
 use crate::syntax::ast::Effect as Unread;
 use crate::text::Span;
 
@@ -79,51 +77,10 @@ impl Interpreter {
         }
     }
 
-    /// The macros of programs may be gone; those of the machine remain as the machine defines them.
-    pub(crate) fn havoc_macros(&mut self, cause: &Unknown) {
-        let machine = &self.machine.programs.macros;
-        let stays = |name: &str, code: &str| {
-            let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
-            last.is_some_and(|(_, own)| unescaped(own) == code)
-        };
-        self.state.control.memory.havoc_macros(cause, stays);
-    }
-
     /// A COMP command switched kinds of an axis, but it is not known which axis.
     pub(crate) fn havoc_any_axis(&mut self, kinds: KindSet) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
             self.havoc(axis, kinds);
-        }
-    }
-
-    /// A command that may or may not have been executed (R2.51).
-    pub(crate) fn havoc_hash(&mut self, command: HashWords, cause: &Unknown) {
-        match command.action {
-            HashAction::EndModalCycles => self.state.control.cycles.havoc(),
-            HashAction::ForgetMacros => self.havoc_macros(cause),
-            HashAction::EnableCoupling
-            | HashAction::ReleaseCoupling
-            | HashAction::ReleaseCouplings => self.havoc_couplings(),
-            HashAction::RetainCycleChanges => {
-                if let Some(frame) = self.state.control.frames.cycle_mut() {
-                    frame.retains = Retains::Perhaps;
-                }
-            }
-            HashAction::Describe | HashAction::EndDescription => {
-                // The blocks after it may or may not be a description.
-                let modal = &mut self.state.control.modal;
-                modal.havoc_words();
-                modal.note_transformed(command.words);
-            }
-            HashAction::Override => self.state.control.modal.pace.havoc_overrides(),
-            HashAction::SelectSpindle => self.state.control.modal.pace.havoc_spindle(),
-            _ if command.links_axes() => self.state.control.couplings.havoc_followers(&[]),
-            _ => {
-                if let Some((what, Holds::On)) = command.simplification() {
-                    self.state.control.modal.perhaps_simplify(what);
-                }
-                self.state.control.modal.havoc_hash(command);
-            }
         }
     }
 }

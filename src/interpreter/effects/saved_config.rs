@@ -88,15 +88,6 @@ impl Interpreter {
         Ok(())
     }
 
-    /// A command of saved configurations may have been executed.
-    pub(crate) fn havoc_config(&mut self, action: ConfigAction) {
-        if action == ConfigAction::Load {
-            self.state.control.havoc_exchange();
-            self.couple_any();
-        }
-        self.state.control.saved = SavedConfig::default();
-    }
-
     /// Any axes may be coupled.
     fn couple_any(&mut self) {
         let all = (0..self.machine.axes.len()).map(AxisIndex::new).collect();

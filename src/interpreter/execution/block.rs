@@ -115,7 +115,11 @@ impl Interpreter {
             self.pass_over_calls(outcome, at);
             return Vec::new();
         }
-        self.resolve_all(std::mem::take(&mut outcome.calls), at, finder)
+        let calls = self.resolve_all(std::mem::take(&mut outcome.calls), at, finder);
+        if self.state.waiting.is_empty() {
+            return calls;
+        }
+        self.without_open_recursion(calls, at, finder)
     }
 
     /// Returns whether a block did no more than move.

@@ -29,9 +29,7 @@ impl Interpreter {
     #[cold]
     fn call_on_ways(&mut self) -> ControlFlow<EndedBy> {
         let track = &self.state.track;
-        let Some(called) = self.called().filter(|_| {
-            track.searching.is_none()
-        }) else {
+        let Some(called) = self.called().filter(|_| track.searching.is_none()) else {
             return ControlFlow::Continue(());
         };
         let way = self.entry_of_call();

@@ -8,13 +8,13 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use super::paths::of_axes;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Last, Path};
-use super::paths::of_axes;
 use crate::interpreter::unknown::branching::MAX_OPEN;
 use crate::interpreter::values::cause::Unknown;
 

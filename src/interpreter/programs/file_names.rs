@@ -3,12 +3,6 @@
 use crate::machine::canonical_word;
 use crate::syntax::ast::{Argument, Hash};
 
-/// The words that get a program after `#FILE NAME`.
-pub(crate) fn named_words(hash: &Hash, text: &str) -> Vec<String> {
-    let names = file_names(hash, text).into_iter();
-    names.map(|(word, _)| word).collect()
-}
-
 /// The name of a program after `#FILE NAME`.
 pub(crate) enum FileName<'a> {
     /// A literal name.

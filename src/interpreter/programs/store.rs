@@ -1,7 +1,6 @@
 //! The files of a run: loaded when they are first needed, looked up by their caller.
 
 use std::collections::{BTreeMap, HashMap};
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::finder::{Finder, NoProgram};
@@ -117,16 +116,6 @@ impl ProgramStore {
         self.names.insert(name, 0);
     }
 
-    /// The blocks of the section that holds one.
-    pub(crate) fn section_of(
-        &self,
-        (unit, entry): (usize, EntryIndex),
-    ) -> Option<Range<EntryIndex>> {
-        let sections = self.index(unit).sections.iter();
-        let mut blocks = sections.map(|section| section.start..section.end);
-        blocks.find(|blocks| blocks.contains(&entry))
-    }
-
     /// Whether a block was read before, in order to be executed.
     #[inline]
     pub(crate) fn was_read(&self, unit: usize, entry: EntryIndex) -> bool {
@@ -152,13 +141,6 @@ impl ProgramStore {
             self.kept += 1;
         }
         parsed
-    }
-
-    /// A parsed block that is inspected, not executed.
-    pub(crate) fn looked_at(&self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
-        let unit = &self.units[unit];
-        let kept = unit.kept.get(entry as usize).cloned().flatten();
-        kept.unwrap_or_else(|| Arc::new(unit.parse(entry)))
     }
 
     /// The block of a section that a jump label or a block number names.

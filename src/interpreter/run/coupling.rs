@@ -97,7 +97,6 @@ impl Couplings {
 
     /// Axes follow others.
     pub(crate) fn follow(&mut self, command: String, pairs: Vec<(AxisIndex, AxisIndex)>) {
-        self.version = self.version.wrapping_add(1);
         self.followers.insert(command, pairs);
     }
 
@@ -108,15 +107,12 @@ impl Couplings {
 
     /// They do not any more.
     pub(crate) fn unfollow(&mut self, command: &str) {
-        if self.followers.remove(command).is_some() {
-            self.version = self.version.wrapping_add(1);
-        }
+        if self.followers.remove(command).is_some() {}
     }
 
     /// No axis follows another one except by a coupling group.
     pub(crate) fn end_following(&mut self) {
         if !(self.followers.is_empty() && self.strays.is_empty()) {
-            self.version = self.version.wrapping_add(1);
             self.followers.clear();
             self.strays.clear();
         }
@@ -128,9 +124,7 @@ impl Couplings {
         let followers = followers.into_values().flatten().map(|(axis, _)| axis);
         let before = self.strays.len();
         self.strays.extend(followers.chain(axes.iter().copied()));
-        if self.strays.len() != before {
-            self.version = self.version.wrapping_add(1);
-        }
+        if self.strays.len() != before {}
     }
 
     /// Whether a group is in force, or may be.
@@ -167,11 +161,6 @@ impl Couplings {
         self.named.iter().copied().filter(|_| self.vague)
     }
 
-    /// Rises with every change.
-    pub(crate) fn version(&self) -> u64 {
-        self.version
-    }
-
     /// Returns whether the axis is coupled by a group in force, may be, or is not.
     pub(crate) fn of(&self, axis: AxisIndex) -> Coupling {
         if self.holding.contains_key(&axis) {
@@ -186,7 +175,6 @@ impl Couplings {
     /// Redefines a group; one that is in force stays so with its new axes. Returns the axes whose
     /// coupling may have changed.
     pub(crate) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) -> Vec<AxisIndex> {
-        self.version = self.version.wrapping_add(1);
         let (was_enabled, mut changed) = self.take_out(group);
         changed.extend(&axes);
         self.named.extend(&axes);
@@ -211,7 +199,6 @@ impl Couplings {
     /// changed.
     pub(crate) fn havoc(&mut self) -> Vec<AxisIndex> {
         self.release_all();
-        self.version = self.version.wrapping_add(1);
         self.groups.clear();
         self.vague = true;
         self.doubted = true;
@@ -229,18 +216,6 @@ impl Couplings {
         followers.extend(pairs.map(|(axis, _)| *axis));
         self.havoc_followers(&followers);
         self.havoc()
-    }
-
-    /// Groups with these axes may have been defined, or redefined: that changes a coupling only
-    /// where some group may be in force.
-    pub(crate) fn havoc_definitions(&mut self, axes: &[AxisIndex]) -> Vec<AxisIndex> {
-        self.lose(axes.iter().copied());
-        if self.doubted || !self.enabled.is_empty() {
-            return self.havoc();
-        }
-        self.version = self.version.wrapping_add(1);
-        self.groups.clear();
-        Vec::new()
     }
 
     /// Whether all axes that it names are below a number.
@@ -266,7 +241,6 @@ impl Couplings {
         if !self.groups.contains_key(group) {
             self.named.extend(axes);
             if self.vague {
-                self.version = self.version.wrapping_add(1);
                 self.doubted = true;
                 return self.named.iter().copied().collect();
             }
@@ -292,7 +266,6 @@ impl Couplings {
     }
 
     fn enable_at(&mut self, group: &str, turn: u64) {
-        self.version = self.version.wrapping_add(1);
         if let Some(known) = self.groups.get_mut(group) {
             known.enabled = Some(turn);
             self.unknown = self.unknown.saturating_add(u32::from(known.unknown));
@@ -318,7 +291,6 @@ impl Couplings {
         }) else {
             return (None, Vec::new());
         };
-        self.version = self.version.wrapping_add(1);
         self.unknown = self.unknown.saturating_sub(u32::from(known.unknown));
         self.enabled.remove(&turn);
         for axis in &known.axes {
@@ -345,7 +317,6 @@ impl Couplings {
         if !self.doubted && self.enabled.is_empty() {
             return Vec::new();
         }
-        self.version = self.version.wrapping_add(1);
         self.doubted = false;
         self.unknown = 0;
         self.enabled.clear();

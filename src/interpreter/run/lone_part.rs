@@ -55,11 +55,6 @@ impl LonePart {
     }
 }
 
-/// Whether a block has several parts, the label not counted.
-pub(crate) fn has_parts(block: &Block) -> bool {
-    parts(block).nth(1).is_some()
-}
-
 fn parts(block: &Block) -> impl Iterator<Item = Span> + '_ {
     let words = block.words.iter().map(|word| word.span);
     let items = block.items.iter().filter(|item| is_part(item));

@@ -12,7 +12,7 @@ use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::finder::Finder;
-use crate::interpreter::programs::index::{EntryIndex, Index, LabelName, ProgramId};
+use crate::interpreter::programs::index::{EntryIndex, LabelName, ProgramId};
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
@@ -22,7 +22,9 @@ use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::run::step::ControlStep;
+use crate::interpreter::run::stack::CallStack;
+use crate::interpreter::run::state::State;
+use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::location::Location;
@@ -62,15 +64,18 @@ struct EffectReader<'a> {
     run: &'a Interpreter,
     effects: PossibleEffects,
     expanded: HashSet<String>,
+    /// Whether the block was executed, so that what the control refuses is reported.
+    was_executed: bool,
 }
 
 impl EffectReader<'_> {
-    fn blocks(&mut self, index: &Index, range: Range<EntryIndex>) {
+    fn blocks(&mut self, unit: usize, range: Range<EntryIndex>) {
+        let index = self.run.programs.index(unit);
         let Some(mut reader) = index.reader(range.start) else {
             return;
         };
         let mut block = Block::default();
-        let mut left = range.len();
+        let mut left = range.end.saturating_sub(range.start);
         while left > 0 && !self.run.is_exhausted() {
             let Some(raw) = reader.next(&mut block) else {
                 return;
@@ -78,6 +83,7 @@ impl EffectReader<'_> {
             if raw.stretch != Stretch::Block {
                 continue;
             }
+            self.was_executed = self.run.programs.was_read(unit, range.end - left);
             left -= 1;
             self.run.state.work.charge_region(ITEM + raw.text.len());
             let shown = ShownBlockLines::default();
@@ -101,7 +107,9 @@ impl EffectReader<'_> {
     fn item(&mut self, item: &Item, at: &BlockContext<'_>) {
         match item {
             Item::Comp(command) => {
-                self.effects.refused.extend(self.run.refusal_of(command, at));
+                let refused = self.run.refusal_of(command, at);
+                let refused = refused.filter(|_| !self.was_executed);
+                self.effects.refused.extend(refused);
                 let kinds = command.selection.kinds();
                 self.effects.switched.push((command.axis.clone(), kinds));
             }
@@ -222,7 +230,11 @@ impl EffectReader<'_> {
         let number = word.number.and_then(|number| u32::try_from(number).ok());
         if let Some(number) = number.filter(|_| word.letter == b'G')
             && GFunction::known(number).is_some_and(GFunction::is_call)
-            && !self.run.machine.harmless.has_function(b'G', i64::from(number))
+            && !self
+                .run
+                .machine
+                .harmless
+                .has_function(b'G', i64::from(number))
         {
             let wanted = WantedCall::of_word(number, Span::default());
             self.effects.calls.push(wanted);
@@ -342,6 +354,36 @@ impl Interpreter {
         }
     }
 
+    /// Passes over calls of programs that call themselves as deep as only the machine knows: two of their levels are
+    /// executed.
+    #[cold]
+    pub(crate) fn without_open_recursion(
+        &mut self,
+        calls: Vec<Request>,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        let (open, calls): (Vec<_>, Vec<_>) = calls
+            .into_iter()
+            .partition(|call| self.state.is_open_recursion(call.found));
+        for call in open {
+            let reach = self.state.track.reach.conditions().max();
+            let asked = reach.and_then(|it| self.state.conditions.get(it as usize));
+            let cause = asked.map_or(Unknown::Ways, |asked| asked.cause.clone());
+            let section = self.programs.section(call.found);
+            let blocks = section.start..section.end;
+            self.perhaps_execute(call.found.unit, blocks, &cause, finder);
+            let message = format!(
+                "how deep this program calls itself depends on {}; the call is passed over, and whatever it could \
+                 change is unknown",
+                cause.seen_from(at.file)
+            );
+            let fault = Fault::new(Code::Fc902, Span::new(0, at.text.trim_end().len()), message);
+            self.tell_once(&cause, "recursion", fault.with_help(cause.advice()), at);
+        }
+        calls
+    }
+
     /// Passes over blocks of the running program, and over those to which they may lead. Returns the block after them.
     pub(crate) fn pass_over_blocks(
         &mut self,
@@ -387,8 +429,9 @@ impl Interpreter {
             run: self,
             effects: PossibleEffects::default(),
             expanded: HashSet::new(),
+            was_executed: false,
         };
-        reader.blocks(self.programs.index(unit), blocks);
+        reader.blocks(unit, blocks);
         reader.effects
     }
 
@@ -415,10 +458,7 @@ impl Interpreter {
                     continue;
                 }
                 let caller = Caller { unit, file: &file };
-                match self
-                    .programs
-                    .find(wanted, caller, finder, &self.state.work)
-                {
+                match self.programs.find(wanted, caller, finder, &self.state.work) {
                     Ok(Some(program)) => {
                         let section = self.programs.section(program);
                         found.push((program.unit, section.start..section.end));
@@ -520,5 +560,21 @@ impl Interpreter {
         );
         let fault = Fault::new(Code::Fc901, span, message).with_help(cause.advice());
         self.tell_once(cause, "control block", fault, at);
+    }
+}
+
+impl State {
+    /// Whether a program calls itself once more on ways of which others wait in two of its calls.
+    fn is_open_recursion(&self, called: ProgramId) -> bool {
+        let depth = self.control.frames.depth();
+        let waits =
+            |frames: &CallStack| frames.depth() <= depth && frames.program() == Some(called);
+        let mut waiting = self.waiting.iter();
+        self.control.frames.is_running(called)
+            && waiting
+                .by_ref()
+                .filter(|path| waits(&path.control.frames))
+                .nth(1)
+                .is_some()
     }
 }

@@ -628,11 +628,6 @@ impl Memory {
         code.unwrap_or_else(|| Value::Text(name.into()))
     }
 
-    /// Rises with every change of the macros.
-    pub(crate) fn macro_version(&self) -> u64 {
-        self.macro_version.0
-    }
-
     /// The `V.S.` variables, which outlive programs.
     pub(crate) fn shared(&self) -> BTreeMap<String, Value> {
         let held = self.variables.held().into_iter();

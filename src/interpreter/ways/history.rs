@@ -481,15 +481,6 @@ impl History {
         }
     }
 
-    /// Joins the blocks of a way of which nothing else is known any more.
-    pub(crate) fn join_sites(&mut self, other: &Self) {
-        if self != other {
-            for (key, theirs) in &other.0 {
-                self.change(*key, |mine| mine.join_sites(theirs));
-            }
-        }
-    }
-
     /// The ways of each kind that are compared where ways meet.
     pub(crate) fn sets(&self) -> impl Iterator<Item = &WaySet> {
         self.0.values().flat_map(|kind| kind.sets())

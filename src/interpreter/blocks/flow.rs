@@ -113,7 +113,7 @@ impl Interpreter {
                     return Ok(None);
                 }
                 if let Value::Unknown(cause) = value {
-                    self.part_undecided(flow, (cause, span), at);
+                    self.part_at_unknown_case(flow, (cause, span), at);
                     None
                 } else {
                     self.state.control.seek(Seeking::Case(value));
@@ -125,7 +125,7 @@ impl Interpreter {
                     let value = self.value(*operand, at)?;
                     if let Value::Unknown(cause) = value {
                         self.state.control.seek(Seeking::Case(wanted));
-                        self.part_undecided(flow, (cause, span), at);
+                        self.part_at_unknown_case(flow, (cause, span), at);
                         None
                     } else if same_case(&wanted, &value) {
                         None

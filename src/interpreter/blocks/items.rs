@@ -229,7 +229,7 @@ impl Interpreter {
                 outcome.step = step.or_else(|fault| {
                     let cause = cause_of(&fault, at);
                     self.undecidable(*fault, at)?;
-                    self.part_undecided(flow, (cause, *span), at);
+                    self.pass_over_undecided(flow, (cause, *span), at);
                     Ok::<_, Box<Fault>>(None)
                 })?;
                 Ok(())

@@ -43,15 +43,20 @@ impl Interpreter {
         let Operand::Expression(expression) = condition else {
             return false;
         };
-        let [mut yes, mut no] = goals;
         let tested = self.tested_state(condition, at);
         if let Some((of, truth)) = tested {
-            let goals = match truth {
-                Truth::Holds => [yes, no],
-                Truth::Fails => [no, yes],
+            let sides = match truth {
+                Truth::Holds => goals.clone(),
+                Truth::Fails => {
+                    let [yes, no] = goals.clone();
+                    [no, yes]
+                }
             };
-            return self.part_by_state(of, goals);
+            if self.part_by_state(of, sides) {
+                return true;
+            }
         }
+        let [mut yes, mut no] = goals;
         for (goal, truth) in [(&mut yes, Truth::Holds), (&mut no, Truth::Fails)] {
             let found = conclusions(at.block, at.text, expression, truth);
             goal.values.extend(
@@ -226,9 +231,8 @@ impl Interpreter {
         self.part(question, goals, at);
     }
 
-    /// The run parts at a statement of a control block whose operands are not known: it may go on wherever the statement
-    /// can lead.
-    pub(crate) fn part_undecided(
+    /// The run parts at a `$SWITCH` whose cases are not known, or at such a case: it may go on at each of them.
+    pub(crate) fn part_at_unknown_case(
         &mut self,
         flow: &Flow,
         (cause, span): (Unknown, Span),
@@ -239,40 +243,17 @@ impl Interpreter {
         let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return;
         };
-        let index = self.programs.index(unit);
-        let links = index.is_linked(entry).then(|| index.links(entry));
-        let (kind, goals) = match (flow, links) {
-            (Flow::Goto(target), _) => {
-                let target = *target;
-                return self.part_at_target(&target, &cause, span, at);
-            }
-            (_, None) => return,
-            (Flow::If(_) | Flow::ElseIf(_), Some(links)) => {
-                let mut other = Goal::block(links.next);
-                other.seeking = (links.next != links.end).then_some(Seeking::Condition);
-                (ConditionKind::Branch, vec![Goal::block(next), other])
-            }
-            (Flow::Switch(..), Some(links)) => (ConditionKind::Case, self.each_case(unit, links)),
-            (Flow::Case(_), Some(links)) => {
+        let links = self.programs.index(unit).links(entry);
+        let goals = match flow {
+            Flow::Case(_) => {
                 let mut other = Goal::block(links.next);
                 let frame = self.state.control.frames.running_mut();
                 other.seeking = frame.and_then(|frame| frame.seeking.take());
-                (ConditionKind::Case, vec![Goal::block(next), other])
+                vec![Goal::block(next), other]
             }
-            (Flow::EndFor, Some(links)) => {
-                let goals = [links.opener + 1, next].map(Goal::block);
-                (ConditionKind::Loop, goals.into())
-            }
-            (Flow::EndDo(_) | Flow::Until(_), Some(links)) => {
-                let goals = [links.opener, next].map(Goal::block);
-                (ConditionKind::Loop, goals.into())
-            }
-            (_, Some(links)) => {
-                let goals = [next, links.end + 1].map(Goal::block);
-                (ConditionKind::Loop, goals.into())
-            }
+            _ => self.each_case(unit, links),
         };
-        self.part_by_cause(kind, (cause, span), goals, at);
+        self.part_by_cause(ConditionKind::Case, (cause, span), goals, at);
     }
 
     /// The blocks of the cases of a `$SWITCH`, whichever values they have, and the block after it.
@@ -536,18 +517,20 @@ impl Interpreter {
         let index = self.programs.index(unit);
         let section_end = self.programs.section(frame.program()).end;
         let is_marked = |entry: EntryIndex| index.skips.get(&entry) == Some(&level);
+        // A control block of which only a part has the mark is passed over (R2.51, R2.90).
+        let is_whole = |entry: EntryIndex| {
+            index.links.get(&entry).is_none_or(|links| {
+                [links.opener, links.next, links.end]
+                    .into_iter()
+                    .all(is_marked)
+            })
+        };
+        if !is_whole(entry) {
+            return false;
+        }
         let mut after = entry + 1;
-        while after < section_end && is_marked(after) {
+        while after < section_end && is_marked(after) && is_whole(after) {
             after += 1;
-        }
-        // A structure of which only a part has the mark is passed over (R2.51, R2.90).
-        let mut links = index.links.range(entry..after);
-        if !links.all(|(_, links)| is_marked(links.opener) && is_marked(links.end)) {
-            return false;
-        }
-        let mut links = index.links.range(entry..after);
-        if links.any(|(_, links)| !is_marked(links.next)) {
-            return false;
         }
         let marked = Marked {
             depth: self.state.control.frames.depth(),

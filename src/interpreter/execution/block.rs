@@ -16,6 +16,7 @@ use crate::interpreter::run::path::{Last, RunTrack};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, NextBlock, Request};
 use crate::interpreter::run::stopping::{ended_by, stops};
+use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::ways::block_site::BlockSite;
 use crate::interpreter::ways::history::KindEffect;
 use crate::interpreter::ways::words::limit_to;
@@ -142,7 +143,11 @@ impl Interpreter {
         let mut outcome = BlockOutcome::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
-        if !self.is_halted() {
+        let undecided = self.undecided_level(at.block);
+        if let Some(level) = undecided {
+            let whole = Span::new(0, at.text.trim_end().len());
+            self.pass_over_part(Unknown::SkipLevel(level), whole, at);
+        } else if !self.is_halted() {
             self.remembered_items(at, &mut outcome, limit);
         }
         self.look_at_motion(&outcome, at);

@@ -11,6 +11,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::RunOutcome;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, NextBlock};
+use crate::interpreter::unknown::branching::MAX_OPEN;
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
@@ -157,6 +158,9 @@ impl Interpreter {
     fn choose_way(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) {
         if !self.state.waiting.is_empty() && self.choose_path() {
             self.tell_joined(observer);
+        }
+        if self.state.waiting.len() > MAX_OPEN {
+            self.join_waiting();
         }
         if self.is_past_ways() {
             self.widen(finder);

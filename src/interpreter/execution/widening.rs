@@ -30,6 +30,27 @@ impl Interpreter {
         is_past || self.state.waiting.len() > MAX_OPEN
     }
 
+    /// Joins the ways that wait at the same block.
+    #[cold]
+    pub(crate) fn join_waiting(&mut self) {
+        let mine = self.state.leave_path();
+        let mut ways = self.state.waiting.take_all().into_iter().peekable();
+        while let Some(way) = ways.next() {
+            self.enter_path(way);
+            let is_here = |it: &Path| {
+                let frames = &self.state.control.frames;
+                it.control.frames.comes_before(frames).is_none()
+            };
+            let here: Vec<Path> = std::iter::from_fn(|| ways.next_if(is_here)).collect();
+            for other in here {
+                self.join_path(other);
+            }
+            let joined = self.state.leave_path();
+            self.state.waiting.push(joined);
+        }
+        self.enter_path(mine);
+    }
+
     /// Takes all ways to the end of the outermost control block that any of them is in, and reports what is unknown
     /// from there on (FC908).
     #[cold]

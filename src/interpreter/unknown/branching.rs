@@ -56,6 +56,7 @@ impl MachineQuestion {
 }
 
 /// Block at which a way continues.
+#[derive(Clone)]
 pub(crate) struct Goal {
     pub(crate) to: EntryIndex,
     pub(crate) seeking: Option<Seeking>,

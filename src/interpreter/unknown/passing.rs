@@ -45,6 +45,8 @@ use crate::text::{Place, Span};
 struct PossibleEffects {
     switched: Vec<(String, KindSet)>,
     written: BTreeSet<Location>,
+    /// Whether they could write any value.
+    writes_anything: bool,
     /// Names of macros that are defined.
     macros: BTreeSet<String>,
     calls: Vec<WantedCall>,
@@ -179,9 +181,37 @@ impl EffectReader<'_> {
                 let axes = self.run.perhaps_transferred(&hash.brackets, at.text);
                 self.effects.switched.extend(all(axes, KindSet::ALL));
             }
-            HashAction::PassOver | HashAction::Dwell | HashAction::Wait => {}
             HashAction::ReportError => self.effects.ends.push(at.place(hash.span)),
-            _ => self.effects.is_open = true,
+            HashAction::Declare | HashAction::Delete | HashAction::Initialise => {
+                self.effects.writes_anything = true;
+            }
+            HashAction::NamePrograms
+            | HashAction::EndModalCycles
+            | HashAction::RetainCycleChanges
+            | HashAction::ForgetMacros
+            | HashAction::Describe
+            | HashAction::EndDescription
+            | HashAction::DefineCoupling(_)
+            | HashAction::EnableCoupling
+            | HashAction::ReleaseCoupling
+            | HashAction::ReleaseCouplings
+            | HashAction::SaveConfig(_)
+            | HashAction::ChangeFile(_)
+            | HashAction::ExchangeAxes(_) => self.effects.is_open = true,
+            HashAction::PassOver
+            | HashAction::Comment
+            | HashAction::EndComment
+            | HashAction::EndDeclarations
+            | HashAction::Dwell
+            | HashAction::Wait
+            | HashAction::RealTimeLoop
+            | HashAction::EndRealTimeLoop
+            | HashAction::SkipBackward
+            | HashAction::Rotate
+            | HashAction::Override
+            | HashAction::SelectSpindle
+            | HashAction::Round(_)
+            | HashAction::SelectSlope(_) => {}
         }
         if hash.command.touches == Touches::Friction {
             let axes = self.run.axes_or_all(&hash.brackets, at.text);
@@ -316,13 +346,29 @@ impl Interpreter {
             return;
         };
         let whole = self.current_block();
-        self.tell_passed((&cause, span), at);
+        if !self.scratch.unread.get() {
+            self.tell_passed((&cause, span), at);
+        }
         self.scratch.passed.push(PassedBlocks {
             unit,
             blocks: whole.start..whole.end + 1,
             cause,
             goes_on_after: true,
         });
+    }
+
+    /// Passes over what a statement decides whose operands cannot be computed.
+    pub(crate) fn pass_over_undecided(
+        &mut self,
+        flow: &Flow,
+        (cause, span): (Unknown, Span),
+        at: &BlockContext<'_>,
+    ) {
+        if let Flow::Goto(target) = flow {
+            self.part_at_target(target, &cause, span, at);
+        } else {
+            self.pass_over_part(cause, span, at);
+        }
     }
 
     /// Passes over the call of a local subprogram, which may be any of the file.
@@ -487,6 +533,9 @@ impl Interpreter {
                 Ok(Addressed::Any | Addressed::Absent(None)) => self.havoc_any_axis(*kinds),
                 Err(_) => {}
             }
+        }
+        if effects.writes_anything {
+            self.havoc_memory(cause);
         }
         for target in &effects.written {
             self.write(target, unknown());

@@ -306,6 +306,7 @@ impl Interpreter {
         let Some(mut labels) = index.few_labels(frame.section, MAX_ANSWERS) else {
             if let Some(goal) = Goal::any(index.labels(frame.section).collect()) {
                 self.sides.push(goal.side(WaySet::always()));
+                self.tell_any_label(cause, span, at);
             }
             return;
         };
@@ -339,6 +340,19 @@ impl Interpreter {
             kept: None,
         };
         self.part(question, goals, at);
+    }
+
+    /// FC902: a jump that may go to any label of its program, on ways that are not told apart.
+    fn tell_any_label(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
+        if self.scratch.unread.get() {
+            return;
+        }
+        let message = format!(
+            "where this jump goes depends on {}; it may be any label of the program",
+            cause.seen_from(at.file)
+        );
+        let fault = Fault::new(Code::Fc902, span, message).with_help(cause.advice());
+        self.tell_once(cause, "label", fault, at);
     }
 
     /// The run parts where a probe answers, or does not (R2.91).

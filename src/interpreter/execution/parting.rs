@@ -71,13 +71,14 @@ impl Interpreter {
             return None;
         }
         let frames = &self.state.control.frames;
-        let (frame, asked) = (frames.running()?, frames.entry()?);
+        let frame = frames.running()?;
         let marked = sides.iter().find_map(|side| side.marked);
         let index = self.programs.index(frame.unit);
-        let entry = match marked {
-            Some(marked) => marked.after,
-            None if index.is_linked(asked) => index.links(asked).end + 1,
-            None => frame.next,
+        let asked = frames.entry().filter(|asked| index.is_linked(*asked));
+        let entry = match (marked, asked) {
+            (Some(marked), _) => marked.after,
+            (None, Some(asked)) => index.links(asked).end + 1,
+            (None, None) => frame.next,
         };
         Some(Meeting {
             depth: frames.depth(),

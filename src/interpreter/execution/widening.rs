@@ -182,7 +182,7 @@ impl Index {
 
 impl Path {
     /// The way when it reaches a block of the running program.
-    fn at(mut self, entry: EntryIndex) -> Self {
+    pub(crate) fn at(mut self, entry: EntryIndex) -> Self {
         if let Some(frame) = self.control.frames.running_mut() {
             frame.next = entry;
             frame.seeking = None;

@@ -53,8 +53,8 @@ pub(crate) struct PassedBlocks {
     pub(crate) blocks: Range<EntryIndex>,
     /// The value that decides whether they are executed.
     pub(crate) cause: Unknown,
-    /// Whether the run goes on after them.
-    pub(crate) goes_on_after: bool,
+    /// The message about them, where the run goes on after them.
+    pub(crate) said: Option<Diagnostic>,
 }
 
 /// Buffers that are used again for each block.

@@ -141,6 +141,14 @@ impl Interpreter {
         if self.options.follows_one_way() && question.kept.is_some() {
             return false;
         }
+        let is_unread = self.scratch.unread.get();
+        let frames = &self.state.control.frames;
+        if let Some((frame, entry)) = frames.running().zip(frames.entry()).filter(|_| is_unread)
+            && self.programs.index(frame.unit).is_linked(entry)
+        {
+            self.pass_over_part(question.cause, question.span, at);
+            return true;
+        }
         self.offered.clear();
         let offers = self.options.branches == Branches::Passed;
         if let Some(kept) = &question.kept
@@ -186,7 +194,7 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) -> Vec<WaySet> {
         let count = goals.len().min(MAX_ANSWERS);
-        if count < 2 || !self.state.can_ask() {
+        if count < 2 || self.scratch.unread.get() || !self.state.can_ask() {
             return vec![WaySet::always(); goals.len()];
         }
         let question = MachineQuestion {

@@ -4,13 +4,14 @@
 //! which only some parts have a skip mark; a program that may be in force as a modal cycle. The blocks are read, and
 //! what they name is unknown.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::effects::called_words::Configured;
+use crate::interpreter::execution::paths::of_axes;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, LabelName, ProgramId};
 use crate::interpreter::programs::store::Caller;
@@ -22,6 +23,8 @@ use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
+use crate::interpreter::run::path::Path;
+use crate::interpreter::run::shadow::Meeting;
 use crate::interpreter::run::stack::CallStack;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, Request};
@@ -40,6 +43,10 @@ use crate::syntax::ast::{
 use crate::syntax::{Fault, Stretch, VariableName, is_letter, is_program_number};
 use crate::text::{Place, Span};
 
+/// Most blocks elsewhere at which the run may go on after blocks that are passed over; with more, all of the program is
+/// passed over.
+const MAX_EXITS: usize = 8;
+
 /// What blocks could do, by their text.
 #[derive(Default)]
 struct PossibleEffects {
@@ -52,6 +59,8 @@ struct PossibleEffects {
     calls: Vec<WantedCall>,
     /// Whether they could change anything.
     is_open: bool,
+    couples: bool,
+    ends_cycles: bool,
     lets_plc_act: bool,
     jumps: Vec<LabelName>,
     /// Whether they may jump to any label.
@@ -142,7 +151,17 @@ impl EffectReader<'_> {
                 self.effects.written.insert(Location::Parameters);
             }
             Item::Flow(flow, _) => self.flow(flow, at),
-            Item::Sequence(_) => self.effects.is_open = true,
+            Item::Sequence(sequence) => {
+                let name = sequence.name.and_then(|name| self.program_name(name, at));
+                match name {
+                    Some(name) => {
+                        let span = at.in_block(sequence.span);
+                        let wanted = WantedCall::program(CallScope::Global, name, span);
+                        self.effects.calls.push(wanted);
+                    }
+                    None => self.effects.is_open = true,
+                }
+            }
             Item::Return(_) => self.effects.returns = true,
             Item::Unread(Unread::Spindle, _)
             | Item::Bracket { .. }
@@ -185,16 +204,16 @@ impl EffectReader<'_> {
             HashAction::Declare | HashAction::Delete | HashAction::Initialise => {
                 self.effects.writes_anything = true;
             }
+            HashAction::DefineCoupling(_)
+            | HashAction::EnableCoupling
+            | HashAction::ReleaseCoupling
+            | HashAction::ReleaseCouplings => self.effects.couples = true,
+            HashAction::EndModalCycles => self.effects.ends_cycles = true,
             HashAction::NamePrograms
-            | HashAction::EndModalCycles
             | HashAction::RetainCycleChanges
             | HashAction::ForgetMacros
             | HashAction::Describe
             | HashAction::EndDescription
-            | HashAction::DefineCoupling(_)
-            | HashAction::EnableCoupling
-            | HashAction::ReleaseCoupling
-            | HashAction::ReleaseCouplings
             | HashAction::SaveConfig(_)
             | HashAction::ChangeFile(_)
             | HashAction::ExchangeAxes(_) => self.effects.is_open = true,
@@ -346,14 +365,20 @@ impl Interpreter {
             return;
         };
         let whole = self.current_block();
-        if !self.scratch.unread.get() {
-            self.tell_passed((&cause, span), at);
-        }
+        let message = format!(
+            "how this control block is executed depends on {}; whatever it could change is unknown from here on",
+            cause.seen_from(at.file)
+        );
+        let fault = Fault::new(Code::Fc901, span, message).with_help(cause.advice());
+        let said = self
+            .state
+            .mentioned
+            .with_origin(at.diagnostic(fault), &cause, at);
         self.scratch.passed.push(PassedBlocks {
             unit,
             blocks: whole.start..whole.end + 1,
             cause,
-            goes_on_after: true,
+            said: Some(said),
         });
     }
 
@@ -382,7 +407,7 @@ impl Interpreter {
             unit,
             blocks: section.start..section.end,
             cause: cause.clone(),
-            goes_on_after: false,
+            said: None,
         });
         self.scratch.passed.extend(locals);
     }
@@ -391,12 +416,20 @@ impl Interpreter {
     #[inline]
     pub(crate) fn pass_over_parts(&mut self, outcome: &mut BlockOutcome, finder: &mut dyn Finder) {
         while let Some(passed) = self.scratch.passed.pop() {
-            if passed.goes_on_after {
-                let after = self.pass_over_blocks(passed.blocks, &passed.cause, finder);
-                outcome.step = Some(ControlStep::Jump(after));
-            } else {
-                self.perhaps_execute(passed.unit, passed.blocks, &passed.cause, finder);
-            }
+            let PassedBlocks {
+                unit,
+                blocks,
+                cause,
+                said,
+            } = passed;
+            let Some(said) = said else {
+                self.perhaps_execute(unit, blocks, &cause, finder);
+                continue;
+            };
+            let before = self.scratch.doubted.len();
+            let after = self.pass_over_blocks(blocks, &cause, finder);
+            outcome.step = Some(ControlStep::Jump(after));
+            self.tell_passed(&cause, before, said);
         }
     }
 
@@ -440,31 +473,63 @@ impl Interpreter {
         let Some(program) = self.state.control.frames.program() else {
             return blocks.end;
         };
-        let blocks = self.reached_from(program, blocks);
+        let (blocks, exits) = self.reached_from(program, blocks);
         self.perhaps_execute(program.unit, blocks.clone(), cause, finder);
+        for exit in exits {
+            self.perhaps_leave(exit, blocks.end, program.unit);
+        }
         blocks.end
     }
 
-    /// Blocks with all of each control block that they touch, and those to which they jump.
-    fn reached_from(&self, program: ProgramId, blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+    /// The run may go on at another block than the one after those that are passed over.
+    fn perhaps_leave(&mut self, exit: EntryIndex, after: EntryIndex, unit: usize) {
+        let mut way = Path {
+            control: self.state.control.clone(),
+            track: self.state.track.clone(),
+            parted: self.state.seq,
+        };
+        self.charge_copies(&way.control, &way.track.reach);
+        if self.options.follows_one_way() {
+            way.track.shadow.until.get_or_insert(Meeting {
+                depth: way.control.frames.depth(),
+                unit,
+                entry: after,
+            });
+        }
+        self.state.waiting.push(way.at(exit));
+    }
+
+    /// Blocks with all of each control block that they touch, and the blocks after them to which they jump or return.
+    fn reached_from(
+        &self,
+        program: ProgramId,
+        blocks: Range<EntryIndex>,
+    ) -> (Range<EntryIndex>, BTreeSet<EntryIndex>) {
         let index = self.programs.index(program.unit);
         let section = self.programs.section(program);
         let mut known = blocks;
         loop {
-            let mut whole = index.around(known.clone());
+            let whole = index.around(known.clone());
             let effects = self.possible_effects(program.unit, whole.clone());
             let jumps = effects.jumps.into_iter();
-            for to in jumps.filter_map(|name| index.label(program.section, name)) {
-                whole = whole.start.min(to)..whole.end.max(to);
-            }
+            let mut exits: BTreeSet<EntryIndex> = jumps
+                .filter_map(|name| index.label(program.section, name))
+                .collect();
             if effects.jumps_anywhere {
-                whole = section.start..section.end;
+                exits.extend(index.labels(program.section));
             }
             if effects.returns {
+                exits.insert(section.end);
+            }
+            let first = exits.first().map_or(whole.start, |to| whole.start.min(*to));
+            exits.retain(|to| *to > whole.end);
+            let mut whole = first..whole.end;
+            if exits.len() > MAX_EXITS {
                 whole.end = section.end;
+                exits.clear();
             }
             if whole == known || self.is_exhausted() {
-                return whole;
+                return (whole, exits);
             }
             known = whole;
         }
@@ -550,6 +615,12 @@ impl Interpreter {
         if effects.lets_plc_act {
             self.let_plc_act();
         }
+        if effects.couples {
+            self.havoc_couplings();
+        }
+        if effects.ends_cycles {
+            self.state.control.cycles.havoc();
+        }
         if effects.is_open {
             self.havoc_all(cause);
             self.state.control.cycles.havoc();
@@ -564,7 +635,7 @@ impl Interpreter {
         });
         for said in refused {
             self.may_end_at(Some(said.place.clone()), EndedBy::Error);
-            self.joined.push(said);
+            self.scratch.of_some_ways.push(said);
         }
         for place in effects.ends {
             self.may_end_at(Some(place), EndedBy::M30);
@@ -601,14 +672,33 @@ impl Interpreter {
         (self.state.control, self.state.track) = here;
     }
 
-    /// FC901: a control block that cannot be followed is passed over.
-    fn tell_passed(&mut self, (cause, span): (&Unknown, Span), at: &BlockContext<'_>) {
-        let message = format!(
-            "how this control block is executed depends on {}; whatever it could change is unknown from here on",
-            cause.seen_from(at.file)
-        );
-        let fault = Fault::new(Code::Fc901, span, message).with_help(cause.advice());
-        self.tell_once(cause, "control block", fault, at);
+    /// FC901: a control block that cannot be followed is passed over, which leaves kinds unknown.
+    fn tell_passed(&mut self, cause: &Unknown, before: usize, mut said: Diagnostic) {
+        let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
+        for (axis, doubted) in self.scratch.doubted.get(before..).unwrap_or_default() {
+            for kind in doubted.iter() {
+                let names = kinds.entry(kind).or_default();
+                let name = self.machine.axis(*axis).name.as_str();
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+        }
+        let named = kinds.iter().map(|(kind, axes)| of_axes(*kind, axes));
+        let named: Vec<String> = named.collect();
+        let is_new = !named.is_empty()
+            && !self.scratch.unread.get()
+            && self
+                .state
+                .mentioned
+                .is_new(cause, named.iter().cloned(), &said.place);
+        if is_new {
+            said.message.push_str(", including ");
+            said.message.push_str(&named.join(", "));
+            self.scratch.diagnostics.push(said);
+        } else {
+            self.scratch.aside.withheld.push(said);
+        }
     }
 }
 

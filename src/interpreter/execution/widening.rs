@@ -26,7 +26,7 @@ impl Interpreter {
     #[inline]
     pub(crate) fn is_past_ways(&self) -> bool {
         let is_past = self.state.work.ways() > self.options.limits.ways
-            && self.state.work.ways() > self.ways_bound();
+            && self.state.work.ways() > self.ways_bound() / 4 * (4 + self.state.widened);
         is_past || self.state.waiting.len() > MAX_OPEN
     }
 

@@ -169,7 +169,7 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
     (
         "interpreter",
         "unknown",
-        &["coordinates", "programs", "run", "values", "ways"],
+        &["programs", "run", "values", "ways"],
     ),
     ("interpreter", "values", &["ways"]),
     ("interpreter", "ways", &["values"]),

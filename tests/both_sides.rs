@@ -429,11 +429,11 @@ fn a_stable_variable_has_one_answer() {
 }
 
 #[test]
-fn no_way_is_chosen_where_motion_is_computed() {
-    // R14.8
+fn the_side_ways_have_no_row_where_motion_is_computed() {
+    // R14.8: all four blocks are executed.
     let text = "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     let options = Options::default().with_motions(Motions::Taken);
-    assert_eq!(rows(text, options), (2, 0));
+    assert_eq!(rows(text, options), (4, 0));
 }
 
 #[test]

@@ -2,9 +2,8 @@
 
 use super::reported::StopScope;
 use crate::diagnostic::Code;
-use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::call_sites::is_main_program;
-use crate::interpreter::programs::wanted::FunctionWord;
+use crate::interpreter::programs::wanted::{Configured, FunctionWord};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};

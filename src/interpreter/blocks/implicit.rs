@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::is_named_m;
-use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::file_names::{FileName, file_names};
-use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
+use crate::interpreter::programs::wanted::{Configured, FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;

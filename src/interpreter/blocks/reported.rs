@@ -166,6 +166,9 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
+        if self.scratch.unread.get() {
+            return;
+        }
         let asking = || Asking::of_unknown(Writer::Nothing, error.clone());
         let question = MachineQuestion {
             kind: ConditionKind::Stop,

@@ -4,7 +4,7 @@ use crate::comp::AxisIndex;
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::{Geometry, WordValue};
 use crate::interpreter::coordinates::motion::{
-    Arc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
+    Arc, BlockEnd, Centre, Motion, PathFeed, PathForm, Travel, Turn,
 };
 use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
 use crate::interpreter::run::block_scratch::BlockScratch;
@@ -99,7 +99,7 @@ impl Interpreter {
         let Some(from) = from else { return };
         let geometry = geometry.unwrap_or_default();
         let motion = self.motion(&geometry, from, words);
-        let is_taken = self.options.motions == Motions::Taken;
+        let is_taken = self.options.takes_motions();
         match motion {
             Some(Motion::Travel(travel)) if matches!(travel.form, PathForm::Arc(_)) => {
                 self.scratch.motion = is_taken.then(|| Motion::Travel(travel.clone()));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::axis_words::AxisWord;
-use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
+use crate::interpreter::coordinates::motion::BlockEnd;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::AxisNameMeaning;
@@ -475,8 +475,7 @@ impl Interpreter {
         }
         // The lint for switches during motion looks at arcs (R1.57).
         let is_arc = self.state.control.modal.functions.is_arc();
-        let start =
-            (is_arc || self.options.motions == Motions::Taken).then(|| self.state.control.stand());
+        let start = (is_arc || self.options.takes_motions()).then(|| self.state.control.stand());
         let before = outcome.radius.map(|_| self.ends());
         let coordinates = self.scratch.coordinates();
         let modal = &mut self.state.control.modal;

@@ -1,7 +1,7 @@
 //! Programs that words call, and the unknown state where the program is not known (R2.14, R2.75).
 
 use crate::diagnostic::Code;
-use crate::interpreter::programs::wanted::FunctionWord;
+use crate::interpreter::programs::wanted::{Configured, FunctionWord};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
@@ -9,16 +9,6 @@ use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::text::Span;
-
-/// Program configured for a word.
-pub(crate) enum Configured {
-    /// Nothing.
-    None,
-    /// A program.
-    Program(String),
-    /// A program, or none; the name depends on a value that only the machine knows.
-    Unknown(Unknown),
-}
 
 impl Interpreter {
     /// The program for a word, `G80`, `M6`, else for its letter.

@@ -10,7 +10,6 @@ use std::collections::BTreeMap;
 use super::endless::watches;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -22,7 +21,7 @@ use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::possible_state::{change_since, ways_of};
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
-use crate::interpreter::ways::words::limit_to;
+use crate::interpreter::ways::words::{limit_to, of_axes};
 use crate::language::Group;
 
 impl Interpreter {
@@ -136,8 +135,7 @@ impl Interpreter {
         }
         let [mine, theirs] = sides;
         let variables = mine.memory.differing_variables(&theirs.memory);
-        let has_moved =
-            self.options.motions == Motions::Taken && !self.state.track.shadow.moved.is_empty();
+        let has_moved = self.options.takes_motions() && !self.state.track.shadow.moved.is_empty();
         let others = [
             (
                 has_moved,
@@ -209,20 +207,6 @@ impl ControlState {
         }
         kinds
     }
-}
-
-/// Limit of the axes that a message names.
-const MAX_NAMED: usize = 8;
-
-/// The name of a kind of several axes in a message.
-pub(crate) fn of_axes(kind: Kind, axes: &[&str]) -> String {
-    let shown: Vec<String> = axes
-        .iter()
-        .take(MAX_NAMED)
-        .map(|it| format!("`{it}`"))
-        .collect();
-    let more = if axes.len() > MAX_NAMED { " …" } else { "" };
-    format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
 }
 
 /// Whether two ways differ in G functions other than that of the motion.

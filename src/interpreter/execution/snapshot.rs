@@ -67,7 +67,7 @@ pub enum ResumeError {
 
 impl Snapshot {
     /// The number of the format that is written and read.
-    pub const SCHEMA: u32 = 14;
+    pub const SCHEMA: u32 = 15;
 
     /// The number of the format that the snapshot has.
     pub fn schema(&self) -> u32 {

@@ -77,6 +77,9 @@ impl<'a> Trust<'a> {
         )?;
         let named = track.reach.conditions().chain(track.readings.conditions());
         self.check_conditions(named)?;
+        let axes = self.machine.axes.len();
+        let moved = track.shadow.moved.iter().all(|axis| axis.get() < axes);
+        holds(moved, "a motion of another axis")?;
         let readings = track.readings.fit();
         holds(readings, "a condition with too many answers")?;
         track

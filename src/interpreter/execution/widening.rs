@@ -8,7 +8,6 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use super::paths::of_axes;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
@@ -17,6 +16,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Last, Path};
 use crate::interpreter::unknown::branching::MAX_OPEN;
 use crate::interpreter::values::cause::Unknown;
+use crate::interpreter::ways::words::of_axes;
 
 /// Most values that the advice names.
 const MAX_NAMED: usize = 3;
@@ -164,7 +164,7 @@ impl Interpreter {
 
 impl Index {
     /// A range of blocks with all of each control block that it touches.
-    pub(crate) fn around(&self, mut blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+    fn around(&self, mut blocks: Range<EntryIndex>) -> Range<EntryIndex> {
         loop {
             let mut whole = blocks.clone();
             for links in self.links.values() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::index::LabelName;
-use crate::interpreter::values::cause::MissingProgram;
+use crate::interpreter::values::cause::{MissingProgram, Unknown};
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::Span;
@@ -31,6 +31,16 @@ impl FunctionWord {
             ..self
         }
     }
+}
+
+/// Program configured for a word.
+pub(crate) enum Configured {
+    /// Nothing.
+    None,
+    /// A program.
+    Program(String),
+    /// A program, or none; the name depends on a value that only the machine knows.
+    Unknown(Unknown),
 }
 
 /// A call whose program has not been looked for yet.

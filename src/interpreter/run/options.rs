@@ -57,7 +57,12 @@ pub struct Options {
 impl Options {
     /// Whether events are raised on one way only, and the others are its shadows (R14.8).
     pub(crate) fn follows_one_way(&self) -> bool {
-        self.branches == Branches::Passed || self.motions == Motions::Taken
+        self.branches == Branches::Passed || self.takes_motions()
+    }
+
+    /// Whether blocks report their motion.
+    pub(crate) fn takes_motions(&self) -> bool {
+        self.motions == Motions::Taken
     }
 
     /// Sets [`stop`](Self::stop).

@@ -10,12 +10,10 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::effects::called_words::Configured;
-use crate::interpreter::execution::paths::of_axes;
 use crate::interpreter::programs::finder::Finder;
-use crate::interpreter::programs::index::{EntryIndex, LabelName, ProgramId};
+use crate::interpreter::programs::index::{EntryIndex, Index, LabelName, ProgramId};
 use crate::interpreter::programs::store::Caller;
-use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
+use crate::interpreter::programs::wanted::{Configured, FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::block_scratch::{OwnEnd, PassedBlocks};
 use crate::interpreter::run::channel_axes::Addressed;
@@ -35,6 +33,7 @@ use crate::interpreter::values::plain::subscript;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::set::WaySet;
+use crate::interpreter::ways::words::of_axes;
 use crate::language::{GFunction, HashAction, Touches};
 use crate::syntax::ast::{
     Address, Block, BlockReference, CallName, CallScope, Effect as Unread, Expression, Flow, Hash,
@@ -63,6 +62,8 @@ struct PossibleEffects {
     ends_cycles: bool,
     lets_plc_act: bool,
     jumps: Vec<LabelName>,
+    /// Blocks to which they leave loops and cases.
+    leaves: Vec<EntryIndex>,
     /// Whether they may jump to any label.
     jumps_anywhere: bool,
     returns: bool,
@@ -75,8 +76,8 @@ struct EffectReader<'a> {
     run: &'a Interpreter,
     effects: PossibleEffects,
     expanded: HashSet<String>,
-    /// Whether the block was executed, so that what the control refuses is reported.
-    was_executed: bool,
+    /// The block that is read.
+    place: (usize, EntryIndex),
 }
 
 impl EffectReader<'_> {
@@ -94,7 +95,7 @@ impl EffectReader<'_> {
             if raw.stretch != Stretch::Block {
                 continue;
             }
-            self.was_executed = self.run.programs.was_read(unit, range.end - left);
+            self.place = (unit, range.end - left);
             left -= 1;
             self.run.state.work.charge_region(ITEM + raw.text.len());
             let shown = ShownBlockLines::default();
@@ -119,7 +120,9 @@ impl EffectReader<'_> {
         match item {
             Item::Comp(command) => {
                 let refused = self.run.refusal_of(command, at);
-                let refused = refused.filter(|_| !self.was_executed);
+                // What is executed is reported there.
+                let (unit, entry) = self.place;
+                let refused = refused.filter(|_| !self.run.programs.was_read(unit, entry));
                 self.effects.refused.extend(refused);
                 let kinds = command.selection.kinds();
                 self.effects.switched.push((command.axis.clone(), kinds));
@@ -183,6 +186,14 @@ impl EffectReader<'_> {
                 self.effects.jumps.push(LabelName::numbered(*number));
             }
             Flow::Goto(_) => self.effects.jumps_anywhere = true,
+            Flow::Break | Flow::Continue => {
+                let (unit, entry) = self.place;
+                let index = self.run.programs.index(unit);
+                if index.is_linked(entry) {
+                    let after = EntryIndex::from(matches!(flow, Flow::Break));
+                    self.effects.leaves.push(index.links(entry).end + after);
+                }
+            }
             _ => {}
         }
     }
@@ -509,7 +520,7 @@ impl Interpreter {
         let section = self.programs.section(program);
         let mut known = blocks;
         loop {
-            let whole = index.around(known.clone());
+            let whole = index.completed(known.clone());
             let effects = self.possible_effects(program.unit, whole.clone());
             let jumps = effects.jumps.into_iter();
             let mut exits: BTreeSet<EntryIndex> = jumps
@@ -521,6 +532,7 @@ impl Interpreter {
             if effects.returns {
                 exits.insert(section.end);
             }
+            exits.extend(effects.leaves);
             let first = exits.first().map_or(whole.start, |to| whole.start.min(*to));
             exits.retain(|to| *to > whole.end);
             let mut whole = first..whole.end;
@@ -540,7 +552,7 @@ impl Interpreter {
             run: self,
             effects: PossibleEffects::default(),
             expanded: HashSet::new(),
-            was_executed: false,
+            place: (unit, blocks.start),
         };
         reader.blocks(unit, blocks);
         reader.effects
@@ -715,5 +727,23 @@ impl State {
                 .filter(|path| waits(&path.control.frames))
                 .nth(1)
                 .is_some()
+    }
+}
+
+impl Index {
+    /// Blocks with all of each control block of which they have a part.
+    fn completed(&self, mut blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+        loop {
+            let mut whole = blocks.clone();
+            for links in self.links.values() {
+                if whole.contains(&links.opener) != whole.contains(&links.end) {
+                    whole = whole.start.min(links.opener)..whole.end.max(links.end + 1);
+                }
+            }
+            if whole == blocks {
+                return blocks;
+            }
+            blocks = whole;
+        }
     }
 }

@@ -372,3 +372,21 @@ impl BlockCondition {
         seen_from((&self.file, self.line), file)
     }
 }
+
+/// Limit of the axes that a message names.
+const MAX_NAMED_AXES: usize = 8;
+
+/// The name of a kind of several axes in a message.
+pub(crate) fn of_axes(kind: Kind, axes: &[&str]) -> String {
+    let shown: Vec<String> = axes
+        .iter()
+        .take(MAX_NAMED_AXES)
+        .map(|it| format!("`{it}`"))
+        .collect();
+    let more = if axes.len() > MAX_NAMED_AXES {
+        " …"
+    } else {
+        ""
+    };
+    format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
+}

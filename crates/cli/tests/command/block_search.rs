@@ -1,6 +1,6 @@
 //! Programs that are started at a block: `run --from`, under every reading (R2.96).
 
-use crate::folder::Bench;
+use crate::folder::{Bench, json};
 
 /// X is switched off before N100, Y is switched off and on again.
 const PROGRAM: &str = "N10 X[COMP OFF FRICT]\nN20 G01 X10 F1000\nN30 Y[COMP OFF FRICT]\n\
@@ -32,7 +32,7 @@ fn started(bench: &Bench, from: &str) -> (Option<i32>, String) {
 fn rows(bench: &Bench, from: &str) -> Vec<String> {
     let output = bench.call(&["run", "--format", "ndjson", "--from", from, "p.nc"]);
     let text = String::from_utf8(output.stdout).expect("text");
-    let records = text.lines().map(folder::json);
+    let records = text.lines().map(json);
     let blocks = records.filter(|record| record["record"] == "block");
     let state = |record: &serde_json::Value, axis: &str| {
         record["friction"][axis].as_str().unwrap_or("-").to_owned()

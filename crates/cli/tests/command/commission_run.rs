@@ -13,7 +13,7 @@ use std::process::{Command, Output};
 use std::sync::LazyLock;
 
 use crate::learn::machine::{self, PITCH_MM};
-use crate::plant::Bench;
+use crate::plant::{Bench, Recorded};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_host::sha256_of;
 use frictcomp_physics::circle::{Circle, CircularTest, Direction, LapRun, Method};
@@ -96,7 +96,7 @@ fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
 
 /// A recording of the constant speeds of X or Y, with its friction multiplied.
 fn friction(axis: usize, factor: f64) -> String {
-    static TRACKS: LazyLock<[plant::Recorded; 2]> = LazyLock::new(|| {
+    static TRACKS: LazyLock<[Recorded; 2]> = LazyLock::new(|| {
         let folder = planned();
         let programs = ["m/01-friction-X.nc", "m/02-friction-Y.nc"];
         [0, 1].map(|axis| constant_speeds(folder.path(), (programs[axis], axis)))
@@ -105,7 +105,7 @@ fn friction(axis: usize, factor: f64) -> String {
 }
 
 /// The constant speeds of X or Y as a program commands them, recorded on a bench.
-fn constant_speeds(folder: &Path, (program, axis): (&str, usize)) -> plant::Recorded {
+fn constant_speeds(folder: &Path, (program, axis): (&str, usize)) -> Recorded {
     let rows = driven(folder, program);
     let speeds: Vec<f64> = rows.iter().map(|it| it[axis + 2]).collect();
     let bench = Bench {
@@ -117,7 +117,7 @@ fn constant_speeds(folder: &Path, (program, axis): (&str, usize)) -> plant::Reco
 }
 
 /// A recording as a file, with its friction multiplied.
-fn torque(recorded: &plant::Recorded, factor: f64) -> String {
+fn torque(recorded: &Recorded, factor: f64) -> String {
     let mut text = String::from("t,v,x,torque\n");
     for at in 0..recorded.t.len() {
         let torque = (recorded.torque[at] * factor).round();

@@ -25,7 +25,7 @@ mod commission_run;
 mod contour;
 mod docs;
 mod explain;
-mod faults;
+mod failing_calls;
 #[path = "../folder/mod.rs"]
 mod folder;
 mod friction_states;

@@ -5,7 +5,7 @@ use std::process::Child;
 use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 
-use crate::folder::Bench;
+use crate::folder::{Bench, MACHINE};
 
 /// Longer than a check takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -98,7 +98,7 @@ fn a_save_checks_what_it_reaches() {
     // A mistake in the configuration does not end it.
     bench.write("frictcomp.toml", "[machin]\n");
     watching.settle();
-    bench.write("frictcomp.toml", folder::MACHINE);
+    bench.write("frictcomp.toml", MACHINE);
     watching.settle();
     assert_eq!(watching.printed().len(), 2);
 }

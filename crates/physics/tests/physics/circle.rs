@@ -221,7 +221,7 @@ fn without_friction_the_circle_shrinks_as_the_linear_loop_says() {
     for drive in [&mut test.plant.x, &mut test.plant.y] {
         drive.velocity_forward = 1.0;
     }
-    let path = crate::figures(&test, Switched::Off).ccw.expect("a path");
+    let path = self::figures(&test, Switched::Off).ccw.expect("a path");
     assert!(path.d_um.expect("D").abs() < 0.1 * shrink.abs(), "{path:?}");
 }
 

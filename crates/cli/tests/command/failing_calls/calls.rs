@@ -68,7 +68,7 @@ static SHIM: LazyLock<Option<(tempfile::TempDir, PathBuf)>> = LazyLock::new(|| {
         .arg(&shim)
         .arg(concat!(
             env!("CARGO_MANIFEST_DIR"),
-            "/tests/command/faults/shim.c"
+            "/tests/command/failing_calls/shim.c"
         ))
         .arg("-ldl")
         .status();

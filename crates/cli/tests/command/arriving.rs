@@ -1,20 +1,16 @@
 //! Programs from a pipe: they run while they arrive, with the same output as from a file.
 
-use crate::workspace::root;
+use crate::folder::command;
+use crate::workspace::{files, root};
 use std::io::{BufRead, BufReader, Read, Write};
-use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 /// No program of the tests needs more blocks; some never end.
 const BUDGET: [&str; 2] = ["--max-blocks", "2000"];
 
 fn tool() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
-    command
-        .current_dir(root())
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null());
+    let mut command = command(root(), &[]);
+    command.stdin(Stdio::piped()).stderr(Stdio::null());
     command
 }
 
@@ -35,23 +31,6 @@ fn output(arguments: &[&str], input: &[u8]) -> String {
     child.wait().expect("it ends");
     writer.join().expect("it wrote or was refused");
     text
-}
-
-fn programs(folder: &str) -> Vec<PathBuf> {
-    let mut folders = vec![root().join(folder)];
-    let mut found = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "nc") {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
 }
 
 #[test]
@@ -97,9 +76,9 @@ fn a_program_from_a_pipe_says_what_it_says_from_a_file() {
     std::fs::write(&machine, axes.concat()).expect("written");
     let machine = machine.to_str().expect("UTF-8");
     let mut compared = 0;
-    for path in programs("programs/ok")
+    for path in files("programs/ok", &["nc"])
         .into_iter()
-        .chain(programs("programs/err"))
+        .chain(files("programs/err", &["nc"]))
     {
         let input = std::fs::read(&path).expect("a program");
         let shown = path.strip_prefix(root()).expect("below the root");

@@ -1,6 +1,6 @@
 //! Programs that are started at a block: `run --from`, under every reading (R2.96).
 
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, one_line};
 
 /// X is switched off before N100, Y is switched off and on again.
 const PROGRAM: &str = "N10 X[COMP OFF FRICT]\nN20 G01 X10 F1000\nN30 Y[COMP OFF FRICT]\n\
@@ -58,7 +58,7 @@ fn both_readings_are_shown_where_they_differ() {
         // The way continues to the end of the program.
         "if the block search executes what it passes",
     ] {
-        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let text = one_line(&text);
         assert!(text.contains(wanted), "{wanted}: {text}");
     }
     assert!(!text.contains("axis `Y`"), "{text}");
@@ -128,7 +128,7 @@ fn a_condition_before_the_block_and_the_search_are_ways_together() {
     let program =
         "N10 $IF V.E.A == 1\nN20 X[COMP OFF FRICT]\nN30 $ENDIF\nN40 G01 X1 F100\nN50 M30\n";
     let text = started(&bench(program, None), "N40").1;
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = one_line(&text);
     assert!(
         text.contains("if V.E.A == 1 (line 1) and the block search executes what it passes"),
         "{text}"

@@ -3,17 +3,14 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
+use crate::folder::{call, one_line};
 use crate::workspace::root;
 use serde_json::Value;
 
 fn tool(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(root())
-        .args(arguments)
-        .output()
-        .expect("the tool starts")
+    call(root(), arguments)
 }
 
 fn json(arguments: &[&str]) -> Value {
@@ -127,7 +124,7 @@ fn a_circle_that_is_too_fast_says_what_is_not() {
     assert_eq!(document["glitches_up_to"]["feed_mm_min"], 785.0);
     assert_eq!(document["glitches_up_to"]["radius_mm"], 6.4);
     let said = String::from_utf8(tool(&fast).stdout).expect("text");
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = one_line(&said);
     let words = "a feed of 785 mm/min or less or a radius of 6.4 mm and more gives figures";
     assert!(said.contains(words), "{said}");
 }

@@ -1,22 +1,11 @@
 //! The command line from outside: features without a dry run.
 
+use crate::folder::{call, command, stderr, stdout};
 use crate::workspace::root;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 fn frictcomp(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .expect("the tool starts")
-}
-
-fn stdout(output: &Output) -> &str {
-    std::str::from_utf8(&output.stdout).expect("text")
-}
-
-fn stderr(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).expect("text")
+    call(root(), arguments)
 }
 
 /// The output of a call that must fail with status 2 and print nothing on stdout.
@@ -24,7 +13,7 @@ fn refused(arguments: &[&str]) -> String {
     let output = frictcomp(arguments);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     assert_eq!(stdout(&output), "", "{arguments:?}");
-    stderr(&output).to_owned()
+    stderr(&output)
 }
 
 #[test]
@@ -116,7 +105,7 @@ fn an_earlier_word_is_answered_with_the_present_one() {
 fn the_tool_alone_prints_its_commands_in_five_groups() {
     // R9.85
     let output = frictcomp(&[]);
-    let list = stderr(&output).to_owned() + stdout(&output);
+    let list = stderr(&output) + &stdout(&output);
     assert_eq!(list, stdout(&frictcomp(&["-h"])));
     let headings = list.lines().filter(|line| line.ends_with(':'));
     assert_eq!(
@@ -225,17 +214,18 @@ fn colours_are_for_terminals() {
 fn text_has_the_width_that_was_asked_for() {
     // R9.72
     let folder = tempfile::tempdir().expect("a folder");
-    let program = folder.path().join("a.nc");
-    std::fs::write(&program, "N10 X[COMP ON FRICT]\nN20 M30\n").expect("written");
+    let program = "N10 X[COMP ON FRICT]\nN20 M30\n";
+    std::fs::write(folder.path().join("a.nc"), program).expect("written");
     let widest = |arguments: &[&str], columns: Option<&str>| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
-        command.args(arguments).arg("--isolated").arg(&program);
+        let mut command = command(folder.path(), arguments);
+        command.args(["--isolated", "a.nc"]);
         match columns {
             Some(columns) => command.env("COLUMNS", columns),
             None => command.env_remove("COLUMNS"),
         };
         let output = command.output().expect("the tool starts");
-        let lines = stdout(&output).lines().map(|line| line.chars().count());
+        let text = stdout(&output);
+        let lines = text.lines().map(|line| line.chars().count());
         lines.max().expect("a line")
     };
     let hundred = widest(&["check"], None);
@@ -249,10 +239,7 @@ fn text_has_the_width_that_was_asked_for() {
 #[test]
 fn a_closed_pipe_is_quiet() {
     // R9.26
-    let mut child = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .args(["completions", "zsh"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
+    let mut child = command(root(), &["completions", "zsh"])
         .spawn()
         .expect("the tool starts");
     drop(child.stdout.take());

@@ -1,8 +1,8 @@
 //! `frictcomp commission` from the command line (chapter 16 of the rules).
 
 use std::path::Path;
-use std::process::Command;
 
+use crate::folder::{answer, call};
 use frictcomp_recordings::commission::signature_in;
 
 const MACHINE: &str = r#"
@@ -67,23 +67,8 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// The exit status and the whole output, with blanks and line breaks merged.
-fn call(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the tool starts");
-    let said = [output.stdout, output.stderr].concat();
-    let said = String::from_utf8_lossy(&said).into_owned();
-    (
-        output.status.code(),
-        said.split_whitespace().collect::<Vec<_>>().join(" "),
-    )
-}
-
 fn commission(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    call(folder, &[&["commission"], arguments].concat())
+    answer(folder, &[&["commission"], arguments].concat())
 }
 
 fn programs(folder: &Path) -> Vec<String> {
@@ -98,20 +83,15 @@ fn programs(folder: &Path) -> Vec<String> {
 
 /// The columns of the commanded trace of a program, in mm and mm/s: positions and speeds of X and Y.
 fn driven(folder: &Path, program: &str) -> [Vec<f64>; 4] {
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .args([
-            "current",
-            program,
-            "--axis",
-            "X,Y",
-            "--start",
-            "X30,Y-20",
-            "--cycle-time-ms",
-            "4",
-        ])
-        .output()
-        .expect("the tool starts");
+    let axes = [
+        "--axis",
+        "X,Y",
+        "--start",
+        "X30,Y-20",
+        "--cycle-time-ms",
+        "4",
+    ];
+    let output = call(folder, &[&["current", program], &axes[..]].concat());
     assert_eq!(
         output.status.code(),
         Some(0),
@@ -173,9 +153,9 @@ fn programs_stay_in_the_travel_and_carry_their_number() {
     let (status, said) = commission(folder.path(), &[&SMALL[..], &lists].concat());
     assert_eq!(status, Some(0), "{said}");
     for stage in ["one", "two"] {
-        let (status, said) = call(folder.path(), &["check", "--fail-on", "info", stage]);
+        let (status, said) = answer(folder.path(), &["check", "--fail-on", "info", stage]);
         assert_eq!(status, Some(0), "{said}");
-        let (status, said) = call(folder.path(), &["audit", stage]);
+        let (status, said) = answer(folder.path(), &["audit", stage]);
         assert!(
             status == Some(0) && said.contains("in no order does one move an axis"),
             "{said}"
@@ -300,7 +280,7 @@ fn an_axis_alone_has_strokes() {
         programs(&folder.path().join("c")),
         ["01-friction-C.nc", "02-strokes-C.nc"]
     );
-    let (status, said) = call(folder.path(), &["check", "--fail-on", "info", "c"]);
+    let (status, said) = answer(folder.path(), &["check", "--fail-on", "info", "c"]);
     assert_eq!(status, Some(0), "{said}");
     let text = std::fs::read_to_string(folder.path().join("c/02-strokes-C.nc")).expect("a program");
     assert!(

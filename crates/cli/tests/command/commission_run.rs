@@ -9,17 +9,17 @@ mod strokes;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::{Command, Output};
 use std::sync::LazyLock;
 
+use crate::folder::{answer, call, succeeded};
 use crate::learn::machine::{self, PITCH_MM};
-use crate::plant::{Bench, Recorded};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_host::sha256_of;
 use frictcomp_physics::circle::{Circle, CircularTest, Direction, LapRun, Method};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
 use frictcomp_testing::planned_circles;
+use frictcomp_testing::recorded_drive::{Bench, Recorded};
 
 const AXIS: &str = "frict_comp = true\nvalue_list = \"zero.lis\"\nmax_velocity = 20000\nmax_acceleration = 2\nmax_jerk = 50\n";
 
@@ -37,20 +37,6 @@ const PLAN: [&str; 13] = planned_circles("2000,3000,4000,5000", "40");
 
 const FEEDS: [f64; 4] = [2000.0, 3000.0, 4000.0, 5000.0];
 
-fn call(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the tool starts")
-}
-
-fn said(output: &Output) -> String {
-    let bytes = [&output.stdout[..], &output.stderr[..]].concat();
-    let text = String::from_utf8_lossy(&bytes).into_owned();
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
 /// A folder with the machine and the programs of stage 1 in `m`.
 fn planned() -> tempfile::TempDir {
     planned_with(&PLAN)
@@ -62,8 +48,7 @@ fn planned_with(plan: &[&str]) -> tempfile::TempDir {
     let machine = format!("[[axis]]\nname = \"X\"\n{AXIS}[[axis]]\nname = \"Y\"\n{AXIS}");
     std::fs::write(folder.path().join("frictcomp.toml"), machine).expect("a machine");
     std::fs::write(folder.path().join("zero.lis"), ZERO).expect("a list");
-    let output = call(folder.path(), &[plan, &["m"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder.path(), &[plan, &["m"]].concat());
     std::fs::create_dir(folder.path().join("m/recordings")).expect("a folder");
     folder
 }
@@ -73,15 +58,13 @@ fn put(folder: &Path, name: &str, text: &str) {
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let output = call(folder, &[&["commission", "run", "m"], arguments].concat());
-    (output.status.code(), said(&output))
+    answer(folder, &[&["commission", "run", "m"], arguments].concat())
 }
 
 /// Positions of X and Y in mm and their speeds in mm/s as a program commands them, one row per ms.
 fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
     let arguments = ["--axis", "X,Y", "--start", "X50,Y0", "--cycle-time-ms", "1"];
-    let output = call(folder, &[&["current", program], &arguments[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let output = succeeded(folder, &[&["current", program], &arguments[..]].concat());
     let text = String::from_utf8(output.stdout).expect("text");
     let head: Vec<&str> = text.lines().next().expect("a head").split(',').collect();
     let columns = [("x.X", 1e-4), ("x.Y", 1e-4), ("v.X", 1e-3), ("v.Y", 1e-3)];
@@ -372,8 +355,7 @@ fn first_stage(folder: &Path) {
 /// The provisional lists are the friction of the machine; circles without and with them are recorded.
 fn second_stage(folder: &Path) {
     let lists = ["X", "Y"].map(|axis| provisional(folder, axis));
-    let output = call(folder, &["lists", &lists[0]]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder, &["lists", &lists[0]]);
     // Fc 512.5 N, Fs 632.5 N, fv 4 N s/mm at 5 N a drive unit.
     let list = list_in(&folder.join(&lists[0]));
     assert!(list.table.len() > 4);
@@ -387,8 +369,7 @@ fn second_stage(folder: &Path) {
     }
     let [x, y] = [0, 1].map(|at| format!("{}={}", ["X", "Y"][at], lists[at]));
     let stage_2 = [&PLAN[..], &["m", "--value-list", &x, "--value-list", &y]].concat();
-    let output = call(folder, &stage_2);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder, &stage_2);
     for (at, feed) in FEEDS.into_iter().enumerate() {
         let off = format!("m/{:02}-circle-{feed}.nc", at + 3);
         put(
@@ -430,8 +411,7 @@ fn one_feed_without_effect(folder: &Path) {
 fn other_recordings(folder: &Path) {
     // Other lists are another round: no recording of round 2 is mistaken for one of round 3.
     let zero = ["--value-list", "X=zero.lis", "--value-list", "Y=zero.lis"];
-    let output = call(folder, &[&PLAN[..], &["m"], &zero[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder, &[&PLAN[..], &["m"], &zero[..]].concat());
     let (_, text) = run(folder, &[]);
     assert!(
         !text.contains("round 3") && text.contains("missing: a recording of 82-circle-2000.nc"),

@@ -10,7 +10,7 @@ mod versions;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, succeeded};
 use crate::workspace::root;
 use serde_json::Value;
 
@@ -401,21 +401,15 @@ fn the_picture_of_the_documents_is_what_the_tool_draws() {
     // R11.5; `UPDATE_DOCS=1` draws it again.
     let folder = tempfile::tempdir().expect("a folder");
     let drawn = folder.path().join("contour.svg");
-    let status = std::process::Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(root())
-        .args([
-            "contour",
-            "programs/demo/contour/plate.nc",
-            "--start",
-            "X0,Y0,Z10",
-            "--svg",
-        ])
-        .arg(&drawn)
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::null())
-        .status()
-        .expect("the tool starts");
-    assert!(status.success());
+    let program = [
+        "contour",
+        "programs/demo/contour/plate.nc",
+        "--start",
+        "X0,Y0,Z10",
+        "--svg",
+    ];
+    let picture = drawn.to_str().expect("a name in UTF-8");
+    succeeded(root(), &[&program[..], &[picture]].concat());
     let drawn = std::fs::read_to_string(drawn).expect("a picture");
     let kept = root().join("docs/assets/contour.svg");
     if std::env::var_os("UPDATE_DOCS").is_some() {

@@ -4,10 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
-use crate::workspace::files;
-use crate::workspace::root;
+use crate::folder::{call, stderr, stdout};
+use crate::workspace::{files, root};
 use frictcomp::documents::RULES;
 use frictcomp_report::assumptions::{Chapter, chapters};
 
@@ -73,14 +72,8 @@ fn play(command: &str, project: &Path) -> String {
     } else {
         folder
     };
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .args(words)
-        .stdin(Stdio::null())
-        .output()
-        .expect("the tool starts");
-    let mut text = String::from_utf8(output.stdout).expect("text");
-    text.push_str(&String::from_utf8(output.stderr).expect("text"));
+    let output = call(folder, &words.collect::<Vec<_>>());
+    let mut text = [stdout(&output), stderr(&output)].concat();
     match output.status.code() {
         Some(0) => {}
         Some(status) => writeln!(text, "? {status}").expect("text"),

@@ -1,15 +1,12 @@
 //! `frictcomp explain` answers for every word that a user meets.
 
-use std::process::Command;
+use crate::folder::{call, stderr, stdout};
+use crate::workspace::root;
 
 /// What `explain` prints, and its exit status.
 fn explain(word: &str) -> (String, i32) {
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .args(["explain", word])
-        .output()
-        .expect("the tool starts");
-    let text = [output.stdout, output.stderr].concat();
-    let text = String::from_utf8(text).expect("text");
+    let output = call(root(), &["explain", word]);
+    let text = [stdout(&output), stderr(&output)].concat();
     (text, output.status.code().expect("a status"))
 }
 

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::Command;
 
+use crate::folder::answer;
 use crate::workspace::root;
 
 const CHANNELS: [&str; 4] = ["--velocity", "SetVelo", "--torque", "ActTorque"];
@@ -40,17 +40,7 @@ fn folder(files: &[(&str, f64, f64)]) -> tempfile::TempDir {
 }
 
 fn call(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .args(arguments)
-        .args(CHANNELS)
-        .output()
-        .expect("the tool starts");
-    let said = String::from_utf8([output.stdout, output.stderr].concat()).expect("text");
-    (
-        output.status.code(),
-        said.split_whitespace().collect::<Vec<_>>().join(" "),
-    )
+    answer(folder, &[arguments, &CHANNELS].concat())
 }
 
 /// R16.6: recordings of several states are shown side by side with their spread, and the list is that of the

@@ -2,9 +2,10 @@
 //! would obey (R9.76).
 #![cfg(unix)]
 
+use crate::folder::command;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 /// A file name that switches colours on, rings the bell, reverses the writing direction, ends its line and
 /// gives a runner a command.
@@ -14,9 +15,7 @@ const NAME: &str = "a\u{1b}[31m\u{7}\u{9b}31m\u{202e}\u{2028}\r\n::error file=x:
 const COMMAND: &str = "::error file=y::boom.nc";
 
 fn tool(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .args(arguments)
-        .current_dir(folder)
+    command(folder, arguments)
         .env("COLUMNS", "60")
         .output()
         .unwrap()

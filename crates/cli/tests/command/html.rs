@@ -389,9 +389,8 @@ fn a_report_is_whole_or_not_there() {
 fn a_program_from_a_pipe_has_a_report() {
     // R9.50
     let bench = Bench::new(&[]);
-    let mut child = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(bench.folder())
-        .args(["run", "-", "--html", "report.html"])
+    let mut child = bench
+        .command(&["run", "-", "--html", "report.html"])
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
         .spawn()

@@ -2,10 +2,9 @@
 
 mod faults;
 
-use std::process::Command;
 use std::sync::LazyLock;
 
-use crate::plant::Bench;
+use crate::folder::answer;
 use crate::workspace::root;
 use frictcomp::diagnostic::Code;
 use frictcomp_host::read_axis;
@@ -14,6 +13,7 @@ use frictcomp_recordings::identify::{
     Identified, IdentifyError, IdentifyOptions, Measured, TorqueKind, Track, identify,
 };
 use frictcomp_recordings::trace::ChannelSelection;
+use frictcomp_testing::recorded_drive::Bench;
 
 const DEMO: &str = "programs/demo/recordings/friction_x.csv";
 
@@ -56,23 +56,15 @@ fn simulate() -> Track {
 /// A file for the command, with other bytes in place of some.
 fn play(name: &str, text: &[u8], arguments: &[&str]) -> (Option<i32>, String, String) {
     let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join(name);
-    std::fs::write(&file, text).expect("written");
+    std::fs::write(folder.path().join(name), text).expect("written");
     let list = folder.path().join("new.lis");
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .arg("identify")
-        .arg(&file)
-        .args(arguments)
-        .arg("--write-list")
-        .arg(&list)
-        .output()
-        .expect("a run");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let said = text(&output.stdout) + &text(&output.stderr);
-    // Lines are broken wherever they are too long.
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let list_written = ["--write-list", "new.lis"];
+    let (status, said) = answer(
+        folder.path(),
+        &[&["identify", name], arguments, &list_written].concat(),
+    );
     (
-        output.status.code(),
+        status,
         said,
         std::fs::read_to_string(list).unwrap_or_default(),
     )

@@ -4,10 +4,10 @@ use std::cell::RefCell;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::rc::Rc;
 use std::sync::Arc;
 
+use crate::folder::call;
 use crate::workspace::root;
 use frictcomp::session::{Limits, Options, SessionOptions};
 use frictcomp_host::decode;
@@ -90,14 +90,12 @@ fn programs_in_memory_run_as_on_the_disk() {
         let name = input.name(Naming::AsGiven);
         let below = Path::new(&name).strip_prefix(root()).expect("below");
         let program = texts.iter().find(|it| it.path == below).expect("read");
-        let on_disk = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-            .current_dir(root())
-            .args(["run", "--format", "ndjson", "--max-blocks"])
-            .arg(MAX_BLOCKS.to_string())
-            .arg(below)
-            .stdin(Stdio::null())
-            .output()
-            .expect("the tool starts");
+        let blocks = MAX_BLOCKS.to_string();
+        let path = below.to_str().expect("a name in UTF-8");
+        let on_disk = call(
+            root(),
+            &["run", "--format", "ndjson", "--max-blocks", &blocks, path],
+        );
         match records(program, &disk) {
             Ok(records) => assert_eq!(
                 String::from_utf8_lossy(&records),

@@ -5,14 +5,16 @@ mod refused;
 mod stand_ins;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::PathBuf;
 
-use crate::layouts::{Comments, Export, Filled, Header, Letters, Signal, Task as Sampled, Times};
+use crate::folder::{answer, call, document};
 use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
 use frictcomp_host::{FileRegistry, Watch, read_value_list, tune};
 use frictcomp_physics::circle::TooMuchCurrent;
 use frictcomp_physics::simulation::plant_list;
+use frictcomp_testing::layouts::{
+    Comments, Export, Filled, Header, Letters, Signal, Task as Sampled, Times,
+};
 use machine::{Machine, Row};
 use serde_json::Value;
 
@@ -26,22 +28,6 @@ const JUDGED: [f64; 11] = [
 
 /// Feeds of the short test.
 const SMALL: [f64; 6] = [1200.0, 1600.0, 2100.0, 2800.0, 3700.0, 5000.0];
-
-fn call(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the tool starts")
-}
-
-/// The exit status and the whole output, in one line.
-fn said(output: &Output) -> (Option<i32>, String) {
-    let bytes = [&output.stdout[..], &output.stderr[..]].concat();
-    let text = String::from_utf8_lossy(&bytes).into_owned();
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    (output.status.code(), text)
-}
 
 /// A machine, and the folder of its rounds.
 struct Bench {
@@ -99,7 +85,7 @@ impl Bench {
             "--plant",
             self.machine.reference.as_str(),
         ];
-        said(&call(self.folder.path(), &[&first[..], arguments].concat()))
+        answer(self.folder.path(), &[&first[..], arguments].concat())
     }
 
     fn begin(&self, lists: &[&str]) -> (Option<i32>, String) {
@@ -124,9 +110,7 @@ impl Bench {
             "--format",
             "json",
         ];
-        let output = call(self.folder.path(), &arguments);
-        serde_json::from_slice(&output.stdout)
-            .unwrap_or_else(|error| panic!("{error}: {:?}", said(&output)))
+        document(self.folder.path(), &arguments)
     }
 
     /// Records a round: each circle twice, once as a plain table and once as an export of Scope.

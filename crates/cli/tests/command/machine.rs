@@ -1,26 +1,17 @@
 //! The machine at the command line: lists from any folder, missing lists, files that are not lists.
 
+use crate::folder::{command, stderr, stdout};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
-/// Runs the tool in a folder.
+/// Runs the tool in a folder with wide lines.
 fn tool(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .args(arguments)
-        .current_dir(folder)
+    command(folder, arguments)
         .env("COLUMNS", "200")
         .output()
         .unwrap()
-}
-
-fn out(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
 }
 
 fn write(folder: &Path, files: &[(&str, &str)]) {
@@ -85,23 +76,27 @@ fn a_vendor_s_start_up_list_is_read_from_any_folder() {
     ] {
         let folder = root.path().join(folder);
         let listed = tool(&folder, &["lists", "--show", list]);
-        assert_eq!(listed.status.code(), Some(0), "{list}: {}", said(&listed));
+        assert_eq!(listed.status.code(), Some(0), "{list}: {}", stderr(&listed));
         assert!(
-            out(&listed).starts_with("no fault in 6 files\n"),
+            stdout(&listed).starts_with("no fault in 6 files\n"),
             "{}",
-            out(&listed)
+            stdout(&listed)
         );
-        assert!(out(&listed).contains(shown), "{list}: {}", out(&listed));
+        assert!(
+            stdout(&listed).contains(shown),
+            "{list}: {}",
+            stdout(&listed)
+        );
     }
     let absolute = root.path().join("cnc/listen/hochlauf.lis");
     let elsewhere = tempfile::tempdir().unwrap();
     let listed = tool(elsewhere.path(), &["lists", absolute.to_str().unwrap()]);
-    assert_eq!(listed.status.code(), Some(0), "{}", said(&listed));
+    assert_eq!(listed.status.code(), Some(0), "{}", stderr(&listed));
     let run = tool(
         &root.path().join("cnc"),
         &["run", "--startup", "listen/hochlauf.lis", "a.nc"],
     );
-    assert_eq!(run.status.code(), Some(0), "{}", out(&run));
+    assert_eq!(run.status.code(), Some(0), "{}", stdout(&run));
 }
 
 #[test]
@@ -123,7 +118,7 @@ fn missing_lists_are_counted_and_shown_where_they_are_named() {
     );
     let listed = tool(&cnc, &["lists", "listen/hochlauf.lis"]);
     assert_eq!(listed.status.code(), Some(1));
-    let said_of_lists = out(&listed);
+    let said_of_lists = stdout(&listed);
     assert!(
         said_of_lists.starts_with("3 errors in 3 files, 3 lists are missing\n"),
         "{said_of_lists}"
@@ -131,13 +126,13 @@ fn missing_lists_are_counted_and_shown_where_they_are_named() {
     let shown = tool(&cnc, &["config", "show"]);
     assert_eq!(shown.status.code(), Some(1));
     assert!(
-        out(&shown).contains("lists          3 read, 3 missing"),
+        stdout(&shown).contains("lists          3 read, 3 missing"),
         "{}",
-        out(&shown)
+        stdout(&shown)
     );
     for line in [3, 5, 7] {
         let place = format!("listen/hochlauf.lis:{line}:");
-        assert!(said(&shown).contains(&place), "{}", said(&shown));
+        assert!(stderr(&shown).contains(&place), "{}", stderr(&shown));
     }
 }
 
@@ -166,9 +161,9 @@ fn what_is_no_start_up_list_starts_nothing() {
             let refused = tool(&cnc, &arguments);
             assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
             assert!(
-                said(&refused).contains(what),
+                stderr(&refused).contains(what),
                 "{arguments:?} {}",
-                said(&refused)
+                stderr(&refused)
             );
         }
     }
@@ -182,9 +177,9 @@ fn what_is_no_start_up_list_starts_nothing() {
     let refused = tool(&cnc, &["check", "a.nc"]);
     assert_eq!(refused.status.code(), Some(1));
     assert!(
-        out(&refused).contains("frictcomp.toml:2:11"),
+        stdout(&refused).contains("frictcomp.toml:2:11"),
         "{}",
-        out(&refused)
+        stdout(&refused)
     );
 }
 
@@ -200,7 +195,7 @@ fn lists_are_regular_files_that_may_be_read() {
     symlink("/dev/zero", cnc.join("listen/achsmds2.lis")).unwrap();
     let listed = tool(&cnc, &["lists", "listen/hochlauf.lis"]);
     assert_eq!(listed.status.code(), Some(1));
-    let text = out(&listed);
+    let text = stdout(&listed);
     assert!(
         text.contains("cannot be read: it is not a regular file"),
         "{text}"
@@ -208,9 +203,9 @@ fn lists_are_regular_files_that_may_be_read() {
     let named = tool(&cnc, &["lists", "listen/achsmds2.lis"]);
     assert_eq!(named.status.code(), Some(2));
     assert!(
-        said(&named).contains("not a regular file"),
+        stderr(&named).contains("not a regular file"),
         "{}",
-        said(&named)
+        stderr(&named)
     );
 }
 
@@ -221,11 +216,11 @@ fn init_writes_what_loads_without_a_message() {
     vendor(root.path());
     let cnc = root.path().join("cnc");
     let made = tool(&cnc, &["init"]);
-    assert_eq!(made.status.code(), Some(0), "{}", said(&made));
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
     assert!(
-        said(&made).starts_with("wrote `./frictcomp.toml`"),
+        stderr(&made).starts_with("wrote `./frictcomp.toml`"),
         "{}",
-        said(&made)
+        stderr(&made)
     );
     let text = fs::read_to_string(cnc.join("frictcomp.toml")).unwrap();
     assert!(
@@ -246,15 +241,15 @@ fn init_writes_what_loads_without_a_message() {
         ],
     );
     let made = tool(programs.path(), &["init", "p"]);
-    assert_eq!(made.status.code(), Some(0), "{}", said(&made));
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
     assert!(
-        said(&made).contains("the programs use X, Y, B, Z1"),
+        stderr(&made).contains("the programs use X, Y, B, Z1"),
         "{}",
-        said(&made)
+        stderr(&made)
     );
     let folder = programs.path().join("p");
     loads_and_runs(&folder, "b.nc");
-    let shown = out(&tool(&folder, &["config", "show"]));
+    let shown = stdout(&tool(&folder, &["config", "show"]));
     let states: Vec<Vec<&str>> = shown
         .lines()
         .skip_while(|line| !line.starts_with("axis"))
@@ -275,13 +270,19 @@ fn init_writes_what_loads_without_a_message() {
 fn loads_and_runs(folder: &Path, program: &str) {
     let shown = tool(folder, &["config", "show"]);
     assert_eq!(
-        (shown.status.code(), said(&shown)),
+        (shown.status.code(), stderr(&shown)),
         (Some(0), String::new())
     );
     let listed = tool(folder, &["lists", "--fail-on", "info", "frictcomp.toml"]);
-    assert_eq!(listed.status.code(), Some(0), "{}", out(&listed));
+    assert_eq!(listed.status.code(), Some(0), "{}", stdout(&listed));
     let run = tool(folder, &["run", "--fail-on", "warning", program]);
-    assert_eq!(run.status.code(), Some(0), "{}{}", out(&run), said(&run));
+    assert_eq!(
+        run.status.code(),
+        Some(0),
+        "{}{}",
+        stdout(&run),
+        stderr(&run)
+    );
 }
 
 #[test]
@@ -295,9 +296,9 @@ fn init_never_writes_over_a_file() {
     let refused = tool(root.path(), &["init"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(
-        said(&refused).contains("already exists"),
+        stderr(&refused).contains("already exists"),
         "{}",
-        said(&refused)
+        stderr(&refused)
     );
     let text = fs::read_to_string(root.path().join("frictcomp.toml")).unwrap();
     assert_eq!(text, "# mine\n");
@@ -313,9 +314,9 @@ fn init_never_writes_over_a_file() {
         let refused = tool(root.path(), &["init", folder]);
         assert_eq!(refused.status.code(), Some(2));
         assert!(
-            said(&refused).contains("there is no folder"),
+            stderr(&refused).contains("there is no folder"),
             "{}",
-            said(&refused)
+            stderr(&refused)
         );
     }
 }
@@ -329,16 +330,16 @@ fn init_takes_a_start_up_list_and_nothing_else() {
     let refused = tool(&cnc, &["init", "--startup", "listen/achskw1.lis"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(
-        said(&refused).contains("is a value list"),
+        stderr(&refused).contains("is a value list"),
         "{}",
-        said(&refused)
+        stderr(&refused)
     );
     write(&cnc, &[("other/h.lis", "zahl_mds 0\nEnde\n")]);
     let refused = tool(&cnc, &["init"]);
     assert!(
-        said(&refused).contains("several start-up lists"),
+        stderr(&refused).contains("several start-up lists"),
         "{}",
-        said(&refused)
+        stderr(&refused)
     );
     assert!(!cnc.join("frictcomp.toml").exists());
     write(root.path(), &[("prg/a.nc", "X[COMP ON FRICT]\nM30\n")]);
@@ -346,7 +347,7 @@ fn init_takes_a_start_up_list_and_nothing_else() {
         root.path(),
         &["init", "prg", "--startup", "cnc/listen/hochlauf.lis"],
     );
-    assert_eq!(made.status.code(), Some(0), "{}", said(&made));
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
     let text = fs::read_to_string(root.path().join("prg/frictcomp.toml")).unwrap();
     assert!(
         text.contains("startup = \"../cnc/listen/hochlauf.lis\""),
@@ -367,12 +368,12 @@ fn axes_that_nobody_described_are_not_taken_for_others() {
         ],
     );
     let free = tool(root.path(), &["check", "a.nc"]);
-    assert!(!out(&free).contains("did you mean"), "{}", out(&free));
+    assert!(!stdout(&free).contains("did you mean"), "{}", stdout(&free));
     write(
         root.path(),
         &[("frictcomp.toml", "[[axis]]\nname = \"X\"\n")],
     );
-    let text = out(&tool(root.path(), &["check", "y.nc"]));
+    let text = stdout(&tool(root.path(), &["check", "y.nc"]));
     assert!(
         text.contains("the configuration lists all axes: X"),
         "{text}"
@@ -407,7 +408,7 @@ fn the_lead_of_an_axis_is_that_of_its_recordings() {
             "identify runs/x.csv --velocity SetVelo --torque ActTorque --unit SetVelo=rev/s";
         let arguments: Vec<&str> = fixed.split(' ').chain(further.iter().copied()).collect();
         // The first line names the axis, where it is given.
-        let text = out(&tool(folder, &arguments));
+        let text = stdout(&tool(folder, &arguments));
         text.split_once('\n')
             .map_or(String::new(), |(_, rest)| rest.to_owned())
     };
@@ -437,8 +438,12 @@ fn numbers_without_a_header_and_a_time_are_no_recording() {
             output.status.code(),
             Some(2),
             "{command}: {}",
-            said(&output)
+            stderr(&output)
         );
-        assert!(said(&output).contains("has no times"), "{}", said(&output));
+        assert!(
+            stderr(&output).contains("has no times"),
+            "{}",
+            stderr(&output)
+        );
     }
 }

@@ -34,8 +34,6 @@ mod hostile;
 mod html;
 mod identify_faults;
 mod in_memory;
-#[path = "../../../recordings/tests/recordings/layouts.rs"]
-mod layouts;
 mod learn;
 mod lsp;
 mod machine;
@@ -45,8 +43,6 @@ mod options;
 mod order;
 mod outputs;
 mod pictures;
-#[path = "../../../recordings/tests/recordings/identify/plant.rs"]
-mod plant;
 mod programs;
 mod public;
 mod questions;
@@ -57,8 +53,6 @@ mod schema;
 mod states;
 #[path = "../../../../tests/support/mod.rs"]
 mod support;
-#[path = "../../../../tests/support/table.rs"]
-mod table;
 mod watch;
 mod what_moves;
 mod widths;

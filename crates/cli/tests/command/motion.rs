@@ -1,9 +1,10 @@
 //! R5.1 on the command line: `frictcomp current PROGRAM`.
 
+use crate::folder::call;
 use crate::workspace::root;
 use std::io::Write as _;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 const PROGRAM: &str = "\
 N10 G01 X0 Y0 F600
@@ -37,12 +38,7 @@ name = "Y"
 fn current(folder: &Path, arguments: &[&str]) -> Output {
     std::fs::write(folder.join("a.nc"), PROGRAM).expect("a program");
     std::fs::write(folder.join("frictcomp.toml"), MACHINE).expect("a machine");
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .arg("current")
-        .args(arguments)
-        .output()
-        .expect("the tool starts")
+    call(folder, &[&["current"], arguments].concat())
 }
 
 fn rows(output: &Output) -> Vec<Vec<String>> {
@@ -337,13 +333,10 @@ fn every_demo_has_currents_from_the_start_that_is_proposed() {
         ("five_axis/startup.nc", "X", &sets),
     ] {
         let run = |more: &[&str]| {
-            let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-                .arg("current")
-                .arg(demo.join(program))
-                .args(["--axis", axes])
-                .args(more)
-                .output()
-                .expect("the tool starts");
+            let output = call(
+                &demo,
+                &[&["current", program, "--axis", axes], more].concat(),
+            );
             (
                 String::from_utf8_lossy(&output.stderr).into_owned(),
                 rows(&output).len(),
@@ -415,18 +408,15 @@ fn a_list_that_does_not_fit_has_its_status() {
         let recorded: Vec<String> = recorded.collect();
         let recording = format!("t,v,torque\n{}\n", recorded.join("\n"));
         std::fs::write(folder.path().join("t.csv"), recording).expect("a recording");
-        let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-            .current_dir(folder.path())
-            .args([
-                "verify",
-                "t.csv",
-                "--value-list",
-                "v.lis",
-                "--cycle-time-ms",
-                "1",
-            ])
-            .output()
-            .expect("the command");
+        let arguments = [
+            "verify",
+            "t.csv",
+            "--value-list",
+            "v.lis",
+            "--cycle-time-ms",
+            "1",
+        ];
+        let output = call(folder.path(), &arguments);
         let text = String::from_utf8_lossy(&output.stdout);
         assert_eq!(output.status.code(), Some(expected), "{factor}: {text}");
         assert!(text.contains(words), "{factor}: {text}");

@@ -4,17 +4,12 @@ mod folders;
 mod help;
 
 use std::fs;
-use std::process::Output;
 
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, stderr};
 use serde_json::Value;
 
 const LEAVE_OFF: &str = "N10 X[COMP OFF FRICT]\nN20 X1\nN30 X[COMP OFF FRICT]\nN40 M30\n";
 const NOT_CONFIGURED: &str = "N10 Z[COMP ON FRICT]\nN20 M30\n";
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("text")
-}
 
 fn refused(bench: &Bench, arguments: &[&str]) -> String {
     let output = bench.call(arguments);

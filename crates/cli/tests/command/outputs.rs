@@ -1,9 +1,8 @@
 //! The outputs of commands, also when something is in the way.
 
 use std::fs;
-use std::process::Output;
 
-use crate::folder::Bench;
+use crate::folder::{Bench, stderr};
 use crate::workspace::root;
 
 const PROGRAM: &str = "N10 X[COMP OFF FRICT]\nN20 X1\nN30 M30\n";
@@ -18,10 +17,6 @@ fn bench() -> Bench {
         &fs::read_to_string(root().join("docs/assets/plant.toml")).expect("a plant"),
     );
     bench
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("text")
 }
 
 /// The message of a call that must end with 2 and leave every file as it was.

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
-use crate::workspace::files;
-use crate::workspace::root;
+use crate::folder::call;
+use crate::workspace::{files, root};
 use frictcomp::diagnostic::Code;
 
 /// The bound on executed blocks for all programs, so that an endless loop is noticed.
@@ -51,12 +51,7 @@ const ELSEWHERE: &[(&str, &[&str])] = &[
 
 /// Runs the tool in the root of the repository.
 fn frictcomp(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(root())
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .expect("the tool starts")
+    call(root(), arguments)
 }
 
 /// The path from the root of the repository, with forward slashes.

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::workspace::files;
-use crate::workspace::root;
+use crate::workspace::{files, root};
 
 /// A package that others may use.
 struct Package {

@@ -10,7 +10,7 @@ mod recorded;
 use std::fmt::Write as _;
 use std::fs;
 
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, one_line};
 use crate::workspace::root;
 use control::Control;
 use frictcomp::readings::{Question, Way};
@@ -204,7 +204,7 @@ fn what_cannot_be_told_is_not_decided() {
         bench.write("message.txt", &text);
         let said = bench.stdout(&["ask", "read", "message.txt"]);
         assert!(said.starts_with("R1.28 not decidable\n"), "{said}");
-        let joined = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let joined = one_line(&said);
         assert!(joined.contains(reason), "{said}");
         assert_eq!(bench.read("frictcomp.toml"), MACHINE);
     }

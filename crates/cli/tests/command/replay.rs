@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, one_line};
 use serde_json::Value;
 
 const PROGRAM: &str = "\
@@ -316,7 +316,7 @@ fn a_recording_without_states_is_refused() {
         let output = bench.call(&["replay", "states.csv", "m.nc"]);
         assert_eq!(output.status.code(), Some(2));
         let said = String::from_utf8(output.stderr).expect("text");
-        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let said = one_line(&said);
         assert!(words.iter().all(|it| said.contains(it)), "{said}");
     }
 }

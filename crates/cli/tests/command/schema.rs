@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::folder::{Bench, json};
-use crate::workspace::files;
-use crate::workspace::root;
+use crate::workspace::{files, root};
 use frictcomp::SourceFile;
 use frictcomp::machine::{Configuration, NoLists};
 use frictcomp_physics::simulation::Plant;

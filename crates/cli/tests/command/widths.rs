@@ -1,31 +1,29 @@
 //! Text keeps within its width, from 40 to 200 columns (R9.72).
 
-use std::process::Command;
-
+use crate::folder::{call, stderr, stdout};
 use crate::workspace::root;
+use std::process::Output;
+
 use unicode_width::UnicodeWidthStr;
+
+fn wide(width: usize, arguments: &[&str]) -> Output {
+    call(
+        root(),
+        &[arguments, &["--width", &width.to_string()]].concat(),
+    )
+}
 
 /// The output of a command on both channels at a width.
 fn said(width: usize, arguments: &[&str]) -> [String; 2] {
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .args(arguments)
-        .args(["--width", &width.to_string()])
-        .current_dir(root())
-        .output()
-        .unwrap();
-    [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap())
+    let output = wide(width, arguments);
+    [stdout(&output), stderr(&output)]
 }
 
 /// The result of a command at a width.
 fn printed(width: usize, arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .args(arguments)
-        .args(["--width", &width.to_string()])
-        .current_dir(root())
-        .output()
-        .unwrap();
+    let output = wide(width, arguments);
     assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments:?}");
-    String::from_utf8(output.stdout).unwrap()
+    stdout(&output)
 }
 
 /// The minimum columns of a line: its indent or prefix, and its longest word.

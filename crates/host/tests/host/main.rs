@@ -10,6 +10,4 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod recordings;
-#[path = "../../../../tests/support/table.rs"]
-mod table;
 mod tune;

@@ -6,7 +6,7 @@ mod confusion;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use crate::table::agrees;
+use frictcomp_testing::table::agrees;
 
 use crate::recorder::{Noise, Recorder, backlash, friction};
 use frictcomp_physics::circle::{

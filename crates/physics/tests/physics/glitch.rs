@@ -5,7 +5,7 @@ use frictcomp_physics::circle::{Circle, CircularTest, Comparison, Direction, Lap
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Preset};
 
-use crate::plant::{Bench, MID, SOFT, STIFF};
+use frictcomp_testing::recorded_circles::{Bench, MID, SOFT, STIFF};
 
 /// The largest glitch in µm at the reversals of a recorded axis: at a reversal the tangent is across the
 /// axis, so the deviation along the normal is that of the axis.

@@ -15,13 +15,11 @@ mod current;
 mod diagnosis;
 mod glitch;
 #[path = "../../../cli/tests/command/learn/machine.rs"]
+#[allow(dead_code, reason = "the tests of the command use the rest")]
 mod machine;
 mod motion;
-mod plant;
 mod plant_fit;
 mod recorded;
 mod recorded_machines;
 mod recorder;
 mod stiction;
-#[path = "../../../../tests/support/table.rs"]
-mod table;

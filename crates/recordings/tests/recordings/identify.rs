@@ -2,7 +2,6 @@
 
 mod bound;
 mod circles;
-mod plant;
 
 use std::fmt::Write as _;
 
@@ -12,7 +11,7 @@ use frictcomp_recordings::identify::{
     FrictionCurve, Identified, IdentifyError, IdentifyOptions, RequestedPoints, Track, TrackError,
     identify,
 };
-use plant::{ASYMMETRY, Bench, FC, FV, Recorded, UNIT, VS, WEIGHT};
+use frictcomp_testing::recorded_drive::{ASYMMETRY, Bench, FC, FV, Recorded, UNIT, VS, WEIGHT};
 
 fn track(recorded: Recorded) -> Track {
     Track {
@@ -178,7 +177,7 @@ fn the_offset_of_coloured_noise_cannot_be_known_better() {
     let bounds = cases()
         .into_iter()
         .take(3)
-        .map(|it| it.bench.offset_bound());
+        .map(|it| bound::offset_bound(&it.bench));
     let bounds: Vec<String> = bounds.map(|bound| format!("{bound:.2}")).collect();
     assert_eq!(bounds, ["0.71", "2.24", "1.78"]);
 }

@@ -9,9 +9,6 @@
 )]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-#[path = "../../../physics/tests/physics/plant.rs"]
-mod circles_plant;
 mod identify;
-mod layouts;
 mod traces;
 mod verify_timing;

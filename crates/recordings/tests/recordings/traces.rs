@@ -2,10 +2,12 @@
 
 use std::fmt::Write as _;
 
-use crate::layouts::{Comments, Export, Filled, Header, Letters, Signal, Task, Times, sinumerik};
 use frictcomp_recordings::trace::{
     ChannelQuantity, ChannelSelection, Choice, CncObject, NotAligned, Pick, SelectError,
     TraceProblem, TraceReader, TraceRecording, Unit,
+};
+use frictcomp_testing::layouts::{
+    Comments, Export, Filled, Header, Letters, Signal, Task, Times, sinumerik,
 };
 use proptest::prelude::*;
 

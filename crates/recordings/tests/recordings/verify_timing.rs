@@ -7,7 +7,9 @@ use frictcomp_physics::current::Reading;
 use frictcomp_recordings::identify::ActingShare;
 use frictcomp_recordings::identify::{Predictor, Timing, Track, Verified, verify, verify_followed};
 
-use crate::circles_plant::{Bench, FAST, MID, Recorded, SLOW, SOFT, STIFF, units_at};
+use frictcomp_testing::recorded_circles::{
+    Bench, FAST, MID, Recorded, SLOW, SOFT, STIFF, units_at,
+};
 
 /// The parts of a list that act.
 const SHARES: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25];

@@ -1,8 +1,8 @@
 //! A folder of a commissioning, and the machine that executes its programs.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
+use crate::folder::{answer, succeeded};
 use frictcomp_testing::{Machine, Program, Recorder, Run, ValueList, planned_circles};
 
 /// The channels of the recordings.
@@ -102,18 +102,11 @@ impl Site {
         self.folder.path()
     }
 
-    fn call(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-            .current_dir(self.path())
-            .args(arguments)
-            .output()
-            .expect("the tool starts")
-    }
-
     fn plan(&self, more: &[&str]) {
-        let output =
-            self.call(&[&planned_circles(self.feeds, self.radius)[..], &["m"], more].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        succeeded(
+            self.path(),
+            &[&planned_circles(self.feeds, self.radius)[..], &["m"], more].concat(),
+        );
     }
 
     /// Plans the next round with lists.
@@ -144,8 +137,10 @@ impl Site {
     }
 
     fn run_with(&self, arguments: &[&str]) -> (Option<i32>, String) {
-        let output = self.call(&[&["commission", "run", "m"], arguments].concat());
-        (output.status.code(), said(&output))
+        answer(
+            self.path(),
+            &[&["commission", "run", "m"], arguments].concat(),
+        )
     }
 
     /// The lists of X and Y of a kind.
@@ -375,12 +370,6 @@ impl Columns {
 }
 
 /// What a command said, in one line.
-pub(crate) fn said(output: &Output) -> String {
-    let bytes = [&output.stdout[..], &output.stderr[..]].concat();
-    let text = String::from_utf8_lossy(&bytes).into_owned();
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
 fn copy_folder(from: &Path, to: &Path) {
     for entry in std::fs::read_dir(from).expect("a folder") {
         let entry = entry.expect("an entry");

@@ -10,9 +10,9 @@ use frictcomp_testing::planned_circles;
 use serde_json::Value;
 
 use super::{
-    Driven, Recorder, call, circles_of, constant_speeds, deviations_of, planned_with, put, run,
-    said, torque,
+    Driven, Recorder, circles_of, constant_speeds, deviations_of, planned_with, put, run, torque,
 };
+use crate::folder::{document, succeeded};
 
 /// Circles of a plan.
 #[derive(Clone, Copy)]
@@ -115,8 +115,7 @@ fn plan(folder: &Path, circles: &Circles, lists: &[PathBuf; 2]) {
         &["m", "--value-list", &x, "--value-list", &y],
     ]
     .concat();
-    let output = call(folder, &arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder, &arguments);
 }
 
 fn record_of(folder: &Path, arguments: &[&str]) -> Value {
@@ -126,8 +125,7 @@ fn record_of(folder: &Path, arguments: &[&str]) -> Value {
         arguments,
     ]
     .concat();
-    let output = call(folder, &all);
-    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", said(&output)))
+    document(folder, &all)
 }
 
 /// The options for reading: with compensation on, the torque has to be the actual one.

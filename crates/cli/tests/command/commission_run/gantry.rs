@@ -1,6 +1,7 @@
 //! A gantry: the torque of both motors gives one list, or none (R16.8, R16.9).
 
 use super::{friction, planned, put, run};
+use crate::folder::one_line;
 
 /// A folder whose X has a second motor.
 fn gantry() -> tempfile::TempDir {
@@ -65,7 +66,7 @@ fn motors_that_share_the_friction_get_one_list() {
     put(folder.path(), "a.csv", &both_motors(0.9, 40.0));
     let (_, text) = run(folder.path(), &BOTH);
     let said = "the motors of X and X2 differ by at most 10 % of the friction; both motors get the list of the mean friction";
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = one_line(&text);
     assert!(words.contains(said), "{text}");
     let outputs = |folder: &tempfile::TempDir| {
         let lists = std::fs::read_dir(folder.path().join("m/lists")).expect("lists");
@@ -98,7 +99,7 @@ fn motors_with_different_friction_get_no_list() {
     let folder = gantry();
     put(folder.path(), "a.csv", &both_motors(0.7, 0.0));
     let (status, text) = run(folder.path(), &BOTH);
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = one_line(&text);
     let reason = "the motors of X and X2 differ by 30 % of the friction: one list fits neither";
     assert!(status == Some(1) && words.contains(reason), "{text}");
     assert!(!folder.path().join("m/lists").exists());

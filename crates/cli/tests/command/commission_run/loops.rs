@@ -9,7 +9,8 @@ use serde_json::Value;
 
 use super::fitted::{list, lists, program};
 use super::machine::{Machine, PITCH_MM};
-use super::{Driven, Recorder, call, circles_of, deviations_of, driven, planned_with, put, said};
+use super::{Driven, Recorder, circles_of, deviations_of, driven, planned_with, put};
+use crate::folder::{document, succeeded};
 
 const RADIUS_MM: f64 = 100.0;
 
@@ -149,15 +150,13 @@ fn told_plant(found: &Value, machine: &Machine) -> String {
 /// The record that a call of `frictcomp commission` prints; a plan prints none.
 fn commission(folder: &Path, arguments: &[&str]) -> Value {
     let all = [&["commission"], arguments, &["--format", "json"]].concat();
-    let output = call(folder, &all);
-    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", said(&output)))
+    document(folder, &all)
 }
 
 fn plan(folder: &Path, lists: &[PathBuf; 2]) {
     let [x, y] = [0, 1].map(|at| format!("{}={}", ["X", "Y"][at], lists[at].display()));
     let arguments = [&PLAN[..], &["m", "--value-list", &x, "--value-list", &y]].concat();
-    let output = call(folder, &arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder, &arguments);
 }
 
 /// Records the circles of a round; the friction is a little different each time.

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use super::{
-    FEEDS, PLAN, call, circles, deviations, driven, friction, list_in, planned, provisional, put,
-    run, said,
+    FEEDS, PLAN, circles, deviations, driven, friction, list_in, planned, provisional, put, run,
 };
+use crate::folder::succeeded;
 
 /// A recording with other rows under another header.
 fn changed(recording: &str, head: &str, change: &dyn Fn(&[f64]) -> String) -> String {
@@ -442,8 +442,7 @@ fn lists_that_are_not_accepted_say_why() {
     }
     std::fs::write(folder.join("strong.lis"), &strong).expect("written");
     let lists = ["--value-list", "X=strong.lis", "--value-list", "Y=zero.lis"];
-    let output = call(folder, &[&PLAN[..], &["m"], &lists[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder, &[&PLAN[..], &["m"], &lists[..]].concat());
     let feed = FEEDS[0];
     for (name, program) in [
         ("off.csv", "m/03-circle-2000.nc"),

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use frictcomp_testing::{Machine, Program, Random, ValueList};
 
-use super::{AXIS, ZERO, call, provisional, put, run, said};
-use crate::plant::Recorded;
+use super::{AXIS, ZERO, call, provisional, put, run};
+use crate::folder::succeeded;
+use frictcomp_testing::recorded_drive::Recorded;
 
 /// A rotary and a linear axis, whose plans differ only in the unit.
 const MACHINE: [(&str, &str); 2] = [("C", "type = \"R\"\n"), ("U", "")];
@@ -54,8 +55,7 @@ fn plan(folder: &Path, axis: &str, more: &[&str]) {
         "--into",
         "m",
     ];
-    let output = call(folder, &[&arguments[..], more].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    succeeded(folder, &[&arguments[..], more].concat());
 }
 
 /// What is recorded of a machine in a program of the axis, with a list that the program switches.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-use crate::folder::Bench;
+use crate::folder::{Bench, one_line};
 
 /// How many kinds of faults a command meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -212,7 +212,7 @@ pub(crate) fn survives(bench: &Bench, range: Range, call: &[&str]) {
                     }
                 }
                 Some(2) => {
-                    let lower = said.split_whitespace().collect::<Vec<_>>().join(" ");
+                    let lower = one_line(&said);
                     let lower = lower.to_lowercase();
                     // A folder that cannot be made is named in place of the files in it.
                     let named = |it: &String| {

@@ -7,7 +7,7 @@ use frictcomp::diagnostic::Code;
 use frictcomp_recordings::identify::Track;
 
 use super::{DOUBTS, both, found, said, velocities};
-use crate::table::agrees;
+use frictcomp_testing::table::agrees;
 
 /// A fault that is put into a recording.
 type Fault = fn(&mut Track);

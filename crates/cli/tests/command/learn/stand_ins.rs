@@ -5,7 +5,7 @@ use std::path::Path;
 
 use frictcomp_testing::{Machine, Program, Random, Recorder, ValueList, true_glitches};
 
-use super::{FEEDS, call, said};
+use super::{FEEDS, answer};
 
 const AXES: [&str; 2] = ["X", "Y"];
 const START: [f64; 2] = [40.0, 0.0];
@@ -75,12 +75,7 @@ fn rounds(machine: &Machine) -> Vec<[f64; 2]> {
         std::fs::write(folder.path().join(name), friction(machine, at)).expect("written");
     }
     let first = ["commission", "learn", "learning", "--plant", "mid"];
-    let learn = |more: &[&str]| {
-        said(&call(
-            folder.path(),
-            &[&first[..], &CHANNELS[..], more].concat(),
-        ))
-    };
+    let learn = |more: &[&str]| answer(folder.path(), &[&first[..], &CHANNELS[..], more].concat());
     let [x, y] = AXES.map(|axis| format!("{axis}=friction-{axis}.lis"));
     let (status, text) = learn(&["--friction", &x, "--friction", &y]);
     assert_eq!(status, Some(1), "{}: {text}", machine.name);

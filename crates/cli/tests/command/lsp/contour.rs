@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::client::{Client, uri};
-use crate::folder::Bench;
+use crate::folder::{Bench, one_line};
 
 const REQUEST_FAILED: i32 = -32803;
 const CANCELLED: i32 = -32800;
@@ -95,7 +95,7 @@ fn reversals_lead_to_their_blocks_the_worst_first() {
         "{words}"
     );
     let figures = contour["figures"].as_str().expect("figures");
-    let words = figures.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = one_line(figures);
     assert!(
         words.contains("plant mid") && words.contains("without compensation"),
         "{figures}"

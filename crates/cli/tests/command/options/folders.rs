@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 use super::stderr;
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, one_line};
 
 const OFF: &str = "X[COMP OFF FRICT]\nG1 X5 F100\nX[COMP ON FRICT]\nM30\n";
 const PLAIN: &str = "N10 G0 X1\nN20 M30\n";
@@ -70,8 +70,8 @@ fn programs_that_are_not_looked_at_are_said() {
     );
     let kinds = "not checked: 2 programs in ignored folders, 1 program in hidden folders, \
                  1 ignored program, 1 program without an extension, 1 `.dnc`, 2 `.prg`";
-    let joined = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    let kinds = kinds.split_whitespace().collect::<Vec<_>>().join(" ");
+    let joined = one_line(&said);
+    let kinds = one_line(kinds);
     assert!(joined.contains(&kinds), "{said}");
     let warned: Vec<&str> = text.lines().filter(|line| line.contains("FC105")).collect();
     assert_eq!(warned.len(), 3, "{text}");

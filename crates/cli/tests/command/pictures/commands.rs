@@ -2,20 +2,13 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 use super::{assert_sound, parse, texts};
+use crate::folder::{call, succeeded};
 
 /// Runs the tool in a folder and gives the picture that it draws there.
 fn drawn(folder: &Path, arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder)
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .expect("the tool starts");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+    succeeded(folder, arguments);
     let svg = fs::read_to_string(folder.join("out.svg")).expect("a picture");
     assert_sound(&svg);
     svg
@@ -100,11 +93,7 @@ fn there_is_no_picture_of_a_list_that_is_not_taken() {
         LIST.replace("mode 3", "mode 0"),
     )
     .expect("written");
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(folder.path())
-        .args(["lists", "--svg", "out.svg", "v.lis"])
-        .output()
-        .expect("the tool starts");
+    let output = call(folder.path(), &["lists", "--svg", "out.svg", "v.lis"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("no value list to draw"));
     assert!(!folder.path().join("out.svg").exists());

@@ -5,8 +5,10 @@ use std::fs;
 use super::machine::{CYCLE_S, Cycle, LIST, Machine};
 use super::{MACHINE, programs};
 use crate::folder::Bench;
-use crate::layouts::{Comments, Export, Filled, Header, Letters, Signal, Task, Times, sinumerik};
 use frictcomp::readings::{Question, Way};
+use frictcomp_testing::layouts::{
+    Comments, Export, Filled, Header, Letters, Signal, Task, Times, sinumerik,
+};
 
 fn bench() -> Bench {
     let bench = Bench::new(&[]);

@@ -1,6 +1,6 @@
 //! Sessions without a described machine.
 
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, one_line};
 
 const OFF: &str = "X[COMP OFF FRICT]\nX1\nX[COMP OFF FRICT]\nY[COMP OFF_ALL]\nM30\n";
 
@@ -208,7 +208,7 @@ fn what_init_assumes_is_said_with_every_result() {
     assert!(audit.contains(&assumed), "{audit}");
     let check = bench.call(&["check", "."]);
     let check = String::from_utf8(check.stdout).expect("text");
-    let check = check.split_whitespace().collect::<Vec<_>>().join(" ");
+    let check = one_line(&check);
     assert!(check.contains(&assumed), "{check}");
     let records = bench.records(&["a.nc"]);
     let summary = json(records.last().expect("a summary"));

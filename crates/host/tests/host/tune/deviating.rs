@@ -11,7 +11,7 @@ use frictcomp_physics::current::Switched;
 use frictcomp_physics::simulation::{DriveParameters, Preset};
 
 use super::task;
-use crate::table::agrees;
+use frictcomp_testing::table::agrees;
 
 /// A machine, the check's prediction for it, and its possible drives.
 struct Machine {

@@ -12,7 +12,7 @@ use frictcomp_physics::circle::{
 };
 
 use crate::recorder::{Noise, Recorder, backlash};
-use crate::table::agrees;
+use frictcomp_testing::table::agrees;
 
 use Finding::{
     Backlash, Friction, GainMismatch, LateralPlay, OtherShape, Periodic, ScaleMismatch, Squareness,

@@ -9,8 +9,8 @@ use frictcomp_recordings::identify::{
     IdentifyOptions, Predictor, Timing, Track, Verified, identify, identify_circles, verify,
 };
 
-use super::plant::{ASYMMETRY, Bench, FC, UNIT, WEIGHT};
 use super::{identified, track};
+use frictcomp_testing::recorded_drive::{ASYMMETRY, Bench, FC, UNIT, WEIGHT};
 
 /// Velocities of one axis on circles of 100 mm, in mm/s, some turns at each feed in m/min.
 fn circle(feed: f64, turns: f64) -> Vec<f64> {

@@ -4,24 +4,32 @@ use std::fmt::Write as _;
 
 /// A channel that is written.
 #[derive(Debug, Clone)]
-pub(crate) struct Signal {
-    pub(crate) name: String,
-    pub(crate) comment: String,
-    pub(crate) unit: String,
-    pub(crate) axis: u32,
-    pub(crate) samples: Vec<f64>,
+pub struct Signal {
+    /// Name in the recording.
+    pub name: String,
+    /// Comment, of one line or several.
+    pub comment: String,
+    /// Unit, or nothing.
+    pub unit: String,
+    /// Number of the axis.
+    pub axis: u32,
+    /// Samples, from the first on.
+    pub samples: Vec<f64>,
 }
 
 /// Channels with a column of times.
 #[derive(Debug, Clone)]
-pub(crate) struct Task {
-    pub(crate) step_ms: f64,
-    pub(crate) signals: Vec<Signal>,
+pub struct Task {
+    /// Time between two samples in ms.
+    pub step_ms: f64,
+    /// Channels, in the order of their columns.
+    pub signals: Vec<Signal>,
 }
 
 /// The lines above the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Header {
+pub enum Header {
+    /// Every row of attributes.
     Full,
     /// Only the row `Name` describes channels.
     Names,
@@ -35,8 +43,10 @@ pub(crate) enum Header {
 
 /// The form of the times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Times {
+pub enum Times {
+    /// Milliseconds since the start.
     Milliseconds,
+    /// 100 ns since the year 1601.
     FileTime,
     /// No columns of times.
     None,
@@ -44,7 +54,7 @@ pub(crate) enum Times {
 
 /// The contents of the rows of a channel that is sampled less often.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Filled {
+pub enum Filled {
     /// Its samples are at the top, the rows below are blank.
     Blank,
     /// Its samples are at the top, the rows below are short.
@@ -57,18 +67,25 @@ pub(crate) enum Filled {
 
 /// The form of comments of several lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Comments {
+pub enum Comments {
+    /// In quotation marks.
     Quoted,
+    /// As they are.
     Bare,
 }
 
 /// The encoding of the bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Letters {
+pub enum Letters {
+    /// UTF-8.
     Utf8,
+    /// UTF-8 with a byte order mark.
     Marked,
+    /// ISO 8859-1.
     Latin,
+    /// UTF-16, low byte first.
     Little,
+    /// UTF-16, high byte first.
     Big,
 }
 
@@ -77,24 +94,36 @@ type Cell<'a> = &'a dyn Fn(&Task, &Signal) -> String;
 
 /// An export of Scope.
 #[derive(Debug, Clone)]
-pub(crate) struct Export {
-    pub(crate) tasks: Vec<Task>,
-    pub(crate) separator: char,
-    pub(crate) decimal: char,
-    pub(crate) header: Header,
-    pub(crate) times: Times,
-    pub(crate) filled: Filled,
-    pub(crate) comments: Comments,
-    pub(crate) letters: Letters,
-    pub(crate) end: &'static str,
-    pub(crate) has_eof: bool,
-    pub(crate) ends_in_separator: bool,
+pub struct Export {
+    /// Tasks, each with its column of times.
+    pub tasks: Vec<Task>,
+    /// Character between two cells.
+    pub separator: char,
+    /// Decimal point or comma.
+    pub decimal: char,
+    /// Lines above the numbers.
+    pub header: Header,
+    /// Form of the times.
+    pub times: Times,
+    /// Rows of channels that are sampled less often.
+    pub filled: Filled,
+    /// Form of comments of several lines.
+    pub comments: Comments,
+    /// Encoding.
+    pub letters: Letters,
+    /// Line end.
+    pub end: &'static str,
+    /// A last line says `EOF`.
+    pub has_eof: bool,
+    /// Each line ends with a separator.
+    pub ends_in_separator: bool,
 }
 
 const ORIGIN: u64 = 132_959_733_843_760_000;
 
 impl Export {
-    pub(crate) fn bytes(&self) -> Vec<u8> {
+    /// Returns the bytes of the file.
+    pub fn bytes(&self) -> Vec<u8> {
         let text = self.text().replace('\n', self.end);
         match self.letters {
             Letters::Utf8 => text.into_bytes(),
@@ -250,7 +279,7 @@ impl Export {
 }
 
 /// A trace of a SINUMERIK control.
-pub(crate) fn sinumerik(task: &Task, are_names_apart: bool) -> String {
+pub fn sinumerik(task: &Task, are_names_apart: bool) -> String {
     let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<traceSession>\n".to_owned();
     let escape = |text: &str| {
         text.replace('&', "&amp;")

@@ -4,7 +4,7 @@ use std::{env, fs};
 
 /// Compares the table between `<!-- NAME -->` and `<!-- end of NAME -->` of a document with a fresh one, or
 /// writes it with `UPDATE_DOCS=1`.
-pub(crate) fn agrees(document: &str, name: &str, fresh: &str) {
+pub fn agrees(document: &str, name: &str, fresh: &str) {
     let path = format!("{}/../../docs/{document}", env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(&path).expect("the document");
     let [begin, end] = ["", "end of "].map(|of| format!("<!-- {of}{name} -->\n"));

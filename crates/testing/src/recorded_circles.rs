@@ -3,33 +3,46 @@
 
 use std::f64::consts::TAU;
 
+use crate::recorded_drive::Noise;
+
 /// The CNC cycle in s, and the time between two rows.
 const CYCLE_S: f64 = 0.001;
 
 /// The recorded drive.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Bench {
-    pub(crate) stiffness: f64,
-    pub(crate) mass: f64,
-    pub(crate) kv: f64,
+pub struct Bench {
+    /// Stiffness of the bristle in N/m.
+    pub stiffness: f64,
+    /// Mass in kg.
+    pub mass: f64,
+    /// Gain of the position loop in 1/s.
+    pub kv: f64,
     /// Bandwidth of the speed loop in Hz.
-    pub(crate) bandwidth: f64,
-    pub(crate) reset_s: f64,
-    pub(crate) current_loop_s: f64,
-    /// In mm/min.
-    pub(crate) feed: f64,
-    pub(crate) radius_mm: f64,
-    pub(crate) turns: f64,
+    pub bandwidth: f64,
+    /// Reset time of the speed loop in s.
+    pub reset_s: f64,
+    /// Time constant of the current loop in s.
+    pub current_loop_s: f64,
+    /// Feed in mm/min.
+    pub feed: f64,
+    /// Radius in mm.
+    pub radius_mm: f64,
+    /// Number of turns.
+    pub turns: f64,
     /// Part of the current of the list that acts.
-    pub(crate) share: f64,
-    pub(crate) lookahead: usize,
-    pub(crate) delay: usize,
+    pub share: f64,
+    /// Cycles before a reversal in which the current falls.
+    pub lookahead: usize,
+    /// Cycles by which the current is late.
+    pub delay: usize,
     /// Noise of the recorded position in µm, and of the torque in units.
-    pub(crate) noise: (f64, f64),
-    pub(crate) seed: u64,
+    pub noise: (f64, f64),
+    /// Seed of the noise.
+    pub seed: u64,
 }
 
-pub(crate) const STIFF: Bench = Bench {
+/// A stiff machine tool.
+pub const STIFF: Bench = Bench {
     stiffness: 1e9,
     mass: 1300.0,
     kv: 33.3,
@@ -46,18 +59,20 @@ pub(crate) const STIFF: Bench = Bench {
     seed: 1,
 };
 
-pub(crate) const MID: Bench = Bench {
+/// A machine tool of medium stiffness.
+pub const MID: Bench = Bench {
     stiffness: 3e8,
     ..STIFF
 };
 
-pub(crate) const SOFT: Bench = Bench {
+/// A soft machine tool.
+pub const SOFT: Bench = Bench {
     stiffness: 8e7,
     ..STIFF
 };
 
 /// A fast machine tool.
-pub(crate) const FAST: Bench = Bench {
+pub const FAST: Bench = Bench {
     kv: 60.0,
     bandwidth: 80.0,
     reset_s: 0.006,
@@ -66,7 +81,7 @@ pub(crate) const FAST: Bench = Bench {
 };
 
 /// A slow one.
-pub(crate) const SLOW: Bench = Bench {
+pub const SLOW: Bench = Bench {
     kv: 20.0,
     bandwidth: 25.0,
     reset_s: 0.03,
@@ -82,13 +97,17 @@ const BUILD_UP: f64 = 0.9;
 
 /// Columns in the units of lists and traces.
 #[derive(Debug, Default)]
-pub(crate) struct Recorded {
-    pub(crate) t: Vec<f64>,
-    pub(crate) v: Vec<f64>,
-    pub(crate) x: Vec<f64>,
-    pub(crate) torque: Vec<f64>,
+pub struct Recorded {
+    /// Times in s.
+    pub t: Vec<f64>,
+    /// Commanded velocities in µm/s.
+    pub v: Vec<f64>,
+    /// Commanded positions in 0.1 µm.
+    pub x: Vec<f64>,
+    /// Torques in drive units.
+    pub torque: Vec<f64>,
     /// Commanded less actual position.
-    pub(crate) error: Vec<f64>,
+    pub error: Vec<f64>,
 }
 
 /// The friction that slips at a speed in m/s, in N.
@@ -97,24 +116,8 @@ fn level(speed: f64) -> f64 {
 }
 
 /// The friction at a steady speed in m/s, in drive units: the contents of the list.
-pub(crate) fn units_at(speed: f64) -> f64 {
+pub fn units_at(speed: f64) -> f64 {
     (level(speed) + 4000.0 * speed.abs()) / UNIT
-}
-
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * self.uniform().max(1e-300).ln()).sqrt();
-        radius * (TAU * self.uniform()).cos()
-    }
 }
 
 impl Bench {
@@ -155,16 +158,14 @@ impl Bench {
         (0..raw.len()).map(late).collect()
     }
 
-    pub(crate) fn record(&self) -> Recorded {
+    /// A recording of the circles.
+    pub fn record(&self) -> Recorded {
         const STEP: f64 = 62.5e-6;
         let kp = self.mass * TAU * self.bandwidth;
         let decay = (-STEP / self.current_loop_s).exp();
         let motion = self.commanded();
         let added = self.currents(&motion);
-        let mut random = Random(self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-        for _ in 0..20 {
-            random.uniform();
-        }
+        let mut random = Noise::of_seed(self.seed);
         let (mut x, mut v) = motion[0];
         let steady = units_at(v) * UNIT * v.signum();
         let mut z = level(v) / self.stiffness * v.signum();

@@ -4,35 +4,45 @@
 
 /// The recorded drive.
 #[derive(Debug, Clone)]
-pub(crate) struct Bench {
-    pub(crate) seed: u64,
+pub struct Bench {
+    /// Seed of the noise.
+    pub seed: u64,
     /// Standard deviation of the noise in N.
-    pub(crate) noise_n: f64,
+    pub noise_n: f64,
     /// Time constant of the noise in s, 0 for white noise.
-    pub(crate) colour_s: f64,
-    pub(crate) ripple_n: f64,
+    pub colour_s: f64,
+    /// Amplitude of the ripple along the travel in N.
+    pub ripple_n: f64,
     /// The part by which friction changes over the recording.
-    pub(crate) drift: f64,
+    pub drift: f64,
     /// Noise of the recorded velocity in mm/s; with any, the actual velocity is recorded.
-    pub(crate) velocity_noise: Option<f64>,
-    pub(crate) is_concave: bool,
+    pub velocity_noise: Option<f64>,
+    /// Viscous friction grows less than in proportion.
+    pub is_concave: bool,
     /// The speeds are driven upwards, then downwards.
-    pub(crate) is_up_and_down: bool,
+    pub is_up_and_down: bool,
     /// Speeds in mm/s.
-    pub(crate) speeds: Vec<f64>,
+    pub speeds: Vec<f64>,
     /// Both directions, or only forwards.
-    pub(crate) is_both: bool,
-    pub(crate) length_s: f64,
+    pub is_both: bool,
+    /// Length of the recording in s.
+    pub length_s: f64,
 }
 
-pub(crate) const FC: f64 = 512.5;
-pub(crate) const FS: f64 = 632.5;
-pub(crate) const VS: f64 = 3.0;
-pub(crate) const FV: f64 = 4.0;
-pub(crate) const WEIGHT: f64 = 150.0;
-pub(crate) const ASYMMETRY: f64 = 25.0;
+/// Coulomb friction in N.
+pub const FC: f64 = 512.5;
+/// Static friction in N.
+pub const FS: f64 = 632.5;
+/// Stribeck velocity in mm/s.
+pub const VS: f64 = 3.0;
+/// Viscous friction in N per mm/s.
+pub const FV: f64 = 4.0;
+/// Weight in N.
+pub const WEIGHT: f64 = 150.0;
+/// Difference of friction between the directions in N.
+pub const ASYMMETRY: f64 = 25.0;
 /// N per drive unit.
-pub(crate) const UNIT: f64 = 5.0;
+pub const UNIT: f64 = 5.0;
 
 impl Default for Bench {
     fn default() -> Self {
@@ -56,18 +66,31 @@ impl Default for Bench {
 
 /// Columns in the units of lists and traces.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Recorded {
-    pub(crate) t: Vec<f64>,
-    pub(crate) v: Vec<f64>,
-    pub(crate) x: Vec<f64>,
+pub struct Recorded {
+    /// Times in s.
+    pub t: Vec<f64>,
+    /// Velocities in µm/s.
+    pub v: Vec<f64>,
+    /// Actual positions in 0.1 µm.
+    pub x: Vec<f64>,
     /// Commanded positions.
-    pub(crate) commanded: Vec<f64>,
-    pub(crate) torque: Vec<f64>,
+    pub commanded: Vec<f64>,
+    /// Torques in drive units.
+    pub torque: Vec<f64>,
 }
 
-struct Random(u64);
+/// Random numbers of the noise.
+pub(crate) struct Noise(u64);
 
-impl Random {
+impl Noise {
+    pub(crate) fn of_seed(seed: u64) -> Self {
+        let mut noise = Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+        for _ in 0..20 {
+            noise.uniform();
+        }
+        noise
+    }
+
     fn uniform(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -75,7 +98,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         let radius = (-2.0 * self.uniform().max(1e-300).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.uniform()).cos()
     }
@@ -83,7 +106,7 @@ impl Random {
 
 impl Bench {
     /// The friction in N at a speed in mm/s.
-    pub(crate) fn friction(&self, speed: f64) -> f64 {
+    pub fn friction(&self, speed: f64) -> f64 {
         Self::level(speed) + self.viscous(speed)
     }
 
@@ -100,7 +123,7 @@ impl Bench {
     }
 
     /// The commanded velocities in mm/s, one per millisecond.
-    pub(crate) fn commanded(&self) -> Vec<f64> {
+    pub fn commanded(&self) -> Vec<f64> {
         const ACCELERATION: f64 = 1000.0;
         const PAUSE: usize = 100;
         let mut plan = self.speeds.clone();
@@ -130,17 +153,18 @@ impl Bench {
         v
     }
 
-    pub(crate) fn record(&self) -> Recorded {
+    /// A recording of the speeds.
+    pub fn record(&self) -> Recorded {
         self.record_along(&self.commanded())
     }
 
     /// A recording of an axis that follows velocities in mm/s.
-    pub(crate) fn record_along(&self, commanded: &[f64]) -> Recorded {
+    pub fn record_along(&self, commanded: &[f64]) -> Recorded {
         self.record_with(commanded, &[])
     }
 
     /// A recording with a current in drive units that the control adds at each velocity.
-    pub(crate) fn record_with(&self, commanded: &[f64], added: &[f64]) -> Recorded {
+    pub fn record_with(&self, commanded: &[f64], added: &[f64]) -> Recorded {
         const STEP: f64 = 62.5e-6;
         const MASS: f64 = 1300.0;
         const KV: f64 = 33.3;
@@ -148,10 +172,7 @@ impl Bench {
         const STIFFNESS: f64 = 1e9;
         let kp = MASS * std::f64::consts::TAU * 45.0;
         let decay = (-STEP / 0.0006_f64).exp();
-        let mut random = Random(self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-        for _ in 0..20 {
-            random.uniform();
-        }
+        let mut random = Noise::of_seed(self.seed);
         let (mut x, mut v, mut z) = (0.0_f64, 0.0_f64, 0.0_f64);
         let (mut force, mut asked, mut command, mut integral) = (0.0, 0.0, 0.0, 0.0);
         let (mut target, mut reference, mut noise) = (0.0, 0.0, 0.0);

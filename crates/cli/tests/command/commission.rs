@@ -83,14 +83,7 @@ fn programs(folder: &Path) -> Vec<String> {
 
 /// The columns of the commanded trace of a program, in mm and mm/s: positions and speeds of X and Y.
 fn driven(folder: &Path, program: &str) -> [Vec<f64>; 4] {
-    let axes = [
-        "--axis",
-        "X,Y",
-        "--start",
-        "X30,Y-20",
-        "--cycle-time-ms",
-        "4",
-    ];
+    let axes = ["--axis", "X,Y", "--start", "X30,Y-20", "--cycle-time", "4"];
     let output = call(folder, &[&["current", program], &axes[..]].concat());
     assert_eq!(
         output.status.code(),

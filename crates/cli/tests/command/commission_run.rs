@@ -63,7 +63,7 @@ fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
 
 /// Positions of X and Y in mm and their speeds in mm/s as a program commands them, one row per ms.
 fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
-    let arguments = ["--axis", "X,Y", "--start", "X50,Y0", "--cycle-time-ms", "1"];
+    let arguments = ["--axis", "X,Y", "--start", "X50,Y0", "--cycle-time", "1"];
     let output = succeeded(folder, &[&["current", program], &arguments[..]].concat());
     let text = String::from_utf8(output.stdout).expect("text");
     let head: Vec<&str> = text.lines().next().expect("a head").split(',').collect();

@@ -127,7 +127,7 @@ fn several_axes_stand_side_by_side() {
         "-o",
         "out.csv",
         "--cycle-time",
-        "0.002",
+        "2000us",
     ];
     let output = current(folder.path(), &arguments);
     assert_eq!(output.status.code(), Some(0));
@@ -388,7 +388,7 @@ fn a_list_that_does_not_fit_has_its_status() {
     std::fs::write(folder.path().join("v.nc"), program).expect("a program");
     let list = root().join("programs/demo/lists/comp_x.lis");
     std::fs::copy(list, folder.path().join("v.lis")).expect("a list");
-    let arguments = "v.nc --isolated --enable X --axis X --value-list v.lis --cycle-time-ms 1";
+    let arguments = "v.nc --isolated --enable X --axis X --value-list v.lis --cycle-time 1";
     let arguments: Vec<&str> = arguments.split(' ').collect();
     let driven = rows(&current(folder.path(), &arguments));
     for (factor, expected, words) in [
@@ -413,7 +413,7 @@ fn a_list_that_does_not_fit_has_its_status() {
             "t.csv",
             "--value-list",
             "v.lis",
-            "--cycle-time-ms",
+            "--cycle-time",
             "1",
         ];
         let output = call(folder.path(), &arguments);

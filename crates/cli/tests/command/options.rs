@@ -261,7 +261,7 @@ fn options_without_effect_are_refused() {
         &[&trace[..], &["--isolated"]].concat(),
         &[&trace[..], &["--axis", "X"]].concat(),
         &["circle", "--trace", "t.csv", "--feed", "100"],
-        &["circle", "--trace", "t.csv", "--cycle-time-ms", "1"],
+        &["circle", "--trace", "t.csv", "--cycle-time", "1"],
     ] {
         let said = refused(&bench, arguments);
         assert!(said.starts_with("error: "), "{arguments:?}: {said}");
@@ -406,26 +406,26 @@ fn numbers_have_units_and_ranges() {
         ),
         (&["circle", "--radius", "1e308"], "a radius of 1e308 mm"),
         (
-            &["circle", "--cycle-time-ms", "-1"],
+            &["circle", "--cycle-time", "-1"],
             "a CNC cycle of -1 ms is not possible",
         ),
         (
-            &["circle", "--cycle-time-ms", "0.3"],
+            &["circle", "--cycle-time", "0.3"],
             "whole multiple of 0.25 ms",
         ),
         (&["tune", "--feeds", "-5"], "a feed of -5 mm/min"),
         (&["tune", "--feeds", "0"], "write feeds in mm/min"),
-        (&["tune", "--radius", "-1"], "a radius of -1 mm"),
+        (&["tune", "--radii", "-1"], "a radius of -1 mm"),
         (
-            &["current", "a.nc", "--axis", "X", "--cycle-time-ms", "0"],
+            &["current", "a.nc", "--axis", "X", "--cycle-time", "0"],
             "must be between 0.001 and 1000 ms",
         ),
     ] {
         let said = refused(&bench, arguments);
         assert!(said.contains(words), "{arguments:?}: {said}");
     }
-    let fast = bench.stdout(&["current", "a.nc", "--axis", "X", "--cycle-time-ms", "2"]);
-    let slow = bench.stdout(&["current", "a.nc", "--axis", "X", "--cycle-time", "0.002"]);
+    let fast = bench.stdout(&["current", "a.nc", "--axis", "X", "--cycle-time", "2"]);
+    let slow = bench.stdout(&["current", "a.nc", "--axis", "X", "--cycle-time", "2000us"]);
     assert_eq!(fast, slow);
 }
 

@@ -96,7 +96,7 @@ fn tables_and_failures_keep_within_their_width() {
         &["explain"],
         &["circle", "--radius", "5", "--feed", "3000"],
         &[
-            "tune", "--plant", "stiff", "--radius", "5", "--feeds", "5000",
+            "tune", "--plant", "stiff", "--radii", "5", "--feeds", "5000",
         ],
         &["diff", "programs/demo/friction.nc", "programs/demo/next.nc"],
         &["golden", "programs/demo"],
@@ -109,7 +109,7 @@ fn tables_and_failures_keep_within_their_width() {
             "programs/demo/friction.nc",
         ],
         &[
-            "tune", "--plant", "no.toml", "--radius", "5", "--feeds", "1000",
+            "tune", "--plant", "no.toml", "--radii", "5", "--feeds", "1000",
         ],
     ];
     for arguments in commands {

@@ -96,7 +96,7 @@ fn results_of_programs() {
         &["audit", "-o", "r.txt", "--html", "r.html", "."],
         &["diff", "-o", "r.txt", "--html", "r.html", "a.nc", "b.nc"],
         &[
-            "current", "a.nc", "--axis", "X", "--start", "X0", "-o", "r.csv", "--plot", "r.svg",
+            "current", "a.nc", "--axis", "X", "--start", "X0", "-o", "r.csv", "--svg", "r.svg",
         ],
     ] {
         survives_after(&[], Range::FullDisk, call);

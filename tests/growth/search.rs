@@ -1,4 +1,9 @@
-//! The search for growth.
+//! Searches for growth instead of listing it (R9.90): the elements of the language are repeated within a line, within a
+//! continued block, over lines, over files and over list lines, and twice as many of them may take at most 2.2 times
+//! the processor time.
+//!
+//! The measured time is the processor time of the thread, and it is measured again if it grows too fast, so that other
+//! work on the machine does not cause a failure.
 
 use std::fmt::Write as _;
 use std::hint::black_box;

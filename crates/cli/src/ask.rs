@@ -9,12 +9,14 @@ use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 
 use super::channels::MotionChannels;
+use super::cnc_build::CncBuildArgs;
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::{Failure, shown};
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
+use super::quantities;
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::Severity;
@@ -91,9 +93,8 @@ pub(super) struct ListArgs {
 /// The control that is asked.
 #[derive(Debug, Args)]
 struct ControlArgs {
-    /// The CNC build of the control; by default that of the configuration
-    #[arg(long, value_name = "BUILD")]
-    cnc_build: Option<CncBuild>,
+    #[command(flatten)]
+    build: CncBuildArgs,
     #[command(flatten)]
     machine: MachineArgs,
 }
@@ -102,10 +103,9 @@ struct ControlArgs {
 const TRAVEL: f64 = 10.0;
 
 fn parse_travel(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(travel) if (0.1..=1000.0).contains(&travel) => Ok(travel),
-        _ => Err("give a distance from 0.1 to 1000".to_owned()),
-    }
+    let travel = quantities::mm_or_degrees(text)?;
+    let travel = Some(travel).filter(|it| (0.1..=1000.0).contains(it));
+    travel.ok_or_else(|| "give a distance from 0.1 to 1000".to_owned())
 }
 
 /// Runs the command.
@@ -133,7 +133,7 @@ impl ControlArgs {
     }
 
     fn build(&self, machine: &Machine) -> Option<CncBuild> {
-        self.cnc_build.or(machine.build)
+        self.build.cnc_build.or(machine.build)
     }
 
     fn asked(&self, name: &str, machine: &Machine) -> AskedAxis {
@@ -261,6 +261,7 @@ impl ReadArgs {
                         reading,
                         build: self
                             .control
+                            .build
                             .cnc_build
                             .or(answer.build)
                             .or(loaded.machine.build),

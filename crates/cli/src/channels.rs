@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
+use super::quantities;
 use frictcomp_host::{FileRegistry, MachineOptions, Machines};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{Measured, TorqueKind};
@@ -146,7 +147,7 @@ pub(super) fn parse_unit(text: &str) -> Result<(String, Unit), String> {
 
 /// Parses the way in a turn, in mm.
 fn parse_lead(text: &str) -> Result<f64, String> {
-    let lead: Option<f64> = text.trim().parse().ok();
-    lead.filter(|it| *it > 0.0 && *it <= 1e6)
-        .ok_or_else(|| "write the mm in a turn, such as `10`".to_owned())
+    let lead = quantities::mm(text)?;
+    let lead = Some(lead).filter(|it| *it > 0.0 && *it <= 1e6);
+    lead.ok_or_else(|| "write the mm in a turn, such as `10`".to_owned())
 }

@@ -13,16 +13,16 @@ use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::{Outputs, write_text};
 use super::progress;
+use super::quantities;
+use super::readings::CurrentReadingArgs;
 use super::result::ResultArgs;
-use super::values;
+use super::simulated::{ModelArgs, PlantArgs};
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     CircleChannels, FileRegistry, compare, find_plant, memory_for_simulation, read_circles,
 };
 use frictcomp_physics::circle::{Circle, CircularTest, CommandedCircle, Method, PathCentre};
-use frictcomp_physics::current::Reading;
-use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
 use frictcomp_report::fitted;
@@ -39,34 +39,27 @@ use frictcomp_report::svg::Frame;
 #[derive(Debug, Args)]
 pub(super) struct CircleArgs {
     /// Radius in mm; for recorded circles the commanded radius
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", value_parser = quantities::mm, allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Feed in mm/min, by default 1000; for recorded circles the commanded feed, by default that of
     /// the column `t` in s
-    #[arg(long, value_name = "MM/MIN", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM/MIN", value_parser = quantities::mm_per_min)]
+    #[arg(allow_negative_numbers = true)]
     feed: Option<f64>,
-    /// The machine: `stiff`, `mid`, `soft`, or a TOML file
-    #[arg(long, value_name = "PLANT", default_value = "stiff")]
-    plant: String,
-    /// The friction model
-    #[arg(long, default_value = "lugre", value_parser = values::friction_model())]
-    model: FrictionModel,
+    #[command(flatten)]
+    plant: PlantArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     /// The compensation value list of both axes, or `X=LIST` and `Y=LIST`; by default the stiction
     /// compensation of the plant if it has one, or else its friction curve
     #[arg(long, value_name = "LIST")]
     value_list: Vec<AxisList>,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
-    #[arg(
-        long,
-        value_name = "READING",
-        default_value = "",
-        hide_default_value = true
-    )]
-    reading: Reading,
+    #[command(flatten)]
+    reading: CurrentReadingArgs,
     /// A recorded circle instead of a simulated one; give it twice for both directions
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time", "reading"])]
     trace: Vec<PathBuf>,
     /// The centre about which G(b) and H compare both directions: `common`, the mean of both
     /// least-squares centres, or `own`
@@ -160,7 +153,7 @@ fn simulation(
     args: &CircleArgs,
     registry: &FileRegistry,
 ) -> Result<(CircularTest, ListOrigin), Failure> {
-    let plant = find_plant(&args.plant, registry)?;
+    let plant = find_plant(args.plant.name(), registry)?;
     let (compensation, origin) = match &args.value_list[..] {
         [] => (Method::of_plant(&plant), ListOrigin::Plant),
         given => {
@@ -178,9 +171,9 @@ fn simulation(
                 .unwrap_or(Circle::default().cycle_time_s),
         },
         plant,
-        model: args.model,
+        model: args.model.model(),
         compensation,
-        reading: args.reading,
+        reading: args.reading.reading,
     };
     Ok((test, origin))
 }

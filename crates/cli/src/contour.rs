@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::html::Files;
 use super::machine::{MachineArgs, remark};
 use super::outputs::{Outputs, write_text};
+use super::quantities;
 use super::result::ResultArgs;
 use super::simulated::SimulationArgs;
 use frictcomp::diagnostic::{Diagnostic, Severity};
@@ -47,11 +48,11 @@ pub(super) struct ContourArgs {
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
     /// Exit with status 1 if a cutting move deviates by more, in µm, or if the contour is not judged
-    #[arg(long, value_name = "UM")]
+    #[arg(long, value_name = "UM", value_parser = quantities::um)]
     fail_above: Option<f64>,
     /// Exit with status 1 if missing compensation costs more, in µm, or if the contour is not judged:
     /// the deviation as programmed less the one with all of it on
-    #[arg(long, value_name = "UM")]
+    #[arg(long, value_name = "UM", value_parser = quantities::um)]
     fail_above_due: Option<f64>,
     #[command(flatten)]
     machine: MachineArgs,

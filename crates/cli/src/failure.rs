@@ -93,7 +93,7 @@ fn options_for(error: &HostError) -> Option<String> {
             "`--startup` takes the list that names all others, `hochlauf.lis`, and `--project` a TwinCAT project"
         }
         HostError::Trace(TraceError::Cycles { .. } | TraceError::SeveralClocks(_)) => {
-            "record one row per CNC cycle, give the cycle with `--cycle-time-ms`, or make cycles of \
+            "record one row per CNC cycle, give the cycle with `--cycle-time`, or make cycles of \
              the rows with `--resample`"
         }
         HostError::NoGit => "install git, or compare two files: `frictcomp diff OLD NEW`",
@@ -137,7 +137,7 @@ impl From<CircleError> for Failure {
     fn from(error: CircleError) -> Self {
         Self::new(error.to_string()).with_help(match error {
             CircleError::Radius(_) => "write the radius in mm, `--radius 100`",
-            CircleError::CycleTime(_) => "write the milliseconds of a cycle, `--cycle-time-ms 1`",
+            CircleError::CycleTime(_) => "write the milliseconds of a cycle, `--cycle-time 1`",
             _ => error.help(),
         })
     }
@@ -146,7 +146,7 @@ impl From<CircleError> for Failure {
 impl From<CycleError> for Failure {
     fn from(error: CycleError) -> Self {
         Self::new(error.to_string())
-            .with_help("write the milliseconds of a cycle, `--cycle-time-ms 1`")
+            .with_help("write the milliseconds of a cycle, `--cycle-time 1`")
     }
 }
 

@@ -21,7 +21,7 @@ fn moved() -> impl Iterator<Item = (&'static str, &'static str)> {
 
 /// Returns the command line with the earlier commands, which take any arguments and are in no list.
 pub(super) fn with_moved(tool: Command) -> Command {
-    let gone = moved().map(|it| it.0).filter(|name| !name.contains(' '));
+    let gone = moved().map(|it| it.0).filter(|it| !it.contains([' ', '-']));
     gone.fold(tool, |tool, name| {
         if tool.find_subcommand(name).is_some() {
             return tool;
@@ -48,7 +48,11 @@ pub(super) fn option(command: &str, error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else {
         return None;
     };
-    answer(&format!("{command} {}", option.split('=').next()?))
+    let option = option.split('=').next()?;
+    answer(&format!("{command} {option}")).or_else(|| {
+        let (before, now) = moved().find(|it| it.0 == option)?;
+        Some(format!("`{before}` is now `{now}`"))
+    })
 }
 
 fn answer(before: &str) -> Option<String> {
@@ -97,17 +101,25 @@ mod tests {
     fn every_earlier_word_has_a_present_one_or_a_reason() {
         let present = present();
         let before = include_str!("../tests/grammar/before.csv");
+        let renamed = |before: &str| {
+            let row = moved().find(|it| it.0 == before && !before.is_empty());
+            row.map_or_else(|| before.to_owned(), |it| it.1.to_owned())
+        };
         for row in before.lines().skip(1) {
             let mut cells = row.split(',');
             let mut cell = || cells.next().unwrap_or_default();
             let (command, option) = (cell(), cell());
             let whole = format!("{command} {option}").trim().to_owned();
-            let of_command = moved().find(|it| it.0 == command && !command.is_empty());
-            let under = of_command.map(|it| format!("{} {option}", it.1).trim().to_owned());
             let is_moved = moved().any(|it| it.0 == whole);
-            let is_there = |form: &String| present.contains(form);
-            let found = is_moved || is_there(&whole) || under.is_some_and(|it| is_there(&it));
-            assert!(found, "`{whole}` has neither a new form nor a reason");
+            let options = [option.to_owned(), renamed(option)];
+            let mut forms = [command.to_owned(), renamed(command)]
+                .into_iter()
+                .flat_map(|it| options.clone().map(|option| format!("{it} {option}")));
+            let is_there = forms.any(|it| present.contains(it.trim()));
+            assert!(
+                is_moved || is_there,
+                "`{whole}` has neither a new form nor a reason"
+            );
         }
     }
 
@@ -116,7 +128,11 @@ mod tests {
         let present = present();
         for (before, now) in moved() {
             let is_gone = now.is_empty() && !MOVED.contains(&format!("\n{before},,\n"));
-            assert!(is_gone || present.contains(now), "{before}: {now}");
+            let is_option = now.starts_with('-') && present.iter().any(|it| it.ends_with(now));
+            assert!(
+                is_gone || is_option || present.contains(now),
+                "{before}: {now}"
+            );
         }
     }
 }

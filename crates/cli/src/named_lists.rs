@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::cnc_build::CncBuildArgs;
 use super::failure::Failure;
 use super::machine::outside_policy;
-use frictcomp::comp::CncBuild;
 use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
@@ -20,9 +20,8 @@ pub(super) struct NamedLists {
     /// in the current folder or above
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// The CNC build that the lists are for, such as `3.1.3132.0`
-    #[arg(long, value_name = "BUILD")]
-    cnc_build: Option<CncBuild>,
+    #[command(flatten)]
+    build: CncBuildArgs,
     /// Also show the text of lists outside the current folder and the folders of the files named
     #[arg(long)]
     allow_outside: bool,
@@ -54,8 +53,8 @@ impl NamedLists {
 
     /// Checks a list, or every list that a configuration names.
     pub(super) fn check(&self, path: &Path) -> Result<ListsReport, Failure> {
-        let report = check_list_file(path, self.cnc_build, &Disk::default())?;
-        if self.cnc_build.is_some() && is_configuration(path) {
+        let report = check_list_file(path, self.build.cnc_build, &Disk::default())?;
+        if self.build.cnc_build.is_some() && is_configuration(path) {
             let message = format!(
                 "the build of `{}` is given in the file itself",
                 shown_path(path)

@@ -9,6 +9,7 @@ use super::cycle::CycleArgs;
 use super::execution::ExecutionArgs;
 use super::failure::Failure;
 use super::machine::value_list;
+use super::quantities;
 use super::start::StartArgs;
 use super::tool_radius::ToolArgs;
 use super::values;
@@ -21,18 +22,46 @@ use frictcomp_physics::contour::NoContour;
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::FrictionModel;
 
+/// The simulated drives.
+#[derive(Debug, Clone, Args)]
+pub(super) struct PlantArgs {
+    /// The drives: `stiff`, `mid`, `soft`, or a TOML file; by default `stiff`
+    #[arg(long, value_name = "PLANT")]
+    plant: Option<String>,
+}
+
+impl PlantArgs {
+    /// Returns the plant as named.
+    pub(super) fn name(&self) -> &str {
+        self.plant.as_deref().unwrap_or("stiff")
+    }
+}
+
+/// The friction of the simulated drives.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ModelArgs {
+    /// The friction model; by default `lugre`
+    #[arg(long, value_parser = values::friction_model())]
+    model: Option<FrictionModel>,
+}
+
+impl ModelArgs {
+    /// Returns the model.
+    pub(super) fn model(&self) -> FrictionModel {
+        self.model.unwrap_or_default()
+    }
+}
+
 /// The drives for the path of a program.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SimulationArgs {
     /// The axes of the plane, `XY` or `X1,Y1`; by default `XY`
     #[arg(long, value_name = "AXES", value_parser = parse_plane)]
     plane: Option<[String; 2]>,
-    /// The drives: `stiff`, `mid`, `soft`, or a TOML file; by default `stiff`
-    #[arg(long, value_name = "PLANT")]
-    plant: Option<String>,
-    /// The friction model; by default `lugre`
-    #[arg(long, value_parser = values::friction_model())]
-    model: Option<FrictionModel>,
+    #[command(flatten)]
+    plant: PlantArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     /// The compensation value list of an axis, in place of the machine's
     #[arg(long, value_name = "AXIS=FILE", value_parser = parse_list)]
     value_list: Vec<(String, PathBuf)>,
@@ -51,19 +80,19 @@ pub(super) struct SimulationArgs {
 impl SimulationArgs {
     /// Returns the plant as named.
     pub(super) fn plant(&self) -> &str {
-        self.plant.as_deref().unwrap_or("stiff")
+        self.plant.name()
     }
 
     /// Refuses options of a contour if none is requested.
     pub(super) fn refuse_without_contour(&self) -> Result<(), Failure> {
         let given = [
             ("--plane", self.plane.is_some()),
-            ("--plant", self.plant.is_some()),
-            ("--model", self.model.is_some()),
+            ("--plant", self.plant.plant.is_some()),
+            ("--model", self.model.model.is_some()),
             ("--value-list", !self.value_list.is_empty()),
             ("--start", !self.start.given().is_empty()),
             ("--tool-radius", self.tool.radii.is_some()),
-            ("--cycle-time-ms", self.cycle.seconds()?.is_some()),
+            ("--cycle-time", self.cycle.seconds()?.is_some()),
             ("--max-cycles", self.max_cycles.is_some()),
         ];
         match given.iter().find(|(_, is_given)| *is_given) {
@@ -93,7 +122,7 @@ impl SimulationArgs {
             plane: plane.unwrap_or_else(|| ["X", "Y"].map(str::to_owned)),
             plant: find_plant(self.plant(), registry)?,
             value_lists: given.collect::<Result<_, Failure>>()?,
-            model: self.model.unwrap_or_default(),
+            model: self.model.model(),
             planner: self.planner(loaded)?,
             session,
             naming,
@@ -146,8 +175,8 @@ impl FromStr for Tolerance {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let um = text.parse().ok();
-        let um = um.filter(|um: &f64| um.is_finite() && *um >= 0.0);
+        let um = quantities::um(text)?;
+        let um = Some(um).filter(|um| *um >= 0.0);
         um.map(Self)
             .ok_or_else(|| "write the µm, 0 or more".to_owned())
     }

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::failure::Failure;
+use super::quantities;
 use frictcomp::diagnostic::UnknownName;
 use frictcomp::machine::Machine;
 
@@ -54,7 +55,7 @@ fn parse_position(text: &str) -> Result<(String, f64), String> {
         Some((name, value)) => (name.trim(), value.trim()),
         None => text.split_at(name_end),
     };
-    let position = value.trim().parse().ok().filter(|it: &f64| it.is_finite());
+    let position = quantities::mm_or_degrees(value).ok();
     match position {
         Some(position) if name.starts_with(|c: char| c.is_ascii_alphabetic()) => {
             Ok((name.to_owned(), position))

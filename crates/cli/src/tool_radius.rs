@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use clap::Args;
+
+use super::quantities;
 use frictcomp_physics::motion::ToolRadii;
 
 /// The tools of G41 and G42.
@@ -36,7 +38,7 @@ fn parse_radii(text: &str) -> Result<ToolRadii, String> {
 }
 
 fn parse_radius(text: &str) -> Result<f64, String> {
-    let radius: Option<f64> = text.trim().parse().ok();
+    let radius = quantities::mm(text).ok();
     radius
         .filter(|it| *it > 0.0 && *it <= 1e4)
         .ok_or_else(|| format!("`{text}` is no radius in mm; write it as in `5`, or `D1=5,D2=8`"))

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::cnc_build::CncBuildArgs;
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
@@ -11,9 +12,10 @@ use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::progress;
+use super::quantities;
+use super::readings::CurrentReadingArgs;
 use super::result::{ResultArgs, ResultFormat};
-use super::values;
-use frictcomp::comp::CncBuild;
+use super::simulated::ModelArgs;
 use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::lists::{AxisType, ListHead, Points};
 use frictcomp::machine::Axis;
@@ -24,8 +26,7 @@ use frictcomp_physics::circle::TuningAim;
 use frictcomp_physics::circle::{
     Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task,
 };
-use frictcomp_physics::current::Reading;
-use frictcomp_physics::simulation::{FrictionModel, Plant};
+use frictcomp_physics::simulation::Plant;
 use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::pictures::tuning;
 use frictcomp_report::svg::Frame;
@@ -47,7 +48,7 @@ const MAX_PLANTS: usize = 16;
 /// searches MP1511 and MP1512.
 #[derive(Debug, Args)]
 pub(super) struct TuneArgs {
-    /// The machine: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one after the other
+    /// The drives: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one after the other
     #[arg(
         long,
         value_name = "PLANT",
@@ -60,6 +61,7 @@ pub(super) struct TuneArgs {
         long,
         value_name = "MM/MIN",
         value_delimiter = ',',
+        value_parser = quantities::mm_per_min,
         default_value = "500,1000,2000,5000",
         allow_negative_numbers = true
     )]
@@ -79,9 +81,9 @@ pub(super) struct TuneArgs {
     /// The radii in mm, each with every feed
     #[arg(
         long,
-        alias = "radius",
         value_name = "MM",
         value_delimiter = ',',
+        value_parser = quantities::mm,
         default_value = "100",
         allow_negative_numbers = true
     )]
@@ -93,28 +95,19 @@ pub(super) struct TuneArgs {
     /// 10 % between the directions
     #[arg(long)]
     robust: bool,
-    /// The friction model
-    #[arg(long, default_value = "lugre", value_parser = values::friction_model())]
-    model: FrictionModel,
+    #[command(flatten)]
+    model: ModelArgs,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
-    #[arg(
-        long,
-        value_name = "READING",
-        default_value = "",
-        hide_default_value = true
-    )]
-    reading: Reading,
+    #[command(flatten)]
+    reading: CurrentReadingArgs,
     #[command(flatten)]
     result: ResultArgs,
     /// Draw the glitch over the feed, before and after tuning, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
-    /// unless the build accepts fractions
-    #[arg(long, value_name = "BUILD")]
-    cnc_build: Option<CncBuild>,
+    #[command(flatten)]
+    build: CncBuildArgs,
     /// Write the value list of the first plant to this file; if X and Y have different lists, that of X
     #[arg(long, value_name = "FILE")]
     write_list: Option<PathBuf>,
@@ -174,7 +167,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     };
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     outputs.check()?;
-    let model = args.model;
+    let model = args.model.model();
     let watch = progress::watch();
     let mut reports = Vec::new();
     for plant in plants {
@@ -184,8 +177,8 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             model,
             circles: circles.clone(),
             ranges: ranges(&args.free),
-            reading: args.reading,
-            points: Points::of_build(args.cnc_build),
+            reading: args.reading.reading,
+            points: Points::of_build(args.build.cnc_build),
             shaping: if args.no_shaping {
                 Shaping::None
             } else {
@@ -200,7 +193,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         reports.push(TuneReport {
             plant: name,
             model: model.as_str(),
-            reading: args.reading.to_string(),
+            reading: args.reading.reading.to_string(),
             not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
             tuned: tune(&task, &watch)?,
         });
@@ -210,14 +203,14 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         if let Some(mut file) = list {
             write_text(
                 &mut file,
-                &render_tuned(first, x, args.cnc_build, &ListHead::default()),
+                &render_tuned(first, x, args.build.cnc_build, &ListHead::default()),
             )?;
             if x != y {
                 console.remark("Y has its own list: `--into` writes both");
             }
         }
         for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
-            let text = render_tuned(first, axis, args.cnc_build, &of_axis.head());
+            let text = render_tuned(first, axis, args.build.cnc_build, &of_axis.head());
             write_text(&mut of_axis.file, &text)?;
         }
     }

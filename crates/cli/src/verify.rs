@@ -11,10 +11,10 @@ use super::exit;
 use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::Outputs;
+use super::readings::CurrentReadingArgs;
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_axis};
-use frictcomp_physics::current::Reading;
 use frictcomp_recordings::identify::{Predictor, verify_followed};
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::fitted;
@@ -45,14 +45,8 @@ pub(super) struct VerifyArgs {
     following_error: Option<String>,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
-    #[arg(
-        long,
-        value_name = "READING",
-        default_value = "",
-        hide_default_value = true
-    )]
-    reading: Reading,
+    #[command(flatten)]
+    reading: CurrentReadingArgs,
     #[command(flatten)]
     result: ResultArgs,
 }
@@ -74,7 +68,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let recording = read_axis(&args.trace, &selection, cycle_s)?;
     let predictor = Predictor {
         list: &list,
-        reading: args.reading,
+        reading: args.reading.reading,
         cycle_s,
     };
     let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)?;

@@ -4,14 +4,14 @@
 #![cfg(unix)]
 
 #[allow(dead_code, reason = "a client of other tests, too")]
-#[path = "lsp/client.rs"]
-mod lsp_client;
+#[path = "command/lsp/client.rs"]
+mod client;
 
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use lsp_client::{Client, uri};
+use client::{Client, uri};
 use rustix::time::{ClockId, clock_gettime};
 use serde_json::json;
 

@@ -5,7 +5,8 @@
 //! the current of a [`ValueList`], an [`Axis`] follows them in steps of 31.25 µs, and a [`Recorder`] writes what
 //! a recording would hold.
 //!
-//! The [`generator`] makes NC programs of any kind, for tests and fuzzers.
+//! The [`generator`] makes NC programs of any kind, for tests and fuzzers. [`recorded_drive`] and [`recorded_circles`]
+//! are recordings of a single axis, [`layouts`] the files that controls write, and [`table`] holds a table of a document.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -15,6 +16,10 @@
 )]
 
 pub mod generator;
+pub mod layouts;
+pub mod recorded_circles;
+pub mod recorded_drive;
+pub mod table;
 
 mod axis;
 mod control;

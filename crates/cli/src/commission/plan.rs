@@ -9,6 +9,7 @@ use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::machine::{MachineArgs, value_list};
 use crate::outputs::{Outputs, write_text};
+use crate::quantities;
 use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::comp::Kind;
 use frictcomp::machine::{Axis, Machine};
@@ -44,10 +45,10 @@ pub(crate) struct PlanArgs {
     travel: Vec<String>,
     /// The feeds of circles or strokes in mm/min or °/min, at least four over a decade
     #[arg(long, value_name = "MM/MIN", value_delimiter = ',', required = true)]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(value_parser = quantities::feed_of_axis, allow_negative_numbers = true)]
     feeds: Vec<f64>,
     /// The radius of the circles in mm; by default 100, or the largest that fits
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", value_parser = quantities::mm, allow_negative_numbers = true)]
     radius: Option<f64>,
     /// The distance over which the torque repeats, such as the pitch: `X=10,Y=10`; each run covers it
     #[arg(long, value_name = "AXIS=MM", value_delimiter = ',')]
@@ -57,6 +58,7 @@ pub(crate) struct PlanArgs {
         long,
         value_name = "MM/S",
         default_value_t = 0.2,
+        value_parser = quantities::speed_of_axis,
         allow_negative_numbers = true
     )]
     slowest: f64,
@@ -65,6 +67,7 @@ pub(crate) struct PlanArgs {
         long,
         value_name = "MM/MIN",
         default_value_t = 1000.0,
+        value_parser = quantities::feed_of_axis,
         allow_negative_numbers = true
     )]
     approach: f64,

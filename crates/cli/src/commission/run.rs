@@ -280,7 +280,7 @@ fn list_text(
         unit: "drive units",
         faults: &remarks,
     };
-    render_identified(&found.list(), made, args.cnc_build)
+    render_identified(&found.list(), made, args.build.cnc_build)
 }
 
 /// Returns the rounds of stage 2, each judged by its own recordings and by the lists accepted before it.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::channels::ReadingArgs;
+use crate::cnc_build::CncBuildArgs;
 use crate::result::ResultArgs;
-use frictcomp::comp::CncBuild;
 
 /// Evaluate the recordings of the measuring programs: friction, lists, circles before and after
 ///
@@ -29,10 +29,8 @@ pub(crate) struct CommissionRunArgs {
     /// Keep the friction curve of tuned lists as it is; do not shape it below 1 mm/s
     #[arg(long, requires = "plant")]
     pub(super) no_shaping: bool,
-    /// The CNC build that the lists are for, such as `3.1.3132.0`; outputs are whole numbers unless the
-    /// build accepts fractions
-    #[arg(long, value_name = "BUILD")]
-    pub(super) cnc_build: Option<CncBuild>,
+    #[command(flatten)]
+    pub(super) build: CncBuildArgs,
     /// Write the acceptance report to this file, for a browser and for paper
     #[arg(long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,

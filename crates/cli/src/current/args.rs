@@ -9,6 +9,7 @@ use super::super::cycle::CycleArgs;
 use super::super::execution::ExecutionArgs;
 use super::super::failure::Failure;
 use super::super::machine::MachineArgs;
+use super::super::quantities;
 use super::super::start::StartArgs;
 use super::super::tool_radius::ToolArgs;
 use frictcomp_physics::current::{ChosenOptions, DeadBand, Resampling, TraceOptions};
@@ -83,7 +84,7 @@ pub(crate) struct CurrentArgs {
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) max_cycles: u64,
     /// Draw currents, velocities, weights and compensation states over time to this SVG file
-    #[arg(long, alias = "plot", value_name = "FILE")]
+    #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
     /// Write the result to this file
     #[arg(long, short, value_name = "FILE")]
@@ -135,8 +136,7 @@ impl CurrentArgs {
 
 /// Parses a velocity, 0 or above.
 fn parse_dead_band(text: &str) -> Result<DeadBand, String> {
-    let limit = text.trim().parse().ok();
-    let limit = limit.filter(|limit: &f64| limit.is_finite() && *limit >= 0.0);
+    let limit = Some(quantities::um_per_s(text)?).filter(|limit| *limit >= 0.0);
     limit
         .map(DeadBand::Below)
         .ok_or_else(|| "a dead band is a velocity from 0 on, in µm/s or 0.001°/s".to_owned())

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::channels::{AxisChannelArgs, TorqueArgs};
+use crate::cnc_build::CncBuildArgs;
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
+use crate::quantities;
 use crate::result::ResultArgs;
-use frictcomp::comp::CncBuild;
 use frictcomp::text::shown_path;
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, TraceFinding, identify,
@@ -57,6 +58,7 @@ pub(crate) struct IdentifyArgs {
         long,
         value_name = "MM/MIN",
         default_value_t = 1000.0,
+        value_parser = quantities::mm_per_min,
         allow_negative_numbers = true
     )]
     pub(super) feed: f64,
@@ -64,10 +66,8 @@ pub(crate) struct IdentifyArgs {
     pub(super) torque: TorqueArgs,
     #[command(flatten)]
     pub(super) result: ResultArgs,
-    /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
-    /// unless the build accepts fractions
-    #[arg(long, value_name = "BUILD")]
-    pub(super) cnc_build: Option<CncBuild>,
+    #[command(flatten)]
+    pub(super) build: CncBuildArgs,
     /// Draw speeds, curve and residuals to this SVG file
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
@@ -109,7 +109,7 @@ impl IdentifyArgs {
             unit: report.unit(),
             faults: &[remarks, &report.faults()].concat(),
         };
-        render_identified(&report.identified.list(), made, self.cnc_build)
+        render_identified(&report.identified.list(), made, self.build.cnc_build)
     }
 }
 

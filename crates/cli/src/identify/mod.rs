@@ -118,7 +118,10 @@ fn circles(
             faults: &report.faults(),
         };
         let found = report.found.list();
-        write_text(&mut list, &render_identified(&found, made, args.cnc_build))?;
+        write_text(
+            &mut list,
+            &render_identified(&found, made, args.build.cnc_build),
+        )?;
     }
     Ok(report)
 }

@@ -15,6 +15,7 @@ use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::Outputs;
 use super::result::{ResultArgs, ResultFormat};
+use super::simulated::Tolerance;
 use super::start::StartArgs;
 use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
@@ -58,9 +59,9 @@ pub(super) struct ReplayArgs {
     /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
-    /// How much positions may differ where no blocks were recorded, in mm or degrees
-    #[arg(long, value_name = "MM", default_value_t = 0.1, value_parser = parse_tolerance)]
-    tolerance: f64,
+    /// How much positions may differ where no blocks were recorded, in µm or 0.001°; by default 100
+    #[arg(long, value_name = "UM")]
+    tolerance: Option<Tolerance>,
     #[command(flatten)]
     result: ResultArgs,
     /// Write an HTML report with the recorded states and the verdict to this file
@@ -73,6 +74,9 @@ pub(super) struct ReplayArgs {
     #[command(flatten)]
     execution: ExecutionArgs,
 }
+
+/// The usual tolerance of positions in mm or degrees.
+const TOLERANCE: f64 = 0.1;
 
 /// Runs the command.
 pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
@@ -100,7 +104,7 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         inputs: &inputs,
         loaded: &loaded,
         options,
-        tolerance: args.tolerance,
+        tolerance: args.tolerance.map_or(TOLERANCE, |it| it.um() / 1000.0),
     };
     let replayed = replay.compare(&recording)?;
     if let Some(mut html) = html {
@@ -148,10 +152,4 @@ fn parse_axis(text: &str) -> Result<(String, String), String> {
         }
         _ => Err("write `AXIS=CHANNEL`, such as `X=FrictX`".to_owned()),
     }
-}
-
-fn parse_tolerance(text: &str) -> Result<f64, String> {
-    let tolerance = text.trim().parse().ok();
-    let tolerance = tolerance.filter(|it: &f64| it.is_finite() && *it >= 0.0);
-    tolerance.ok_or_else(|| "write a length in mm that is not negative, such as 0.1".to_owned())
 }

@@ -49,15 +49,11 @@ impl Bench {
     }
 
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
-        command.current_dir(self.folder()).args(arguments);
-        command.stdin(Stdio::null());
-        command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        command
+        command(self.folder(), arguments)
     }
 
     pub(crate) fn call(&self, arguments: &[&str]) -> Output {
-        starting(|| self.command(arguments).output())
+        call(self.folder(), arguments)
     }
 
     pub(crate) fn status(&self, arguments: &[&str]) -> Option<i32> {
@@ -81,6 +77,62 @@ impl Bench {
         let values = records.iter().map(|line| json(line));
         values.filter(|it| it["record"] == "block").collect()
     }
+}
+
+/// The command in a folder, without an input.
+pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
+    command.current_dir(folder).args(arguments);
+    command.stdin(Stdio::null());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// The result of the command in a folder.
+pub(crate) fn call(folder: &Path, arguments: &[&str]) -> Output {
+    starting(|| command(folder, arguments).output())
+}
+
+/// The result of a call that must succeed.
+pub(crate) fn succeeded(folder: &Path, arguments: &[&str]) -> Output {
+    let output = call(folder, arguments);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{arguments:?}: {}",
+        said(&output).1
+    );
+    output
+}
+
+pub(crate) fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("text")
+}
+
+pub(crate) fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("text")
+}
+
+/// The exit status of the command in a folder, and both outputs in one line.
+pub(crate) fn answer(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    said(&call(folder, arguments))
+}
+
+/// The JSON document that the command prints in a folder.
+pub(crate) fn document(folder: &Path, arguments: &[&str]) -> Value {
+    let output = call(folder, arguments);
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", said(&output).1))
+}
+
+/// The exit status, and both outputs in one line.
+pub(crate) fn said(output: &Output) -> (Option<i32>, String) {
+    let both = stdout(output) + &stderr(output);
+    (output.status.code(), one_line(&both))
+}
+
+/// A text with its blanks and line breaks merged: lines are broken wherever they are too long.
+pub(crate) fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The result of starting the tool. When it starts many processes at once, Wine refuses a start now and

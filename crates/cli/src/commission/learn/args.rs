@@ -6,14 +6,14 @@ use clap::Args;
 
 use crate::axis_list::AxisList;
 use crate::channels::parse_unit;
+use crate::cnc_build::CncBuildArgs;
 use crate::cycle::CycleArgs;
+use crate::readings::CurrentReadingArgs;
 use crate::result::ResultArgs;
-use crate::values;
-use frictcomp::comp::CncBuild;
+use crate::simulated::ModelArgs;
 use frictcomp::lists::Points;
 use frictcomp_physics::circle::{Learner, PlaneAxis, Ranges};
-use frictcomp_physics::current::Reading;
-use frictcomp_physics::simulation::{FrictionModel, Plant};
+use frictcomp_physics::simulation::Plant;
 use frictcomp_recordings::commission::MOST_CURRENT;
 use frictcomp_recordings::trace::Unit;
 use frictcomp_report::learn::LearningFile;
@@ -29,7 +29,7 @@ pub(crate) struct LearnArgs {
     /// The folder of the rounds
     #[arg(value_name = "FOLDER")]
     pub(super) folder: PathBuf,
-    /// The reference plant: `stiff`, `mid`, `soft`, or a TOML file as for `tune`
+    /// The drives that give the direction of a step: `stiff`, `mid`, `soft`, or a TOML file
     #[arg(long, value_name = "PLANT")]
     pub(super) plant: String,
     /// For the first round: the measured friction as `identify` or `commission run` wrote it, one list for both axes or `X=LIST` and
@@ -39,19 +39,12 @@ pub(crate) struct LearnArgs {
     /// The lists of the first round, for example from `tune`; by default those of `--friction`
     #[arg(long, value_name = "LIST", requires = "friction")]
     pub(super) value_list: Vec<AxisList>,
-    /// The friction model
-    #[arg(long, default_value = "lugre", value_parser = values::friction_model())]
-    pub(super) model: FrictionModel,
+    #[command(flatten)]
+    pub(super) model: ModelArgs,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
-    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
-    #[arg(
-        long,
-        value_name = "READING",
-        default_value = "",
-        hide_default_value = true
-    )]
-    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) reading: CurrentReadingArgs,
     /// The channel of the times in the recordings
     #[arg(long, value_name = "CHANNEL")]
     pub(super) time: Option<String>,
@@ -64,10 +57,8 @@ pub(crate) struct LearnArgs {
     /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
     pub(super) unit: Vec<(String, Unit)>,
-    /// The CNC build that the lists are for, such as `3.1.3132.0`; outputs are whole numbers unless the
-    /// build accepts fractions
-    #[arg(long, value_name = "BUILD")]
-    pub(super) cnc_build: Option<CncBuild>,
+    #[command(flatten)]
+    pub(super) build: CncBuildArgs,
     #[command(flatten)]
     pub(super) result: ResultArgs,
 }
@@ -82,10 +73,10 @@ impl LearnArgs {
         Learner {
             axis,
             drive: drive.clone(),
-            model: self.model,
-            reading: self.reading,
+            model: self.model.model(),
+            reading: self.reading.reading,
             ranges: Ranges::default(),
-            points: Points::of_build(self.cnc_build),
+            points: Points::of_build(self.build.cnc_build),
             friction: (friction.list.clone(), MOST_CURRENT),
         }
     }

@@ -90,7 +90,7 @@ fn next_round(
             plant: &plant.name,
             predicted_um: proposal.predicted_um,
         };
-        texts[at] = render_learned(&proposal.list, from, args.cnc_build);
+        texts[at] = render_learned(&proposal.list, from, args.build.cnc_build);
         predictions[at] = Some(Prediction {
             glitch_um: round(proposal.predicted_um),
             contact: round(proposal.contact),

@@ -97,7 +97,7 @@ impl Fitting<'_> {
                 feeds: &found.fitted_feeds,
                 held_out: &found.held_out,
             };
-            let text = render_tuned_on_plant(&list, from, self.args.cnc_build);
+            let text = render_tuned_on_plant(&list, from, self.args.build.cnc_build);
             let sha256 = sha256_of_text(&text);
             let folder = self.args.folder.join("lists");
             let path = write_list(&folder, &format!("{}-tuned", axis.name), &text, outputs)?;
@@ -135,7 +135,7 @@ impl Fitting<'_> {
 
     /// Returns the options that affect how lists are tuned.
     fn tuned_with(&self) -> String {
-        format!("{:?} {:?}", self.shaping(), self.args.cnc_build)
+        format!("{:?} {:?}", self.shaping(), self.args.build.cnc_build)
     }
 
     fn shaping(&self) -> Shaping {
@@ -156,7 +156,7 @@ impl Fitting<'_> {
             circles: circles.collect::<Result<_, _>>()?,
             ranges: Ranges::default(),
             reading: Reading::default(),
-            points: Points::of_build(self.args.cnc_build),
+            points: Points::of_build(self.args.build.cnc_build),
             shaping: self.shaping(),
             aim: if found.is_determined() {
                 TuningAim::Plant

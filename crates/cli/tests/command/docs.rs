@@ -1,0 +1,369 @@
+//! The documents: every console block is run, every rule has a test, every link leads somewhere.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::folder::{call, stderr, stdout};
+use crate::workspace::{files, root};
+use frictcomp::documents::RULES;
+use frictcomp_report::assumptions::{Chapter, chapters};
+
+/// Set to write the output of the commands into the documents.
+const UPDATE: &str = "UPDATE_DOCS";
+
+/// The sources of all packages, with the tests of those in `crates`.
+fn sources() -> Vec<PathBuf> {
+    let mut sources = files("src", &["rs"]);
+    sources.extend(files("crates", &["rs"]));
+    sources
+}
+
+fn documents() -> Vec<PathBuf> {
+    let names = [
+        "README.md",
+        "ARCHITECTURE.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
+    ];
+    let mut documents: Vec<PathBuf> = names.iter().map(|name| root().join(name)).collect();
+    let docs = files("docs", &["md"]);
+    // The contents of the book list pages that `dist/book` makes, too.
+    documents.extend(docs.into_iter().filter(|it| !it.ends_with("SUMMARY.md")));
+    documents
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The demo with recordings, into which commands write.
+const RECORDED: &str = "programs/demo/recorded";
+
+/// The demo of a project, which the first command of a document describes for the next ones.
+const PROJECT: &str = "programs/demo/twincat";
+
+/// A folder with a copy of a demo at its place.
+fn copied(demo: &str) -> tempfile::TempDir {
+    let copy = tempfile::tempdir().expect("a folder");
+    for path in files(demo, &["csv", "lis", "json", "nc", "tsproj", "xti"]) {
+        let to = copy
+            .path()
+            .join(path.strip_prefix(root()).expect("in the tree"));
+        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+        fs::copy(&path, to).expect("copied");
+    }
+    copy
+}
+
+/// What a command prints: stdout, stderr, and `? 1` for an exit status other than 0.
+fn play(command: &str, project: &Path) -> String {
+    let mut words = command.split_whitespace();
+    assert_eq!(
+        words.next(),
+        Some("frictcomp"),
+        "`{command}` is no call of the tool"
+    );
+    let copy = command.contains(RECORDED).then(|| copied(RECORDED));
+    let folder = copy.as_ref().map_or(root(), |it| it.path());
+    let folder = if command.contains(PROJECT) {
+        project
+    } else {
+        folder
+    };
+    let output = call(folder, &words.collect::<Vec<_>>());
+    let mut text = [stdout(&output), stderr(&output)].concat();
+    match output.status.code() {
+        Some(0) => {}
+        Some(status) => writeln!(text, "? {status}").expect("text"),
+        None => panic!("`{command}` was killed"),
+    }
+    text
+}
+
+/// The document with the current output below each command.
+fn replayed(text: &str) -> String {
+    let mut fresh = String::new();
+    let mut in_console = false;
+    let project = copied(PROJECT);
+    for line in text.split_inclusive('\n') {
+        let is_fence = line.starts_with("```");
+        if in_console && !is_fence {
+            if let Some(command) = line.strip_prefix("$ ") {
+                fresh.push_str(line);
+                fresh.push_str(&play(command.trim_end(), project.path()));
+            }
+            continue;
+        }
+        if is_fence {
+            in_console = !in_console && line.trim_end() == "```console";
+        }
+        fresh.push_str(line);
+    }
+    fresh
+}
+
+/// The rules of a text, in the form `R1.24`.
+fn rules(text: &str) -> BTreeSet<String> {
+    let number = |text: &str| text.chars().take_while(char::is_ascii_digit).count();
+    let found = text.match_indices('R').filter_map(|(at, _)| {
+        let preceded =
+            text[..at].ends_with(|letter: char| letter.is_alphanumeric() || letter == '-');
+        let rest = &text[at + 1..];
+        let chapter = number(rest);
+        let rule = number(rest.get(chapter..)?.strip_prefix('.')?);
+        let whole = !preceded && (1..=2).contains(&chapter) && rule > 0;
+        whole.then(|| text[at..=at + chapter + 1 + rule].to_owned())
+    });
+    found.collect()
+}
+
+/// The rules and contradictions of `docs/rules`, each with its text.
+fn listed_rules() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let items = RULES.split("\n- **").skip(1);
+    items.filter_map(|item| {
+        let text = item.split("\n\n").next().unwrap_or_default();
+        text.split_once("** ")
+    })
+}
+
+/// The sources with tests, each with its test part.
+fn tests() -> BTreeMap<String, String> {
+    let mut parts = BTreeMap::new();
+    for path in files("tests", &["rs"]) {
+        parts.insert(path.display().to_string(), read(&path));
+    }
+    for path in files("tests/rules", &["md"]) {
+        let text = read(&path).replace("\n## ", "\n// ");
+        parts.insert(path.display().to_string(), text);
+    }
+    for path in files("bindings/python/tests", &["py"]) {
+        let text = read(&path).replace("# R", "// R");
+        parts.insert(path.display().to_string(), text);
+    }
+    for path in sources() {
+        let text = read(&path);
+        let name = path.display().to_string();
+        let all_tests = name.replace('\\', "/").contains("/tests/");
+        let at = if all_tests {
+            Some(0)
+        } else {
+            text.find("#[cfg(test)]")
+        };
+        if let Some(at) = at {
+            parts.insert(name, text[at..].to_owned());
+        }
+    }
+    parts
+}
+
+/// The comments of a source.
+fn comments(text: &str) -> String {
+    let lines = text.lines().filter_map(|line| line.split_once("//"));
+    lines
+        .map(|(_, comment)| comment)
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+/// The rows of the table of a document that begins with a heading.
+fn rows<'a>(text: &'a str, heading: &str) -> Vec<&'a str> {
+    let (_, table) = text.split_once(heading).expect("the table");
+    let rows = table.lines().skip(2);
+    rows.take_while(|line| line.starts_with('|')).collect()
+}
+
+#[test]
+fn the_architecture_names_rooms_and_files_that_exist() {
+    let text = read(&root().join("ARCHITECTURE.md"));
+    let packages = fs::read_dir(root().join("crates")).expect("packages");
+    let packages: Vec<PathBuf> = packages
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    let is_room = |source: &Path, room: &str| {
+        source.join(room).is_dir() || source.join(format!("{room}.rs")).is_file()
+    };
+    for row in rows(&text, "| room | holds |") {
+        let room = row.split('`').nth(1).expect("a room");
+        let exists = is_room(&root().join("src"), room)
+            || packages
+                .iter()
+                .any(|it| it.ends_with(room) || is_room(&it.join("src"), room));
+        assert!(exists, "there is no room `{room}`");
+    }
+    let guide = read(&root().join("CONTRIBUTING.md"));
+    let rows = rows(&guide, "| new | files |");
+    assert!(rows.len() > 10);
+    for row in rows {
+        let words = row.split('`').skip(1).step_by(2);
+        let mut files = 0;
+        for path in words.filter(|word| word.contains('/')) {
+            assert!(root().join(path).exists(), "there is no `{path}`: {row}");
+            files += 1;
+        }
+        assert!(files <= 4, "too many files for one change: {row}");
+    }
+}
+
+#[test]
+fn console_blocks_show_what_the_tool_prints() {
+    for path in documents() {
+        let text = read(&path);
+        let fresh = replayed(&text);
+        if std::env::var_os(UPDATE).is_some() && fresh != text {
+            fs::write(&path, &fresh).expect("written");
+        } else {
+            let name = path.display();
+            assert!(
+                fresh == text,
+                "{name} is old, see CONTRIBUTING.md:\n{fresh}"
+            );
+        }
+    }
+}
+
+/// The list of assumptions with its tables made from the code; the text above them is prose.
+fn assumptions(text: &str) -> String {
+    let prose = text.split("\n## ").next().unwrap_or_default();
+    let mut fresh = prose.trim_end().to_owned();
+    fresh.push('\n');
+    for Chapter {
+        title, assumptions, ..
+    } in chapters()
+    {
+        let _ = write!(
+            fresh,
+            "\n## {title}\n\n| rule | assumption | what it changes | how it shows |\n|---|---|---|---|\n"
+        );
+        for it in assumptions {
+            let cells = [&*it.rule, &it.sentence, &it.changes, &it.shows];
+            let _ = writeln!(fresh, "| {} |", cells.join(" | "));
+        }
+    }
+    fresh
+}
+
+#[test]
+fn the_list_of_assumptions_is_that_of_the_code() {
+    let path = root().join("docs/assumptions.md");
+    let text = read(&path);
+    let fresh = assumptions(&text);
+    if std::env::var_os(UPDATE).is_some() {
+        fs::write(&path, &fresh).expect("written");
+    } else {
+        assert!(
+            fresh == text,
+            "docs/assumptions.md is old, see CONTRIBUTING.md:\n{fresh}"
+        );
+    }
+}
+
+#[test]
+fn every_rule_that_is_an_assumption_is_in_the_list() {
+    let all = chapters().iter().flat_map(|chapter| &chapter.assumptions);
+    let named: BTreeSet<&str> = all.flat_map(|it| it.rule.split(", ")).collect();
+    let mut listed = BTreeSet::new();
+    for (rule, rest) in listed_rules() {
+        listed.insert(rule);
+        let source = rest.rsplit_once("*(").map_or("", |(_, source)| source);
+        assert!(
+            !source.contains("assumption") || named.contains(rule),
+            "{rule} is an assumption that `report/assumptions` does not have"
+        );
+    }
+    // A number without a letter is a section.
+    let rules = named
+        .iter()
+        .filter(|rule| !rule.starts_with(|it: char| it.is_ascii_digit()));
+    let unknown: Vec<_> = rules.filter(|rule| !listed.contains(*rule)).collect();
+    assert!(unknown.is_empty(), "docs/rules has no {unknown:?}");
+}
+
+#[test]
+fn every_rule_has_a_test() {
+    let rule_numbers = listed_rules().filter(|(rule, _)| rule.starts_with('R'));
+    let listed: BTreeSet<String> = rule_numbers.map(|(rule, _)| rule.to_owned()).collect();
+    let mut named = BTreeSet::new();
+    for (file, text) in tests() {
+        if file.ends_with("docs.rs") {
+            continue;
+        }
+        let here = rules(&comments(&text));
+        let unknown: Vec<_> = here.difference(&listed).collect();
+        assert!(
+            unknown.is_empty(),
+            "{file} names rules that docs/rules does not have: {unknown:?}"
+        );
+        named.extend(here);
+    }
+    let bare: Vec<_> = listed.difference(&named).collect();
+    assert!(bare.is_empty(), "no test names these rules: {bare:?}");
+}
+
+#[test]
+fn every_named_rule_exists() {
+    let listed = rules(RULES);
+    for path in documents().into_iter().chain(sources()) {
+        let here = rules(&read(&path));
+        // Pages may mention chapters that are not built yet.
+        let chapter = |rule: &str| rule.split('.').next().map(|chapter| format!("{chapter}."));
+        let built = |rule: &str| {
+            let chapter = chapter(rule).unwrap_or_default();
+            listed.iter().any(|other| other.starts_with(&chapter))
+        };
+        let unknown: Vec<_> = here
+            .difference(&listed)
+            .filter(|rule| built(rule))
+            .collect();
+        assert!(unknown.is_empty(), "{}: {unknown:?}", path.display());
+    }
+}
+
+#[test]
+fn links_lead_to_files() {
+    for path in documents() {
+        let text = read(&path);
+        for (at, _) in text.match_indices("](") {
+            let target = text[at + 2..].split([')', '#']).next().unwrap_or_default();
+            let here = path.parent().expect("a folder").join(target);
+            let outside = target.starts_with("http");
+            assert!(outside || here.exists(), "{}: {target}", path.display());
+        }
+    }
+}
+
+#[test]
+fn a_rule_is_found_in_a_text() {
+    let found = rules("// R1.24, R3.2 (R2.50) but not CR1.2, P-R3.1 or R7");
+    assert_eq!(
+        found.into_iter().collect::<Vec<_>>(),
+        ["R1.24", "R2.50", "R3.2"]
+    );
+}
+
+/// R17.8: "home" is a position to a machinist; the state at the start of the control has one name.
+#[test]
+fn no_text_calls_the_start_up_state_home() {
+    let names_home = |text: &str| {
+        let lines = text.lines().enumerate();
+        let named = lines.filter(|(_, line)| {
+            let line = line.to_lowercase();
+            [
+                "at home",
+                "from home",
+                "home state",
+                "brings home",
+                "is home",
+            ]
+            .iter()
+            .any(|phrase| line.contains(phrase))
+        });
+        named.map(|(at, _)| at + 1).collect::<Vec<_>>()
+    };
+    let sources = sources().into_iter().filter(|it| !it.ends_with("docs.rs"));
+    for file in documents().into_iter().chain(sources) {
+        let lines = names_home(&read(&file));
+        assert!(lines.is_empty(), "{}: {lines:?}", file.display());
+    }
+}

@@ -1,0 +1,453 @@
+//! The motion of an axis (R10.7), and its consequences: hazards, cures, program ends.
+
+use crate::folder::Bench;
+use serde_json::Value;
+
+const MACHINE: &str = "\
+[[axis]]
+name = \"X\"
+number = 1
+frict_comp = true
+value = { mode = 3, table = [[0, 12], [1800, 10]] }
+[[axis]]
+name = \"Y\"
+number = 2
+frict_comp = true
+value = { mode = 3, table = [[0, 12], [1800, 10]] }
+[[axis]]
+name = \"Z\"
+number = 3
+frict_comp = true
+value = { mode = 3, table = [[0, 12], [1800, 10]] }
+[[axis]]
+name = \"X_LONG\"
+number = 4
+frict_comp = true
+value = { mode = 3, table = [[0, 12], [1800, 10]] }
+";
+
+const LEAVER: &str = "N10 X[COMP OFF FRICT] X_LONG[COMP OFF FRICT]\nN20 M30\n";
+
+fn bench(programs: &[(&str, &str)]) -> Bench {
+    let bench = Bench::new(programs);
+    bench.write("frictcomp.toml", MACHINE);
+    bench
+}
+
+fn audit(bench: &Bench) -> Vec<Value> {
+    let text = bench.stdout(&["audit", "--format", "ndjson"]);
+    let lines = text.lines();
+    lines
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect()
+}
+
+fn program<'a>(records: &'a [Value], file: &str, axis: &str) -> &'a Value {
+    let mut programs = records.iter().filter(|it| it["record"] == "program");
+    let program = programs.find(|it| it["file"] == file);
+    &program.expect("the program")["axes"][axis]
+}
+
+fn finding<'a>(records: &'a [Value], name: &str) -> &'a Value {
+    let mut axes = records.iter().filter(|it| it["record"] == "axis");
+    axes.find(|it| it["axis"] == name).expect("the axis")
+}
+
+/// The messages of a code in a session of two programs.
+fn said(bench: &Bench, files: &[&str], code: &str) -> Vec<Value> {
+    let arguments = [&["run", "--format", "ndjson"], files].concat();
+    let text = bench.stdout(&arguments);
+    let records = text
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"));
+    records.filter(|it: &Value| it["code"] == code).collect()
+}
+
+#[test]
+fn every_form_moves_the_axis() {
+    // R10.7
+    for (axis, body, motion) in [
+        ("X", "G1 X5 F100", "feed"),
+        ("X", "G0 X5", "rapid"),
+        ("X", "G33 X5 K1", "feed"),
+        ("X", "G100 X5 F100", "feed"),
+        ("X", "G74 X1", "homing"),
+        ("X", "g74 X1", "homing"),
+        ("X", "X[INDP_ASYN G90 G01 FEED=10 POS=5]", "independent"),
+        ("X", "X[indp_syn G91 \\\r\nN11 G00 POS=5]", "independent"),
+        ("X", "X [ MC_MoveAbsolute POS=10 VEL=5 ]", "independent"),
+        ("X", "X[MC_MoveVelocity Velocity=5]", "independent"),
+        ("X", "X[MC_Home]", "homing"),
+        ("X", "X[OSC ON 1ST_POS=1 2ND_POS=2 FEED=3]", "independent"),
+        ("X", "X[POLY A0=0 A1=1 L=1]", "feed"),
+        ("X", "X[DIST_CTRL ON]", "independent"),
+        ("X", "X[LIFT_START POS_LIMIT=3]", "independent"),
+        ("X", "X[SYNC IN G90 POS=3]", "independent"),
+        ("X_LONG", "X_LONG[INDP_SYN G90 G00 POS=5]", "independent"),
+        ("X_LONG", "X_LONG=5", "rapid"),
+        (
+            "X",
+            "\"M\" = \"X[INDP_SYN G90 G00 POS=5]\"\r\n\"M\"",
+            "independent",
+        ),
+        ("X", "#GANTRY ON [X,Y]\r\nG0 Y5", "coupled"),
+        (
+            "X",
+            "#GANTRY ON [Y, X]\r\nY[INDP_SYN G90 G00 POS=5]",
+            "coupled",
+        ),
+        (
+            "X",
+            "#GEAR LINK [TARGET=X AX1=Y NUM1=1 DENOM1=2]\r\nG0 Y5",
+            "coupled",
+        ),
+        (
+            "X",
+            "#gear link [target=X ax1=Y num1=1 denom1=2]\r\nG0 Y5",
+            "coupled",
+        ),
+        (
+            "X",
+            "#SET AX LINK [1, X=Y]\r\n#ENABLE AX LINK [1]\r\nG0 Y5",
+            "coupled",
+        ),
+        (
+            "X",
+            "#AX LINK [1, [Z=Y,G], [X=Z,G]]\r\n#AX LINK ON [1]\r\nG0 Y5",
+            "coupled",
+        ),
+        (
+            "X",
+            "X[MC_GearIn Master=2 RatioNumerator=1 RatioDenominator=1]\r\nG0 Y5",
+            "coupled",
+        ),
+        (
+            "X",
+            "#SET AX LINK [1, X=Y]\r\n#ENABLE AX LINK [1]\r\nG74 Y1",
+            "homing",
+        ),
+        ("X", "#ROTATION ON [ANGLE=30]\r\nG1 Y5 F100", "frame"),
+        ("X", "#ROTATION ON [ANGLE 30]\r\nG1 Y5 F100", "frame"),
+    ] {
+        let mover = format!("{body}\r\nM30\r\n");
+        let bench = bench(&[("leaver.nc", LEAVER), ("mover.nc", &mover)]);
+        let records = audit(&bench);
+        let inherits = &program(&records, "mover.nc", axis)["inherits"];
+        assert_eq!(inherits["motion"], motion, "{body}: {inherits}");
+        assert_eq!(inherits["perhaps"], Value::Null, "{body}");
+        assert_eq!(finding(&records, axis)["hazards"], 1, "{body}");
+        let said = said(&bench, &["leaver.nc", "mover.nc"], "FC403");
+        assert!(said.iter().any(|it| it["axis"] == axis), "{body}");
+    }
+}
+
+#[test]
+fn what_only_may_move_is_a_possible_hazard() {
+    // R10.7
+    for body in [
+        "#CS ON [0,0,0,0,0,45]\nG1 Y5 F100",
+        "#TRAFO ON\nG1 Z5 F100",
+        "#KIN ID [9]\n#TRAFO ON\nG1 Z5 F100",
+        "#ROTATION ON [ANGLE=V.E.A]\nG1 Y5 F100",
+        "#ROTATION ON [ANGLE=90]\nG1 Y5 F100",
+        "G68 R30 X1 Y1\nG1 Y5 F100",
+        "G201 X1\nG1 Z5 F100",
+        "$IF V.E.A == 1\n#GANTRY ON [X,Y]\n$ENDIF\nG0 Y5",
+        "$IF V.E.A == 1\nX[INDP_SYN G90 G00 POS=5]\n$ENDIF",
+        "$IF V.E.A == 1\nG0 X5\n$ENDIF",
+    ] {
+        let mover = format!("{body}\nM30\n");
+        let bench = bench(&[("leaver.nc", LEAVER), ("mover.nc", &mover)]);
+        let records = audit(&bench);
+        let inherits = &program(&records, "mover.nc", "X")["inherits"];
+        assert_eq!(inherits["perhaps"], true, "{body}: {inherits}");
+        let finding = finding(&records, "X");
+        assert_eq!(finding["hazards"], 0, "{body}");
+        assert_eq!(finding["possible_hazards"], 1, "{body}");
+        assert_eq!(finding["cure"], "leavers", "{body}");
+        let text = bench.stdout(&["audit"]);
+        let rows = text.lines().filter(|line| line.starts_with("mover.nc "));
+        assert!(rows.clone().any(|row| row.contains("perhaps")), "{text}");
+        assert_eq!(bench.status(&["audit", "--fail-on", "warning"]), Some(1));
+    }
+}
+
+#[test]
+fn what_does_not_move_is_no_motion() {
+    // R10.7
+    for body in [
+        "X[OSC OFF]",
+        "X[INDP_SYN DRY_RUN G90 G00 POS=5]",
+        "X[MC_Stop]",
+        "X[OVERRIDE FEED_FACT=50]",
+        "G92 X5",
+        "G04 X1",
+        "G68 R30 X1 Y1",
+        "#GANTRY ON [X,Y]\n#GANTRY OFF [X,Y]\nG0 Y5",
+        "#SET AX LINK [1, X=Y]\nG0 Y5",
+        "#SET AX LINK [1, X=Y]\n#ENABLE AX LINK [1]\n#DISABLE AX LINK [1]\nG0 Y5",
+        "#SET AX LINK [1, Y=X]\n#ENABLE AX LINK [1]\nG0 Z5",
+        "#ROTATION ON [ANGLE=30]\n#ROTATION OFF\nG1 Y5 F100",
+        "#ROTATION ON [ANGLE=30]\nG1 Z5 F100",
+    ] {
+        let mover = format!("{body}\nM30\n");
+        let bench = bench(&[("mover.nc", &mover)]);
+        let records = audit(&bench);
+        assert_eq!(
+            program(&records, "mover.nc", "X")["inherits"],
+            "no",
+            "{body}"
+        );
+    }
+}
+
+#[test]
+fn homing_counts_neither_for_the_second_run_nor_for_required_kinds() {
+    // R10.7, R1.36
+    let machine = MACHINE.replacen("number = 1\n", "number = 1\nrequired = [\"FRICT\"]\n", 1);
+    for (body, fails, differs) in [
+        ("G74 X1", false, false),
+        ("X[MC_Home]", false, false),
+        ("G0 X1", true, true),
+        ("X[INDP_SYN G90 G00 POS=5]", true, true),
+        ("#GANTRY ON [X,Y]\nG0 Y5", true, true),
+        ("#ROTATION ON [ANGLE=30]\nG1 Y5 F100", true, true),
+        ("#CS ON [0,0,0,0,0,45]\nG1 Y5 F100", false, false),
+    ] {
+        let before = format!("{body}\nX[COMP OFF FRICT]\nM30\n");
+        let after = format!("X[COMP OFF FRICT]\n{body}\nX[COMP ON FRICT]\nM30\n");
+        let bench = bench(&[("before.nc", &before), ("after.nc", &after)]);
+        let second = said(&bench, &["before.nc"], "FC407");
+        assert_eq!(!second.is_empty(), differs, "{body}");
+        bench.write("frictcomp.toml", &machine);
+        let missing = said(&bench, &["after.nc"], "P-ERR-70435");
+        assert_eq!(!missing.is_empty(), fails, "{body}");
+    }
+}
+
+#[test]
+fn a_cure_changes_no_motion() {
+    // R10.8
+    let sub = "N1 G01 X10 F500\nN2 X0\nM17\n";
+    let main =
+        "N10 X[COMP OFF FRICT]\nN20 L SUB.NC\nN30 $IF V.E.A==1\nM30\n$ENDIF\nN37 L SUB.NC\nM30\n";
+    let other = "N10 X[COMP OFF FRICT]\nN20 L LAST.NC\nN30 M30\n";
+    let last = "N1 G01 X10 F500\nM30\n";
+    let heir = "G01 X5 F100\nM30\n";
+    let bench = bench(&[
+        ("a.nc", main),
+        ("b.nc", other),
+        ("heir.nc", heir),
+        ("SUB.NC", sub),
+        ("LAST.NC", last),
+    ]);
+    let files = ["a.nc", "b.nc", "heir.nc"];
+    let arguments = [&["audit", "--fix=leavers"], &files[..]].concat();
+    let output = bench.call(&arguments);
+    let remarks = String::from_utf8(output.stderr).expect("text");
+    // A block before each end changes the state in no motion.
+    let mended = main.replace("M30\n", "X[COMP ON FRICT]\nM30\n");
+    for (file, text) in [
+        ("a.nc", &*mended),
+        ("b.nc", other),
+        ("SUB.NC", sub),
+        ("LAST.NC", last),
+    ] {
+        assert_eq!(bench.read(file), text, "{file}");
+    }
+    let reason = "b.nc: a block that mends this would change the state in which axes move";
+    assert!(remarks.contains(reason), "{remarks}");
+}
+
+#[test]
+fn a_cure_in_another_place_is_written() {
+    // R10.8
+    let main =
+        "N10 X[COMP OFF FRICT]\nN20 G01 X10 F500\nN30 $IF P1==1\nN32 M30\nN34 $ENDIF\nN40 M30\n";
+    let main = format!("P1=1\n{main}");
+    let bench = bench(&[("a.nc", &main), ("heir.nc", "G01 X5 F100\nM30\n")]);
+    bench.call(&["audit", "--fix=leavers", "a.nc", "heir.nc"]);
+    let mended = main.replace("N32 M30", "N31 X[COMP ON FRICT]\nN32 M30");
+    assert_eq!(bench.read("a.nc"), mended);
+}
+
+#[test]
+fn nothing_says_that_nothing_is_to_be_done_where_an_effect_is_unknown() {
+    // R10.9
+    let unknown = "L missing.nc\nM30\n";
+    let bench = bench(&[("a.nc", unknown), ("heir.nc", "G01 X5 F100\nM30\n")]);
+    let text = bench.stdout(&["audit", "--html", "report.html"]);
+    let page = bench.read("report.html");
+    let rows = page
+        .split("<tr")
+        .filter(|row| row.contains("<th scope=\"row\">X<"));
+    let row = rows.into_iter().next().expect("the row of X");
+    assert!(!row.contains("nothing to do"), "{row}");
+    assert!(row.contains("not known"), "{row}");
+    assert!(!text.contains("X: no program leaves it off"), "{text}");
+    assert!(
+        text.contains("X: no program is known to leave it off"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_program_that_asks_for_another_axis_is_no_all_clear() {
+    // R10.10
+    for (text, axis, effect) in [
+        (
+            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nX[COMP OFF FRICT]\n$ENDIF\nM30\n",
+            "X",
+            "depends",
+        ),
+        (
+            "P1 = V.A.FRICT_COMP_ACTIVE[1]\n$IF P1 == 0\nX[COMP OFF FRICT]\n$ENDIF\nM30\n",
+            "X",
+            "depends",
+        ),
+        (
+            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0 && V.A.FRICT_COMP_ACTIVE.Z == 0\nX[COMP OFF FRICT]\n$ENDIF\nM30\n",
+            "X",
+            "depends",
+        ),
+        (
+            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nY[COMP ON FRICT]\n$ENDIF\nM30\n",
+            "Y",
+            "leaves on",
+        ),
+        (
+            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nY[COMP ON FRICT]\n$ENDIF\nM30\n",
+            "X",
+            "keeps",
+        ),
+        (
+            "Y[COMP OFF FRICT]\n$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nX[COMP ON FRICT]\n$ENDIF\nM30\n",
+            "X",
+            "leaves on",
+        ),
+    ] {
+        let bench = bench(&[("a.nc", text)]);
+        let records = audit(&bench);
+        let found = program(&records, "a.nc", axis);
+        assert_eq!(found["effect"], effect, "{text}");
+        if effect == "depends" {
+            let way = &found["possible"][0]["ways"][0][0];
+            assert_eq!((&way["kind"], &way["axis"]), (&"found".into(), &"Y".into()));
+        }
+    }
+}
+
+#[test]
+fn a_command_between_two_moves_in_one_direction_is_said() {
+    // R1.57
+    let first = "N10 X[COMP ON FRICT]\nN20 G01 X0 Y0 F500\nN30 X10\n";
+    let last = "N90 X[COMP ON FRICT]\nM30\n";
+    for (between, said_at) in [
+        ("N40 X[COMP OFF FRICT]\nN50 X20\n", Some(4)),
+        // An arc that continues like the line, and one that reverses X.
+        ("N40 X[COMP OFF FRICT]\nN50 G03 X20 Y10 I0 J10\n", Some(4)),
+        ("N40 X[COMP OFF FRICT]\nN50 G02 X10 Y20 I0 J10\n", None),
+        (
+            "N35 G03 X17.07107 Y2.92893 I0 J10\nX[COMP OFF FRICT]\nG03 X20 Y10 R10\n",
+            Some(5),
+        ),
+        (
+            "N35 G03 X20 Y10 I0 J10\nX[COMP OFF FRICT]\nG03 X10 Y20 I-10 J0\n",
+            None,
+        ),
+        ("N40 X[COMP OFF FRICT] X20\n", Some(4)),
+        (
+            "N40 X[COMP OFF FRICT]\nN45 P1=3\nN46 (note)\nN50 G91 X5\nG90\n",
+            Some(4),
+        ),
+        ("N40 X[COMP OFF FRICT]\nN50 X5\n", None),
+        ("N40 X[COMP OFF FRICT]\nN50 Y5\nN60 X20\n", None),
+        ("N40 Y5\nN50 X[COMP OFF FRICT]\nN60 X20\n", None),
+        ("N40 G04 X1\nN50 X[COMP OFF FRICT]\nN60 X20\n", None),
+        ("N40 X[COMP OFF FRICT]\nN50 #FLUSH WAIT\nN60 X20\n", None),
+        ("N40 X[COMP OFF FRICT]\nN50 M00\nN60 X20\n", None),
+        ("N40 X[COMP OFF FRICT]\nN50 P1=V.A.ABS.X\nN60 X20\n", None),
+        ("N40 G60 X15\nN50 X[COMP OFF FRICT]\nN60 X20\n", None),
+        ("N40 X[COMP OFF FRICT]\nN50 G00 X20\nG01\n", None),
+        (
+            "N40 X[COMP OFF FRICT]\nN45 X[COMP ON FRICT]\nN50 X20\n",
+            None,
+        ),
+        ("N40 Y[COMP OFF FRICT]\nN50 X20\nY[COMP ON FRICT]\n", None),
+        ("N40 X[COMP ON LEAD]\nN50 X20\n", None),
+        (
+            "N40 X[COMP OFF FRICT] ; frictcomp: allow FC409 tried\nN50 X20\n",
+            None,
+        ),
+    ] {
+        let text = format!("{first}{between}{last}");
+        let bench = bench(&[("a.nc", &text)]);
+        let said = said(&bench, &["a.nc"], "FC409");
+        let lines: Vec<_> = said.iter().map(|it| it["line"].as_u64()).collect();
+        assert_eq!(lines, Vec::from_iter(said_at.map(Some)), "{between}");
+    }
+}
+
+#[test]
+fn the_end_that_was_reached_is_named() {
+    // R1.58
+    let open = "N10 X[COMP OFF FRICT]\nN20 G01 X10 F100\n";
+    for (rest, ends, has_fix) in [
+        ("N30 M30\n", vec![3], true),
+        ("N30 M 30\n", vec![3], true),
+        ("P1=1\nN30 $IF P1==1\nM2\n$ENDIF\nM30\n", vec![5], true),
+        ("N30 $IF V.E.A==1\nM30\n$ENDIF\nM30\n", vec![6, 4], false),
+        (
+            "N30 $IF V.E.A==1\nM30\n$ENDIF\nX[COMP ON FRICT]\nM30\n",
+            vec![4],
+            true,
+        ),
+        (
+            "N30 $IF V.E.A==1\n$GOTO N50\n$ENDIF\nX[COMP ON FRICT]\nN50: M30\n",
+            vec![7],
+            false,
+        ),
+        ("N30 $GOTO N50\nN40 X1\nN50: M30\n", vec![5], false),
+    ] {
+        let text = format!("{open}{rest}");
+        let bench = bench(&[("a.nc", &text)]);
+        let left = said(&bench, &["a.nc"], "FC401");
+        assert_eq!(left.len(), 1, "{rest}");
+        let found = left[0]["ends"].as_array().expect("ends");
+        let lines: Vec<_> = found
+            .iter()
+            .filter_map(|end| end["line"].as_i64())
+            .collect();
+        assert_eq!(lines, ends, "{rest}");
+        assert_eq!(left[0]["line"], 1, "{rest}");
+        let fixes = left[0]["fixes"].as_array();
+        assert_eq!(
+            fixes.is_some_and(|fixes| !fixes.is_empty()),
+            has_fix,
+            "{rest}"
+        );
+        if ends.len() > 1 {
+            let help = left[0]["help"][0].as_str().expect("help");
+            assert!(
+                help.contains("no single block is right for all of them"),
+                "{help}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_fix_goes_into_the_text_that_ends_the_program() {
+    // R1.58
+    let bench = bench(&[
+        ("a.nc", "N10 X[COMP OFF FRICT]\nN20 L LAST.NC\nN30 M30\n"),
+        ("LAST.NC", "N1 G01 X10 F500\nN2 M30\n"),
+    ]);
+    let left = said(&bench, &["a.nc"], "FC401");
+    let fix = &left[0]["fixes"][0];
+    assert_eq!(fix["line"], 2, "{fix}");
+    assert!(
+        fix["file"].as_str().expect("a file").ends_with("LAST.NC"),
+        "{fix}"
+    );
+}

@@ -173,14 +173,11 @@ impl Interpreter {
         } else if !self.machine.channel.is_whole {
             let wanted = WantedCall::of_word(number, at.in_block(span));
             outcome.calls.push(wanted);
-        } else if number == 80 {
-            let what = "the channel list names no program for `G80`, which the control refuses";
-            return Err(Fault::refused(Code::PErr20131, span, what));
         } else {
-            let what = format!("the channel list names no program for `G{number}`");
-            self.may_refuse(None, &what, span, at);
-            self.pass_over_implicit(number);
-            self.pass_over(&format!("G{number}"), span, at);
+            let what = format!(
+                "the channel list names no program for `G{number}`, which the control refuses"
+            );
+            return Err(Fault::refused(Code::PErr20131, span, what));
         }
         Ok(())
     }

@@ -41,7 +41,10 @@ impl Interpreter {
             _ => return,
         };
         let what = format!("`{name}` flushes the channel under {under}");
-        self.may_refuse(number, &what, span, at);
+        // The control has one answer for each command, and for each variable, which is synchronous or not.
+        let scope = StopScope::Alike(what.as_str().into());
+        let asked = (Unknown::Refused(Some(number)), scope);
+        self.may_refuse_with(Some(number), &what, asked, span, at);
     }
 
     /// FC328 for a variable that no `#VAR` declares: the control has one answer for all of them (R2.102).

@@ -186,8 +186,12 @@ impl ChannelKey {
             number => format!(", `{number}`"),
         };
         let usage = match self.usage {
-            KeyUse::Read(decides, _) => format!("A key of a channel list. frictcomp reads from it {decides}."),
-            KeyUse::Unread(reason) => format!("A key of a channel list that frictcomp does not read: it {reason}."),
+            KeyUse::Read(decides, _) => {
+                format!("A key of a channel list. frictcomp reads from it {decides}.")
+            }
+            KeyUse::Unread(reason) => {
+                format!("A key of a channel list that frictcomp does not read: it {reason}.")
+            }
         };
         format!(
             "# `{}`{number}\n\n{usage}\n\nRule R2.105. Source: TF5200 channel parameters.\n",
@@ -218,7 +222,11 @@ mod tests {
                 KeyUse::Read(decides, case) => (decides.to_owned(), case),
                 KeyUse::Unread(reason) => (format!("not read: it {reason}"), ""),
             };
-            format!("| {} | `{}` | {usage} | {case} |\n", row.number(), row.key())
+            format!(
+                "| {} | `{}` | {usage} | {case} |\n",
+                row.number(),
+                row.key()
+            )
         });
         let read = CHANNEL_KEYS.iter().filter(|row| row.case().is_some());
         let fresh = format!(

@@ -228,8 +228,7 @@ impl ChannelDraft {
             }
             ("main_spindle_ax_nr", []) => {
                 let given = number(entry, diagnostics);
-                self.spindle_number =
-                    given.and_then(|given| Some(given.with(whole(given.value)?)));
+                self.spindle_number = given.and_then(|given| Some(given.with(whole(given.value)?)));
             }
             ("main_spindle_name", []) => {
                 let name = entry.text();
@@ -344,7 +343,11 @@ impl ChannelDraft {
 
     /// The followers and leaders of the coupling group 0 by their logical numbers, without pairs of spindles.
     fn coupled(&self) -> Vec<[u32; 2]> {
-        let part = |place, part| self.pairs.get(&(place, part)).map_or(0, |given| given.value);
+        let part = |place, part| {
+            self.pairs
+                .get(&(place, part))
+                .map_or(0, |given| given.value)
+        };
         let places: BTreeSet<u32> = self.pairs.keys().map(|(place, _)| *place).collect();
         let pairs = places.into_iter().filter(|place| part(*place, 2) == 0);
         let pairs = pairs.map(|place| [part(place, 0), part(place, 1)]);
@@ -368,7 +371,12 @@ impl ChannelDraft {
             });
         };
         if let Some(given) = &self.factor {
-            row(FEED_FACTOR, Vec::new(), given.value.to_string(), given.into());
+            row(
+                FEED_FACTOR,
+                Vec::new(),
+                given.value.to_string(),
+                given.into(),
+            );
         }
         if let Some(given) = &self.feed {
             row(FEED, Vec::new(), given.value.to_string(), given.into());
@@ -390,7 +398,12 @@ impl ChannelDraft {
             row("main_spindle_ax_nr", Vec::new(), value, given.into());
         }
         if let Some(given) = &self.spindle_name {
-            row("main_spindle_name", Vec::new(), given.value.clone(), given.into());
+            row(
+                "main_spindle_name",
+                Vec::new(),
+                given.value.clone(),
+                given.into(),
+            );
         }
         for ((pair, part), given) in &self.pairs {
             let value = given.value.to_string();

@@ -91,7 +91,10 @@ pub fn page_about(word: &str) -> Result<Cow<'static, str>, NoPage> {
             .flat_map(|parameter| [parameter.number, parameter.key]);
         let keys: Vec<String> = ChannelKey::all().iter().map(ChannelKey::key).collect();
         let keys = keys.iter().map(String::as_str);
-        let all = codes.chain(parameters).chain(vocabulary::words()).chain(keys);
+        let all = codes
+            .chain(parameters)
+            .chain(vocabulary::words())
+            .chain(keys);
         NoPage {
             near: did_you_mean(word, all).map(str::to_owned),
         }
@@ -137,7 +140,9 @@ fn control_error(text: &str) -> Option<String> {
 fn channel_key(text: &str) -> Option<String> {
     let wanted = vocabulary::canonical(text);
     let is_it = |row: &&ChannelKey| {
-        [&row.key(), row.number()].map(vocabulary::canonical).contains(&wanted)
+        [&row.key(), row.number()]
+            .map(vocabulary::canonical)
+            .contains(&wanted)
     };
     let row = ChannelKey::all().iter().find(is_it)?;
     (!wanted.is_empty()).then(|| row.explanation())

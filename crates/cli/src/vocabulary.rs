@@ -135,8 +135,8 @@ fn without_indices(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use frictcomp::comp::Kind;
     use crate::explain::page_about;
+    use frictcomp::comp::Kind;
     use frictcomp::lists::known_keys;
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::refused::PossibleRefusal;
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::is_named_m;
 use crate::interpreter::effects::called_words::Configured;
@@ -14,6 +15,7 @@ use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::language::{CoordinateEffect, GFunction};
+use crate::readings::Question;
 use crate::syntax::ast::{CallScope, GCall, Hash};
 use crate::syntax::{Fault, VariableName};
 use crate::text::Span;
@@ -88,7 +90,8 @@ impl Interpreter {
     ) {
         if outcome.implicit.replace(letter).is_some() {
             let what = "two words of this block call programs";
-            self.may_refuse(22008, what, span, at);
+            let refusal = PossibleRefusal::asked(22008, Question::TwoCalls);
+            self.may_refuse(refusal, what, span, at);
         }
     }
 

@@ -38,7 +38,9 @@ impl Interpreter {
     pub(crate) fn define_listed_couplings(&mut self) {
         let machine = &self.machine;
         let numbers = machine.channel.coupled.iter().flatten();
-        let axes: Option<Vec<_>> = numbers.map(|number| machine.axis_numbered(*number)).collect();
+        let axes: Option<Vec<_>> = numbers
+            .map(|number| machine.axis_numbered(*number))
+            .collect();
         if let Some(axes) = axes.filter(|axes| !axes.is_empty()) {
             let changed = self.state.control.couplings.define(LISTED, axes);
             self.state.control.mark_coupled(changed);

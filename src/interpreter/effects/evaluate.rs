@@ -17,6 +17,7 @@ use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
 use crate::language::{Flushes, is_read_only};
 use crate::lists::AxisType;
+use crate::readings::Question;
 use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
 use crate::syntax::{AxisOfVariable, Fault, Subscript, VariableFamily, VariableName};
 use crate::text::Span;
@@ -116,6 +117,7 @@ impl Interpreter {
                 flushing: &self.scratch.flushing,
                 relied: &self.scratch.relied,
                 held: self.scratch.held,
+                nearly_equal: self.machine.readings.of(Question::NearlyEqual),
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {

@@ -151,7 +151,7 @@ pub(super) static CHANNEL_KEYS: &[ChannelKey] = {
 /// The number of the parameter of a key, with its indices left empty.
 pub(super) fn number_of(pattern: &str) -> &'static str {
     let mut rows = CHANNEL_KEYS.iter();
-    let row = rows.find(|row| row.key.pattern == pattern);
+    let row = rows.find(|row| row.pattern() == pattern);
     row.map_or("", ChannelKey::number)
 }
 
@@ -161,9 +161,14 @@ impl ChannelKey {
         CHANNEL_KEYS
     }
 
+    /// The key with its indices left empty, `g800_prog_file[]`.
+    pub fn pattern(&self) -> &'static str {
+        self.key.pattern
+    }
+
     /// The key as lists have it, `g800_prog_file[i]`.
     pub fn key(&self) -> String {
-        self.key.pattern.replace("[]", "[i]")
+        self.pattern().replace("[]", "[i]")
     }
 
     /// The number of the parameter; empty where none is public.

@@ -89,8 +89,8 @@ pub fn page_about(word: &str) -> Result<Cow<'static, str>, NoPage> {
         let parameters = PARAMETER_PAGES
             .iter()
             .flat_map(|parameter| [parameter.number, parameter.key]);
-        let keys: Vec<String> = ChannelKey::all().iter().map(ChannelKey::key).collect();
-        let keys = keys.iter().map(String::as_str);
+        let rows = ChannelKey::all().iter();
+        let keys = rows.flat_map(|row| [row.pattern(), row.number()]);
         let all = codes
             .chain(parameters)
             .chain(vocabulary::words())

@@ -173,6 +173,7 @@ fn the_programs_pass_the_check_under_either_reading() {
             question,
             Question::LowerCase
                 | Question::RemedyClass
+                | Question::ContinueInSwitch
                 | Question::Undeclared
                 | Question::JumpInto
                 | Question::Described

@@ -236,9 +236,7 @@ impl ChannelDraft {
             }
             (key, &[0, pair]) => {
                 if let Some(part) = PAIR.iter().position(|it| *it == key) {
-                    let given = number(entry, diagnostics);
-                    let given = given.and_then(|given| Some(given.with(whole(given.value)?)));
-                    self.pairs.extend(given.map(|given| ((pair, part), given)));
+                    self.pair((pair, part), entry, diagnostics);
                 }
             }
             (key, []) => {
@@ -251,6 +249,21 @@ impl ChannelDraft {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// A part of a pair of the coupling group 0.
+    fn pair(&mut self, place: (u32, usize), entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
+        let Some(given) = number(entry, diagnostics) else {
+            return;
+        };
+        let is_mode = place.1 == PAIR.len() - 1;
+        match whole(given.value) {
+            Some(number) if !is_mode || number < 2 => {
+                self.pairs.insert(place, given.with(number));
+            }
+            _ if is_mode => diagnostics.push(odd(entry, "`0` for axes or `1` for spindles")),
+            _ => diagnostics.push(odd(entry, "the logical number of an axis")),
         }
     }
 
@@ -451,7 +464,7 @@ fn odd_factor(entry: &Entry, factor: &Given<Number>) -> Option<Diagnostic> {
 }
 
 /// Returns FC132 for a value that has no documented meaning.
-fn odd(entry: &Entry, help: &str) -> Diagnostic {
+pub(super) fn odd(entry: &Entry, help: &str) -> Diagnostic {
     let word = entry.word();
     let message = format!(
         "`{}` of `{}` is outside the documented values",

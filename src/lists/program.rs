@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::channel_keys::number_of;
+use super::channel_settings::odd;
 use super::entry::Entry;
 use super::line::Entries;
 use super::parameter::Parameter;
 use super::value::Given;
+use crate::diagnostic::Diagnostic;
 
 /// Event that starts a program of the channel list.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -73,21 +75,25 @@ pub struct ChannelPrograms {
 
 impl ChannelPrograms {
     /// Collects the programs and macros that a list names.
-    pub fn from_entries(list: &Entries) -> Self {
+    pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut programs = Self::default();
         for entry in &list.entries {
-            programs.add(entry);
+            programs.add(entry, diagnostics);
         }
         programs
     }
 
-    fn add(&mut self, entry: &Entry) {
+    fn add(&mut self, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
         let indices = entry.indices.as_slice();
         match (entry.pattern.as_str(), indices) {
             ("start_init_prog_file", []) => self.name(ProgramRole::Start, entry),
             ("final_prog_file", []) => self.name(ProgramRole::End, entry),
-            ("start_init_prog_file_mode", []) => self.mode(ProgramRole::Start, entry),
-            ("final_prog_file_mode", []) => self.mode(ProgramRole::End, entry),
+            ("start_init_prog_file_mode", []) => {
+                diagnostics.extend(self.mode(ProgramRole::Start, entry));
+            }
+            ("final_prog_file_mode", []) => {
+                diagnostics.extend(self.mode(ProgramRole::End, entry));
+            }
             (G800, &[index]) if index < 200 => {
                 self.name(ProgramRole::Word(format!("G{}", 800 + index)), entry);
             }
@@ -132,11 +138,16 @@ impl ChannelPrograms {
     }
 
     /// The modes of operation in which a program runs, `AUTOMATIC | MDI` (P-CHAN-00260, P-CHAN-00433).
-    fn mode(&mut self, role: ProgramRole, entry: &Entry) {
+    fn mode(&mut self, role: ProgramRole, entry: &Entry) -> Option<Diagnostic> {
         let given = entry.text();
-        let modes = given.value.to_ascii_uppercase();
-        let is_manual = modes.contains("MDI") && !modes.contains("AUTOMATIC");
+        let text = given.value.trim().trim_matches('"').to_ascii_uppercase();
+        let modes: Vec<&str> = text.split('|').map(str::trim).collect();
+        let is_known = modes
+            .iter()
+            .all(|mode| matches!(*mode, "" | "*" | "MDI" | "AUTOMATIC"));
+        let is_manual = modes == ["MDI"];
         self.manual.insert(role, given.with(is_manual));
+        (!is_known).then(|| odd(entry, "`AUTOMATIC`, `MDI` or `AUTOMATIC | MDI`"))
     }
 
     fn macro_at(&mut self, index: u32) -> Option<&mut Macro> {

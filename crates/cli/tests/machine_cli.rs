@@ -144,6 +144,32 @@ fn missing_lists_are_counted_and_shown_where_they_are_named() {
 }
 
 #[test]
+fn a_folder_is_checked_by_its_configuration_or_by_the_list_or_project_below_it() {
+    // R3.42
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    let cnc = root.path().join("cnc");
+    let checked = |folder: &str| {
+        let [of_folder, of_file] = [folder, "cnc/listen/hochlauf.lis"]
+            .map(|path| tool(root.path(), &["lists", "--format", "concise", path]));
+        assert_eq!(of_folder.status, of_file.status, "{folder}");
+        assert_eq!(said(&of_folder), said(&of_file), "{folder}");
+    };
+    checked("cnc");
+    checked("cnc/listen");
+    let project = "<TcSmProject><Cnc><Axis><ItemName>A</ItemName><AchsMds>kopf.achs_nr 1\nEnde\n</AchsMds></Axis></Cnc></TcSmProject>";
+    write(&root.path().join("twincat"), &[("M.tsproj", project)]);
+    for command in ["lists", "drive"] {
+        assert_eq!(
+            tool(root.path(), &[command, "twincat"]).status.code(),
+            Some(0)
+        );
+    }
+    let several = tool(root.path(), &["lists", "."]);
+    assert_eq!(several.status.code(), Some(2), "{}", said(&several));
+}
+
+#[test]
 fn what_is_no_start_up_list_starts_nothing() {
     // R3.12
     let root = tempfile::tempdir().unwrap();

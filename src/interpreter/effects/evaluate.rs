@@ -436,7 +436,8 @@ impl Interpreter {
     /// FC412, FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and a `V.E.`
     /// variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
     fn read_flushes(&mut self, name: &VariableName, at: &BlockContext<'_>) {
-        let written = name.to_string();
+        // One answer holds for all elements of an array.
+        let written = name.array().to_owned();
         let found = at.text.find(&written);
         let span = found.map(|start| Span::new(start, start + written.len()));
         let span = span.unwrap_or_else(|| Span::new(0, at.text.trim_end().len()));

@@ -244,7 +244,7 @@ mod tests {
             std::fs::write(path, &fresh).expect("written");
         }
         assert_eq!(std::fs::read_to_string(path).expect("the document"), fresh);
-        let numbers = CHANNEL_KEYS.iter().map(|row| row.number());
+        let numbers = CHANNEL_KEYS.iter().map(ChannelKey::number);
         assert!(numbers.filter(|it| !it.is_empty()).is_sorted());
     }
 }

@@ -293,6 +293,18 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
             ),
             READ_ERROR,
         ),
+        Question::SyntaxCheck => by_itself(
+            "the axis has P-AXIS-00522 = 0; the program is only checked for its syntax, not started",
+            "N10 @[COMP ON FRICT]\nN99 M30\n".to_owned(),
+            "write down whether P-ERR-70495 was shown, as README.txt says",
+        ),
+        question => return of_language(question),
+    })
+}
+
+/// Returns the instructions for a question about a block that switches nothing.
+fn of_language(question: Question) -> Option<Script> {
+    Some(match question {
         Question::ContinueInSwitch => by_itself(
             RESTS,
             ">begin\nN10 P1 = 1\nN20 $SWITCH P1\nN30 $CASE 1\n\
@@ -323,11 +335,6 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
             READ,
         ),
         Question::ProgramNumber => refusable("N10 O1234"),
-        Question::SyntaxCheck => by_itself(
-            "the axis has P-AXIS-00522 = 0; the program is only checked for its syntax, not started",
-            "N10 @[COMP ON FRICT]\nN99 M30\n".to_owned(),
-            "write down whether P-ERR-70495 was shown, as README.txt says",
-        ),
         _ => return None,
     })
 }

@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use frictcomp::lists::ChannelKey;
 use rules_runner::{fixes, lists, runs::Shown};
 use support::{Bench, MACHINE, SourceMode};
 
@@ -40,6 +41,68 @@ fn every_case_shows_what_is_written_below_it() {
         "{UPDATE}=1 writes these again:\n{}",
         changed.join("\n")
     );
+}
+
+// R2.105
+#[test]
+fn each_key_of_a_channel_list_changes_what_its_case_shows() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = folder.join("tests/rules/lists");
+    let documents = documents(&path).into_iter();
+    let documents: Vec<String> = documents
+        .map(|path| fs::read_to_string(path).expect("a document"))
+        .collect();
+    let mut same = Vec::new();
+    for row in ChannelKey::all() {
+        let Some(case) = row.case() else { continue };
+        let pattern = row.pattern();
+        if case.contains('/') {
+            let text = fs::read_to_string(folder.join(case)).expect("a test");
+            let keys = text.split(['"', ' ', '\n']).map(without_indices);
+            assert!(
+                keys.into_iter().any(|key| key == pattern),
+                "{case}: {pattern}"
+            );
+            continue;
+        }
+        let mut texts = documents.iter().filter_map(|text| section(text, case));
+        let Some(text) = texts.next() else {
+            same.push(format!("`{case}`, which is not there"));
+            continue;
+        };
+        let is_other = |line: &&str| {
+            let key = line.split_whitespace().next();
+            key.is_none_or(|key| without_indices(key) != pattern)
+        };
+        let without: Vec<&str> = text.lines().filter(is_other).collect();
+        let [with, without] = [&text, &joined(&without)].map(|text| Document::replayed(text));
+        let (with, without) = (Document::results(&with), Document::results(&without));
+        if with == without {
+            same.push(format!("`{case}` without `{pattern}`"));
+        }
+    }
+    assert!(same.is_empty(), "the same is shown by\n{}", same.join("\n"));
+}
+
+/// The head of a document and its case with a heading.
+fn section(text: &str, heading: &str) -> Option<String> {
+    let mut parts = text.split("\n## ");
+    let head = parts.next()?;
+    let is_it = |part: &&str| {
+        part.strip_prefix(heading)
+            .is_some_and(|it| it.starts_with(" (R"))
+    };
+    let case = parts.find(is_it)?;
+    Some(format!("{head}\n## {case}\n"))
+}
+
+fn without_indices(key: &str) -> String {
+    let mut inside = false;
+    let is_kept = |it: &char| {
+        inside = matches!(it, '[') || inside && *it != ']';
+        !inside || *it == '['
+    };
+    key.chars().filter(is_kept).collect()
 }
 
 fn documents(folder: &Path) -> Vec<PathBuf> {
@@ -132,6 +195,13 @@ impl Document {
             fresh.push_str("```\n");
         }
         fresh
+    }
+
+    /// The lines of the results of a text.
+    fn results(text: &str) -> Vec<&str> {
+        text.lines()
+            .filter(|line| line.starts_with(RESULT))
+            .collect()
     }
 
     fn prose(&mut self, line: &str) {
@@ -258,6 +328,7 @@ fn with_option(bench: Bench, option: &str) -> Bench {
     let (name, value) = option.split_once(' ').unwrap_or((option, ""));
     match name {
         "--keep-going" => bench.keep_going(),
+        "--reset" => bench.reset_after_error(),
         "--skip" => bench.skip(value),
         "--set" => {
             let (name, value) = value.split_once('=').expect("NAME=VALUE");

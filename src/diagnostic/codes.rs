@@ -50,7 +50,7 @@ macro_rules! codes {
 codes! {
     PErr20008 "P-ERR-20008" Error "first feed move without a feed";
     PErr20100 "P-ERR-20100" Error "variable that can only be read";
-    PErr20131 "P-ERR-20131" Error "G80 without a program";
+    PErr20131 "P-ERR-20131" Error "G function without a program";
     PErr20160 "P-ERR-20160" Error "M function above 1000";
     PErr20375 "P-ERR-20375" Warning "`$IF` without `$ENDIF`";
     PErr20839 "P-ERR-20839" Error "jump target that is not permitted";
@@ -127,7 +127,7 @@ codes! {
     Fc302 "FC302" Error "COMP on a spindle";
     Fc303 "FC303" Warning "selected without an accepted value list";
     Fc305 "FC305" Warning "compensation kind newer than the CNC build";
-    Fc306 "FC306" Error "command that the selected reading refuses";
+    Fc306 "FC306" Error "block that the selected reading refuses";
     Fc310 "FC310" Warning "program without M30";
     Fc311 "FC311" Error "parameter read before it was written";
     Fc312 "FC312" Error "expression cannot be computed";

@@ -2,15 +2,16 @@
 //! back (R7.5 to R7.8).
 
 use std::collections::BTreeMap;
+use std::fmt;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::drive_type::DriveType;
 use super::network::{Device, Network, NetworkObject, Protocol, Slave};
 use super::settings::{DriveSettings, Telegram, TorqueScale};
 use super::signal::Signal;
 use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
-use crate::lists::{Entry, FrictionList, Given};
+use crate::lists::{Entry, FrictionList, Given, Origin};
 use crate::text::Place;
 
 /// The largest torque that S-0-0081 of an AX5000 takes, in 0.1 % (R7.7).
@@ -43,6 +44,44 @@ pub struct Evidence {
     pub slaves: Vec<SlaveOfAxis>,
 }
 
+/// Line that says whether the cyclic data contain a torque value, as `file:line`, with the path of the element in XML.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TorqueEvidence {
+    /// The file and the line.
+    pub origin: Origin,
+    /// The path of an element of a network.
+    pub element: Option<String>,
+}
+
+impl From<&Place> for TorqueEvidence {
+    fn from(place: &Place) -> Self {
+        let is_element = place.text.starts_with("EtherCAT");
+        Self {
+            origin: Origin::File {
+                file: place.file.to_string(),
+                line: place.start().line,
+            },
+            element: is_element.then(|| place.text.to_string()),
+        }
+    }
+}
+
+impl fmt::Display for TorqueEvidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.element {
+            Some(element) => write!(f, "{}, {element}", self.origin),
+            None => self.origin.fmt(f),
+        }
+    }
+}
+
+impl Serialize for TorqueEvidence {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
 /// Evidence on a torque value of an axis.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(tag = "state", rename_all = "snake_case")]
@@ -50,13 +89,13 @@ pub struct Evidence {
 pub enum Presence {
     /// The cyclic data contain it.
     Present {
-        /// The file and the line or the path in it.
-        evidence: String,
+        /// The line that says so.
+        evidence: TorqueEvidence,
     },
     /// The cyclic data do not contain it.
     Missing {
-        /// The file and the line or the path in it.
-        evidence: String,
+        /// The line that says so.
+        evidence: TorqueEvidence,
     },
     /// No source gives it, or the sources contradict each other.
     Unknown {
@@ -213,11 +252,11 @@ impl Judge<'_> {
             }
             (SourceStatement::Present(place), _)
             | (SourceStatement::Nothing, SourceStatement::Present(place)) => Presence::Present {
-                evidence: shown(&place),
+                evidence: (&place).into(),
             },
             (SourceStatement::Missing(place), _)
             | (SourceStatement::Nothing, SourceStatement::Missing(place)) => {
-                let evidence = shown(&place);
+                let evidence = (&place).into();
                 self.miss(signal, place);
                 Presence::Missing { evidence }
             }
@@ -494,16 +533,6 @@ fn agreed(network: &Network, protocol: Option<Protocol>, signal: Signal) -> Sour
         return says;
     }
     SourceStatement::Undecided("only some drives of the network have it".to_owned(), whole)
-}
-
-/// Returns a place as `file:line`, with the path of an element.
-fn shown(place: &Place) -> String {
-    let line = place.start().line;
-    if place.text.starts_with("EtherCAT") {
-        format!("{}:{line}, {}", place.file, place.text)
-    } else {
-        format!("{}:{line}", place.file)
-    }
 }
 
 /// Returns the name of a process data object in the engineering tools.

@@ -12,7 +12,9 @@ mod settings;
 mod signal;
 
 pub use drive_type::DriveType;
-pub use judge::{DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, check_drive};
+pub use judge::{
+    DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, TorqueEvidence, check_drive,
+};
 pub use network::{Device, Network, NetworkObject, OwnFriction, Protocol, Slave};
 pub use settings::{DriveSettings, TorqueScale};
 pub use signal::{Signal, channel};

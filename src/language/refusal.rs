@@ -62,8 +62,8 @@ static REFUSALS: &[ControlError] = {
             "allow it in the list of external variables";
         20100 "250758795" Error, "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
             "write a variable of your own";
-        20131 "206278923" Error, "G80 without a program, and a G function that the control does not know",
-            "name the program, `g80_prog_file` in the channel list";
+        20131 "206278923" Error, "G80 to G89 and G800 on without a program, and a G function that the control does not know",
+            "name the program, `g80_prog_file` or `g800_prog_file[0]` in the channel list";
         20160 "diagnosis" Error, "an M function above 1000; how many P-CHAN-00041 allows is a limit of the build and in no list",
             "use a number up to 1000";
         20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
@@ -116,7 +116,7 @@ static REFUSALS: &[ControlError] = {
             "write them in a block of their own";
         20243 "251250571" Said("FC208"), "`$BREAK` outside a loop and a `$SWITCH`",
             "write it within one";
-        20244 "251254923" Said("FC208"), "`$CONTINUE` outside a loop",
+        20244 "251254923" Said("FC208"), "`$CONTINUE` outside a loop and a `$SWITCH`",
             "write it within one";
         20245 "251259275" Said("FC208"), "further commands in the block of `$CONTINUE`",
             "write them in a block of their own";
@@ -279,14 +279,20 @@ mod tests {
         let count = |is_it: fn(&ControlErrorCheck) -> bool| {
             REFUSALS.iter().filter(|row| is_it(&row.check)).count()
         };
+        let ranges = RANGES.map(|(from, to, subject, looked)| {
+            let numbers = REFUSALS.iter().map(|row| row.number);
+            let found = numbers.filter(|it| (from..=to).contains(it)).count();
+            format!("| {from} to {to} | {subject} | {looked} | {found} |\n")
+        });
         let fresh = format!(
             "{HEAD}\nOf {} numbers {} are errors here, {} are warnings with both ways, {} have another message, {} are \
-             not looked at.\n\n| number | what the control refuses | frictcomp | source |\n|---|---|---|---|\n{}",
+             not looked at.\n\n{SEARCH}\n| numbers | subject | what was looked through | rows |\n|---|---|---|---|\n{}\n| number | what the control refuses | frictcomp | source |\n|---|---|---|---|\n{}",
             REFUSALS.len(),
             count(|it| *it == ControlErrorCheck::Error),
             count(|it| *it == ControlErrorCheck::Possible),
             count(|it| matches!(it, ControlErrorCheck::Said(_))),
             count(|it| matches!(it, ControlErrorCheck::Open(_))),
+            ranges.concat(),
             rows.collect::<String>()
         );
         if std::env::var_os("UPDATE_DOCS").is_some() {
@@ -301,6 +307,74 @@ mod tests {
         which have [pages of their own](codes). `frictcomp explain 21480` shows one of them. An error is given only where the words \
         of the page cover the case; where the page, or a list of the machine, leaves that open, the warning FC328 says so, and the \
         ways on which the program ends there are followed beside those on which it goes on.\n";
+
+    /// How far the search for numbers went.
+    const SEARCH: &str = "How many numbers the control has cannot be counted from what is public: the overview of the diagnosis \
+        manual names ranges, and each number has a page of its own, of which not all can be read. These ranges are those of the \
+        overview; in those that concern programs, pages were looked for by the words of the language and by the numbers beside \
+        those that were found.\n";
+
+    /// The ranges of the diagnosis manual, with what was looked through.
+    const RANGES: [(u32, u32, &str, &str); 18] = {
+        const BY_WORDS: &str = "by the words of the language, and the numbers beside those found";
+        const BY_COMMANDS: &str = "by the commands that move or couple axes";
+        const NOT: &str = "nothing: no error of a program";
+        [
+            (
+                1000,
+                12_999,
+                "general, start-up",
+                "nothing: the start-up lists have codes of their own",
+            ),
+            (
+                13_000,
+                19_999,
+                "cycles",
+                "nothing: errors that cycles of the vendor report themselves",
+            ),
+            (
+                20_000,
+                29_999,
+                "decoding: syntax and meaning of programs",
+                BY_WORDS,
+            ),
+            (
+                30_000,
+                39_999,
+                "configuration",
+                "nothing: lists have codes of their own",
+            ),
+            (40_000, 49_999, "function blocks of the PLC", NOT),
+            (50_000, 59_999, "path interpolator", BY_COMMANDS),
+            (60_000, 69_999, "spindle interpolator", NOT),
+            (
+                70_000,
+                79_999,
+                "position controller",
+                "those of COMP and of compensation values, which have pages of their own",
+            ),
+            (80_000, 89_999, "axis filters", NOT),
+            (
+                90_000,
+                99_999,
+                "tool radius compensation",
+                "what flushes the channel",
+            ),
+            (110_000, 119_999, "management of axes", BY_COMMANDS),
+            (
+                120_000,
+                129_999,
+                "preparation of the path",
+                "splines, contours, strokes",
+            ),
+            (130_000, 139_999, "communication", NOT),
+            (140_000, 149_999, "management of drives", NOT),
+            (150_000, 159_999, "manual operation", NOT),
+            (220_000, 229_999, "utilities", NOT),
+            (230_000, 239_999, "utilities", NOT),
+            (240_000, 249_999, "utilities", NOT),
+        ]
+    };
 
     #[test]
     fn the_rows_are_in_order_and_say_by_which_code() {

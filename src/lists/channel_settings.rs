@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use super::channel_keys::number_of;
 use super::entry::Entry;
 use super::line::Entries;
 use super::parameter::Parameter;
@@ -57,6 +58,8 @@ pub struct ChannelSettings {
     /// The names of the main spindle in addition to `S`: P-CHAN-00053 and the name of the spindle with the number of
     /// P-CHAN-00051.
     pub main_spindle: Vec<String>,
+    /// The pairs of the coupling group 0 by their logical numbers, follower and leader, P-CHAN-00038 and P-CHAN-00037.
+    pub coupled: Vec<[u32; 2]>,
     /// Switches of the channel that are on.
     pub switches: BTreeSet<ChannelSwitch>,
     /// The M and H functions that the PLC does not acknowledge, P-CHAN-00041 and P-CHAN-00027: letter and number.
@@ -75,35 +78,38 @@ pub enum ChannelSwitch {
     KeepCouplingsAfterReset,
     /// Couplings are kept at program end.
     KeepCouplings,
-    /// The axes of the channel are kept at program end.
+    /// The axes of the channel and their couplings are kept at program end.
     KeepAxes,
+    /// The axes of the channel are kept after a reset.
+    KeepAxesAfterReset,
+    /// The zero offset is kept at program end.
+    KeepOffset,
+    /// The tool data are kept at program end.
+    KeepToolData,
 }
 
 impl ChannelSwitch {
-    /// Each with its key and the number of its parameter.
-    const KEYS: [(Self, &str, &str); 5] = [
-        (Self::KeepParameters, "p_param_haltend", "P-CHAN-00067"),
-        (
-            Self::KeepCycleChanges,
-            "cycle_changes_modal",
-            "P-CHAN-00210",
-        ),
+    /// Each with its key.
+    const KEYS: [(Self, &str); 8] = [
+        (Self::KeepParameters, "p_param_haltend"),
+        (Self::KeepCycleChanges, "cycle_changes_modal"),
         (
             Self::KeepCouplingsAfterReset,
             "synchro_data.restore_coupling_after_reset",
-            "P-CHAN-00104",
         ),
         (
             Self::KeepCouplings,
             "synchro_data.preserve_coupling_after_prog_end",
-            "P-CHAN-00105",
         ),
-        (Self::KeepAxes, "retain_last_ax_config", "P-CHAN-00460"),
+        (Self::KeepAxes, "retain_last_ax_config"),
+        (Self::KeepAxesAfterReset, "reset_no_axis_to_axv"),
+        (Self::KeepOffset, "preserve_active_zero_offsets"),
+        (Self::KeepToolData, "preserve_active_tool_data"),
     ];
 
     fn of(key: &str) -> Option<Self> {
         let mut all = Self::KEYS.iter();
-        let found = all.find(|(_, known, _)| *known == key)?;
+        let found = all.find(|(_, known)| *known == key)?;
         Some(found.0)
     }
 }
@@ -141,8 +147,22 @@ impl SlopeProfile {
     }
 }
 
+/// P-CHAN-00108.
+const FEED_FACTOR: &str = "prog_start.feedrate_factor";
+/// P-CHAN-00099.
+const FEED: &str = "prog_start.feedrate";
+/// P-CHAN-00063.
+const FUNCTIONS: &str = "prog_start.g_gruppe[].nr";
+
 /// Kinds of synchronisation without an acknowledgement by the PLC: no output, or output only.
 const UNACKNOWLEDGED: [&str; 5] = ["NO_SYNCH", "MOS", "MOS_TS", "MEP_MOS", "MET_MOS"];
+
+/// The keys of a pair of the coupling group 0: its follower, its leader, and 1 for a pair of spindles.
+const PAIR: [&str; 3] = [
+    "synchro_data.koppel_gruppe[].paar[].log_achs_nr_slave",
+    "synchro_data.koppel_gruppe[].paar[].log_achs_nr_master",
+    "synchro_data.koppel_gruppe[].paar[].mode",
+];
 
 /// Values as given by a channel list.
 #[derive(Debug, Clone, Default)]
@@ -157,6 +177,8 @@ pub struct ChannelDraft {
     spindle_number: Option<Given<u32>>,
     spindle_name: Option<Given<String>>,
     acknowledged: BTreeMap<(u8, u32), bool>,
+    /// The parts of each pair, by its place and that of its key.
+    pairs: BTreeMap<(u32, usize), Given<u32>>,
     switches: BTreeMap<ChannelSwitch, Given<bool>>,
 }
 
@@ -172,18 +194,18 @@ impl ChannelDraft {
 
     fn add(&mut self, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
         match (entry.pattern.as_str(), entry.indices.as_slice()) {
-            ("prog_start.feedrate_factor", []) => {
+            (FEED_FACTOR, []) => {
                 self.factor = number(entry, diagnostics).or(self.factor.take());
                 if let Some(factor) = &self.factor {
                     diagnostics.extend(odd_factor(entry, factor));
                 }
             }
-            ("prog_start.feedrate", []) => {
+            (FEED, []) => {
                 let given = number(entry, diagnostics);
                 self.feed_is_odd = given.is_none();
                 self.feed = given.or(self.feed.take());
             }
-            ("prog_start.g_gruppe[].nr", &[group]) => self.function(group, entry, diagnostics),
+            (FUNCTIONS, &[group]) => self.function(group, entry, diagnostics),
             ("mass_einh", []) => {
                 let given = entry.truth();
                 match given.value {
@@ -206,14 +228,16 @@ impl ChannelDraft {
             }
             ("main_spindle_ax_nr", []) => {
                 let given = number(entry, diagnostics);
-                self.spindle_number = given.and_then(|given| {
-                    let number = whole(given.value)?;
-                    Some(given.with(number))
-                });
+                self.spindle_number = given.and_then(|given| Some(given.with(whole(given.value)?)));
             }
             ("main_spindle_name", []) => {
                 let name = entry.text();
                 self.spindle_name = Some(name.with(name.value.to_owned()));
+            }
+            (key, &[0, pair]) => {
+                if let Some(part) = PAIR.iter().position(|it| *it == key) {
+                    self.pair((pair, part), entry, diagnostics);
+                }
             }
             (key, []) => {
                 if let Some(switch) = ChannelSwitch::of(key) {
@@ -225,6 +249,21 @@ impl ChannelDraft {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// A part of a pair of the coupling group 0.
+    fn pair(&mut self, place: (u32, usize), entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
+        let Some(given) = number(entry, diagnostics) else {
+            return;
+        };
+        let is_mode = place.1 == PAIR.len() - 1;
+        match whole(given.value) {
+            Some(number) if !is_mode || number < 2 => {
+                self.pairs.insert(place, given.with(number));
+            }
+            _ if is_mode => diagnostics.push(odd(entry, "`0` for axes or `1` for spindles")),
+            _ => diagnostics.push(odd(entry, "the logical number of an axis")),
         }
     }
 
@@ -271,6 +310,7 @@ impl ChannelDraft {
         self.spindle_number = other.spindle_number.or(self.spindle_number.take());
         self.spindle_name = other.spindle_name.or(self.spindle_name.take());
         self.acknowledged.extend(other.acknowledged);
+        self.pairs.extend(other.pairs);
         self.switches.extend(other.switches);
     }
 
@@ -302,6 +342,7 @@ impl ChannelDraft {
                 .filter(|name| !name.is_empty())
                 .map(str::to_owned)
                 .collect(),
+            coupled: self.coupled(),
             switches: {
                 let on = self.switches.iter().filter(|(_, given)| given.value);
                 on.map(|(switch, _)| *switch).collect()
@@ -313,12 +354,29 @@ impl ChannelDraft {
         }
     }
 
+    /// The followers and leaders of the coupling group 0 by their logical numbers, without pairs of spindles.
+    fn coupled(&self) -> Vec<[u32; 2]> {
+        let part = |place, part| {
+            self.pairs
+                .get(&(place, part))
+                .map_or(0, |given| given.value)
+        };
+        let places: BTreeSet<u32> = self.pairs.keys().map(|(place, _)| *place).collect();
+        let pairs = places.into_iter().filter(|place| part(*place, 2) == 0);
+        let pairs = pairs.map(|place| [part(place, 0), part(place, 1)]);
+        pairs.filter(|pair| !pair.contains(&0)).collect()
+    }
+
     /// Returns the parameters that the list gives.
     pub fn parameters(&self) -> Vec<Parameter> {
         let mut rows = Vec::new();
-        let mut row = |number, key: String, value: String, (unit, origin)| {
+        let mut row = |pattern: &str, indices: Vec<u32>, value: String, origin| {
+            let unit = if pattern == FEED { "mm/min" } else { "" };
+            let key = indices.iter().fold(pattern.to_owned(), |key, index| {
+                key.replacen("[]", &format!("[{index}]"), 1)
+            });
             rows.push(Parameter {
-                number,
+                number: number_of(pattern),
                 key,
                 value,
                 unit,
@@ -326,47 +384,48 @@ impl ChannelDraft {
             });
         };
         if let Some(given) = &self.factor {
-            let key = "prog_start.feedrate_factor".to_owned();
-            let value = given.value.to_string();
-            row("P-CHAN-00108", key, value, ("", given.into()));
+            row(
+                FEED_FACTOR,
+                Vec::new(),
+                given.value.to_string(),
+                given.into(),
+            );
         }
         if let Some(given) = &self.feed {
-            let key = "prog_start.feedrate".to_owned();
-            let value = given.value.to_string();
-            row("P-CHAN-00099", key, value, ("mm/min", given.into()));
+            row(FEED, Vec::new(), given.value.to_string(), given.into());
         }
         for (group, given) in &self.functions {
-            let key = format!("prog_start.g_gruppe[{group}].nr");
             let value = given.value.to_string();
-            row("P-CHAN-00063", key, value, ("", given.into()));
+            row(FUNCTIONS, vec![*group], value, given.into());
         }
         if let Some(given) = &self.inch {
             let value = u8::from(given.value).to_string();
-            row(
-                "P-CHAN-00054",
-                "mass_einh".to_owned(),
-                value,
-                ("", given.into()),
-            );
+            row("mass_einh", Vec::new(), value, given.into());
         }
         if let Some(given) = &self.slope {
-            let key = "prog_start.slope.profile".to_owned();
             let value = (given.value as u8).to_string();
-            row("P-CHAN-00071", key, value, ("", given.into()));
+            row("prog_start.slope.profile", Vec::new(), value, given.into());
         }
         if let Some(given) = &self.spindle_number {
-            let key = "main_spindle_ax_nr".to_owned();
             let value = given.value.to_string();
-            row("P-CHAN-00051", key, value, ("", given.into()));
+            row("main_spindle_ax_nr", Vec::new(), value, given.into());
         }
         if let Some(given) = &self.spindle_name {
-            let key = "main_spindle_name".to_owned();
-            row("P-CHAN-00053", key, given.value.clone(), ("", given.into()));
+            row(
+                "main_spindle_name",
+                Vec::new(),
+                given.value.clone(),
+                given.into(),
+            );
         }
-        for (switch, key, number) in ChannelSwitch::KEYS {
+        for ((pair, part), given) in &self.pairs {
+            let value = given.value.to_string();
+            row(PAIR[*part], vec![0, *pair], value, given.into());
+        }
+        for (switch, key) in ChannelSwitch::KEYS {
             if let Some(given) = self.switches.get(&switch) {
                 let value = u8::from(given.value).to_string();
-                row(number, key.to_owned(), value, ("", given.into()));
+                row(key, Vec::new(), value, given.into());
             }
         }
         rows
@@ -405,7 +464,7 @@ fn odd_factor(entry: &Entry, factor: &Given<Number>) -> Option<Diagnostic> {
 }
 
 /// Returns FC132 for a value that has no documented meaning.
-fn odd(entry: &Entry, help: &str) -> Diagnostic {
+pub(super) fn odd(entry: &Entry, help: &str) -> Diagnostic {
     let word = entry.word();
     let message = format!(
         "`{}` of `{}` is outside the documented values",

@@ -1,8 +1,11 @@
 //! The list keys with the numbers of their parameters, for references to them (R3.40), for keys
 //! that lost their underscores, and for `explain`.
 
+use super::channel_keys::CHANNEL_KEYS;
+
 /// A key of a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct KnownKey {
     /// The number in the parameter descriptions; empty where none is documented.
     pub number: &'static str,
@@ -16,9 +19,14 @@ macro_rules! keys {
     };
 }
 
-/// Every key that is read or referred to (TF5200 Axis, Compensation, Channel and Start-up
-/// parameters).
-pub const KEYS: &[KnownKey] = keys! {
+/// Every key that is read or referred to (TF5200 Axis, Compensation, Channel and Start-up parameters).
+pub fn known_keys() -> impl Iterator<Item = KnownKey> {
+    let channel = CHANNEL_KEYS.iter().map(|row| row.key);
+    KEYS.iter().copied().chain(channel)
+}
+
+/// Those that are not in a channel list.
+const KEYS: &[KnownKey] = keys! {
     "P-AXIS-00016" "kopf.achs_nr"
     "P-AXIS-00297" "kopf.log_achs_name"
     "P-AXIS-00015" "kenngr.achs_mode"
@@ -88,42 +96,11 @@ pub const KEYS: &[KnownKey] = keys! {
     "P-STUP-00034" "default_sda_mds"
     "P-STUP-00035" "default_achs_mds"
     "P-STUP-00036" "achs_kw_log_ax_nr[]"
-    "P-CHAN-00003" "gruppe[].achs_anzahl"
-    "P-CHAN-00006" "gruppe[].achse[].bezeichnung"
-    "P-CHAN-00035" "gruppe[].achse[].log_achs_nr"
-    "P-CHAN-00007" "spindel[].bezeichnung"
-    "P-CHAN-00036" "spindel[].log_achs_nr"
-    "P-CHAN-00014" "einrechnen_mit_t"
-    "P-CHAN-00051" "main_spindle_ax_nr"
-    "P-CHAN-00053" "main_spindle_name"
-    "P-CHAN-00054" "mass_einh"
-    "P-CHAN-00062" "makro_def[].nc_code"
-    "P-CHAN-00085" "makro_def[].symbol"
-    "P-CHAN-00063" "prog_start.g_gruppe[].nr"
-    "P-CHAN-00099" "prog_start.feedrate"
-    "P-CHAN-00108" "prog_start.feedrate_factor"
-    "P-CHAN-00071" "prog_start.slope.profile"
-    "P-CHAN-00118" "m6_prog_file"
-    "" "t_prog_file"
-    "P-CHAN-00429" "d_prog_file"
-    "P-CHAN-00119" "start_init_prog_file"
-    "P-CHAN-00252" "final_prog_file"
-    "P-CHAN-00160" "g80_prog_file"
-    "P-CHAN-00161" "g81_prog_file"
-    "P-CHAN-00162" "g82_prog_file"
-    "P-CHAN-00163" "g83_prog_file"
-    "P-CHAN-00164" "g84_prog_file"
-    "P-CHAN-00165" "g85_prog_file"
-    "P-CHAN-00166" "g86_prog_file"
-    "P-CHAN-00167" "g87_prog_file"
-    "P-CHAN-00168" "g88_prog_file"
-    "P-CHAN-00169" "g89_prog_file"
-    "P-CHAN-00187" "g800_prog_file[]"
 };
 
 /// Whether a key, with its indices left empty, is one of them.
 pub(super) fn is_known(pattern: &str) -> bool {
-    KEYS.iter().any(|key| key.pattern == pattern)
+    known_keys().any(|key| key.pattern == pattern)
 }
 
 /// A key whose underscores turned into blanks, as in a list copied from a PDF: `frict comp.mode 3`.
@@ -137,7 +114,7 @@ pub(super) struct Blanked {
 
 /// Returns the longest known key that a line begins with, with a blank for at least one underscore.
 pub(super) fn blanked(line: &str) -> Option<Blanked> {
-    let found = KEYS.iter().filter_map(|key| {
+    let found = known_keys().filter_map(|key| {
         let length = blanked_length(key.pattern, line)?;
         Some(Blanked {
             pattern: key.pattern,

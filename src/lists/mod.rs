@@ -1,6 +1,7 @@
 //! The control's ASCII lists: their lines, their contents, and the control's checks.
 
 mod axis;
+mod channel_keys;
 mod channel_settings;
 mod check;
 mod dynamics;
@@ -24,13 +25,14 @@ mod write;
 
 pub use axis::AxisValues;
 pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
+pub use channel_keys::ChannelKey;
 pub use channel_settings::{ChannelDraft, ChannelSettings, ChannelSwitch, FeedUnit, SlopeProfile};
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use dynamics::{DynamicsDraft, ListedDynamics};
 pub use entry::Entry;
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 #[cfg(feature = "unstable")]
-pub use keywords::{KEYS, KnownKey};
+pub use keywords::{KnownKey, known_keys};
 pub use kind::ListKind;
 pub use line::Entries;
 pub use monitor::Monitor;

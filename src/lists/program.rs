@@ -2,10 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use super::channel_keys::number_of;
+use super::channel_settings::odd;
 use super::entry::Entry;
 use super::line::Entries;
 use super::parameter::Parameter;
 use super::value::Given;
+use crate::diagnostic::Diagnostic;
 
 /// Event that starts a program of the channel list.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,26 +22,25 @@ pub enum ProgramRole {
     Word(String),
 }
 
-/// The keys that name a program, each with the number of the parameter, if the descriptions give
-/// one, and the word that calls the program (TF5200 Channel parameters).
-const WORDS: [(&str, &str, &str); 13] = [
-    ("m6_prog_file", "P-CHAN-00118", "M6"),
-    ("t_prog_file", "", "T"),
-    ("d_prog_file", "P-CHAN-00429", "D"),
-    ("g80_prog_file", "P-CHAN-00160", "G80"),
-    ("g81_prog_file", "P-CHAN-00161", "G81"),
-    ("g82_prog_file", "P-CHAN-00162", "G82"),
-    ("g83_prog_file", "P-CHAN-00163", "G83"),
-    ("g84_prog_file", "P-CHAN-00164", "G84"),
-    ("g85_prog_file", "P-CHAN-00165", "G85"),
-    ("g86_prog_file", "P-CHAN-00166", "G86"),
-    ("g87_prog_file", "P-CHAN-00167", "G87"),
-    ("g88_prog_file", "P-CHAN-00168", "G88"),
-    ("g89_prog_file", "P-CHAN-00169", "G89"),
+/// The keys that name a program, each with the word that calls it (TF5200 Channel parameters).
+const WORDS: [(&str, &str); 13] = [
+    ("m6_prog_file", "M6"),
+    ("t_prog_file", "T"),
+    ("d_prog_file", "D"),
+    ("g80_prog_file", "G80"),
+    ("g81_prog_file", "G81"),
+    ("g82_prog_file", "G82"),
+    ("g83_prog_file", "G83"),
+    ("g84_prog_file", "G84"),
+    ("g85_prog_file", "G85"),
+    ("g86_prog_file", "G86"),
+    ("g87_prog_file", "G87"),
+    ("g88_prog_file", "G88"),
+    ("g89_prog_file", "G89"),
 ];
 
-/// The number of `g800_prog_file[i]`.
-const G800: &str = "P-CHAN-00187";
+/// P-CHAN-00187.
+const G800: &str = "g800_prog_file[]";
 
 /// More macros than any channel list has; further ones are not kept.
 const MAX_MACROS: usize = 4096;
@@ -73,23 +75,27 @@ pub struct ChannelPrograms {
 
 impl ChannelPrograms {
     /// Collects the programs and macros that a list names.
-    pub fn from_entries(list: &Entries) -> Self {
+    pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut programs = Self::default();
         for entry in &list.entries {
-            programs.add(entry);
+            programs.add(entry, diagnostics);
         }
         programs
     }
 
-    fn add(&mut self, entry: &Entry) {
+    fn add(&mut self, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
         let indices = entry.indices.as_slice();
         match (entry.pattern.as_str(), indices) {
-            ("start_init_prog_file", []) => self.name(ProgramRole::Start, "P-CHAN-00119", entry),
-            ("final_prog_file", []) => self.name(ProgramRole::End, "P-CHAN-00252", entry),
-            ("start_init_prog_file_mode", []) => self.mode(ProgramRole::Start, entry),
-            ("final_prog_file_mode", []) => self.mode(ProgramRole::End, entry),
-            ("g800_prog_file[]", &[index]) if index < 200 => {
-                self.name(ProgramRole::Word(format!("G{}", 800 + index)), G800, entry);
+            ("start_init_prog_file", []) => self.name(ProgramRole::Start, entry),
+            ("final_prog_file", []) => self.name(ProgramRole::End, entry),
+            ("start_init_prog_file_mode", []) => {
+                diagnostics.extend(self.mode(ProgramRole::Start, entry));
+            }
+            ("final_prog_file_mode", []) => {
+                diagnostics.extend(self.mode(ProgramRole::End, entry));
+            }
+            (G800, &[index]) if index < 200 => {
+                self.name(ProgramRole::Word(format!("G{}", 800 + index)), entry);
             }
             ("einrechnen_mit_t", []) => {
                 let given = entry.truth();
@@ -107,10 +113,10 @@ impl ChannelPrograms {
                 }
             }
             (key, []) => {
-                if let Some((_, number, word)) = WORDS.iter().find(|(known, ..)| *known == key) {
-                    self.name(ProgramRole::Word((*word).to_owned()), number, entry);
-                } else if let Some(word) = numbered(key) {
-                    self.name(ProgramRole::Word(word), G800, entry);
+                let word = WORDS.iter().find(|(known, _)| *known == key);
+                let word = word.map(|(_, word)| (*word).to_owned());
+                if let Some(word) = word.or_else(|| numbered(key)) {
+                    self.name(ProgramRole::Word(word), entry);
                 }
             }
             _ => {}
@@ -118,9 +124,13 @@ impl ChannelPrograms {
     }
 
     /// Sets a program; an empty name removes it.
-    fn name(&mut self, role: ProgramRole, number: &'static str, entry: &Entry) {
+    fn name(&mut self, role: ProgramRole, entry: &Entry) {
+        let pattern = match numbered(&entry.pattern) {
+            Some(_) => G800,
+            None => &entry.pattern,
+        };
         let named = ListedProgram {
-            number,
+            number: number_of(pattern),
             key: entry.key(),
             name: text(entry),
         };
@@ -128,11 +138,16 @@ impl ChannelPrograms {
     }
 
     /// The modes of operation in which a program runs, `AUTOMATIC | MDI` (P-CHAN-00260, P-CHAN-00433).
-    fn mode(&mut self, role: ProgramRole, entry: &Entry) {
+    fn mode(&mut self, role: ProgramRole, entry: &Entry) -> Option<Diagnostic> {
         let given = entry.text();
-        let modes = given.value.to_ascii_uppercase();
-        let is_manual = modes.contains("MDI") && !modes.contains("AUTOMATIC");
+        let text = given.value.trim().trim_matches('"').to_ascii_uppercase();
+        let modes: Vec<&str> = text.split('|').map(str::trim).collect();
+        let is_known = modes
+            .iter()
+            .all(|mode| matches!(*mode, "" | "*" | "MDI" | "AUTOMATIC"));
+        let is_manual = modes == ["MDI"];
         self.manual.insert(role, given.with(is_manual));
+        (!is_known).then(|| odd(entry, "`AUTOMATIC`, `MDI` or `AUTOMATIC | MDI`"))
     }
 
     fn macro_at(&mut self, index: u32) -> Option<&mut Macro> {
@@ -194,7 +209,7 @@ impl ChannelPrograms {
             .collect();
         if let Some(given) = &self.data_with_tool {
             rows.push(Parameter {
-                number: "P-CHAN-00014",
+                number: number_of("einrechnen_mit_t"),
                 key: "einrechnen_mit_t".to_owned(),
                 value: u8::from(given.value).to_string(),
                 unit: "",
@@ -202,10 +217,8 @@ impl ChannelPrograms {
             });
         }
         for (index, found) in &self.macros {
-            for (number, key, given) in [
-                ("P-CHAN-00085", "symbol", &found.symbol),
-                ("P-CHAN-00062", "nc_code", &found.code),
-            ] {
+            for (key, given) in [("symbol", &found.symbol), ("nc_code", &found.code)] {
+                let number = number_of(&format!("makro_def[].{key}"));
                 let key = format!("makro_def[{index}].{key}");
                 rows.extend(given.as_ref().map(|given| row(number, key, given)));
             }

@@ -1,7 +1,7 @@
 //! Values that refer to another parameter of the list: `P-AXIS-00008.0` (R3.40).
 
 use super::entry::Entry;
-use super::keywords::{KEYS, is_known};
+use super::keywords::{is_known, known_keys};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::Span;
 
@@ -30,8 +30,7 @@ impl Reference {
 
     /// Returns the entry of the parameter. An omitted index is 0.
     fn find(&self, entries: &[Entry]) -> Result<usize, &'static str> {
-        let mut keys = KEYS
-            .iter()
+        let mut keys = known_keys()
             .filter(|key| key.number == self.number)
             .peekable();
         if keys.peek().is_none() {

@@ -194,7 +194,7 @@ impl ChannelList {
     /// Collects the axes of the first group and the spindles.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut channel = Self {
-            programs: ChannelPrograms::from_entries(list),
+            programs: ChannelPrograms::from_entries(list, diagnostics),
             motion: ChannelDraft::from_entries(list, diagnostics),
             ..Self::default()
         };

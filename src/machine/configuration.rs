@@ -125,6 +125,7 @@ impl Configuration {
         for axis in &mut self.machine.axes {
             let fix = axis.configuring.take();
             axis.configuring = fix.filter(|fix| !self.embedded.holds(&fix.place));
+            self.embedded.rename(&mut axis.frict_comp_origin);
         }
         let rows = self.reports.iter_mut().flat_map(|it| &mut it.parameters);
         for row in rows.chain(&mut self.programs) {

@@ -173,6 +173,13 @@ impl Machine {
             .map(AxisIndex::new)
     }
 
+    /// Returns the axis with a logical number.
+    pub(crate) fn axis_numbered(&self, number: u32) -> Option<AxisIndex> {
+        let mut axes = self.axes.iter();
+        let found = axes.position(|axis| axis.number == Some(number));
+        found.map(AxisIndex::new)
+    }
+
     /// Returns an axis by its position.
     pub fn axis(&self, index: AxisIndex) -> &Axis {
         &self.axes[index.get()]

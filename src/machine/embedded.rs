@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Fix};
+use crate::drive_interface::{DriveReport, Presence};
 use crate::lists::Origin;
 use crate::text::Place;
 
@@ -88,6 +89,15 @@ impl EmbeddedLists {
             "write line {line} of the list as `{}`",
             written.trim()
         ))
+    }
+
+    /// Names the items and the lines within the lists in place of those of the file in what is known about a drive.
+    pub fn rename_evidence(&self, drive: &mut DriveReport) {
+        for presence in [&mut drive.additive_torque, &mut drive.actual_torque] {
+            if let Presence::Present { evidence } | Presence::Missing { evidence } = presence {
+                self.rename(&mut evidence.origin);
+            }
+        }
     }
 
     /// Names the item and the line within the list in place of those of the file.

@@ -29,6 +29,8 @@ pub enum Question {
     ManualActivation,
     /// Does a command stop the path?
     LookAhead,
+    /// What does `$CONTINUE` do in a `$SWITCH` outside a loop?
+    ContinueInSwitch,
     /// Does an axis keep its state through an axis exchange?
     AxisExchange,
     /// When is a skip level read?
@@ -39,6 +41,22 @@ pub enum Question {
     BlockSearch,
     /// Does `#ERROR` without a remedy class end the program?
     RemedyClass,
+    /// Which whole number does a variable of an integer type keep of a fraction?
+    WholeNumber,
+    /// Does the control take variables that no `#VAR` declares?
+    Undeclared,
+    /// Is a jump into a loop or a `$SWITCH` refused?
+    JumpInto,
+    /// Are two implicit calls in a block refused?
+    TwoCalls,
+    /// Is COMP within the description of a contour or stroke refused?
+    Described,
+    /// Is the reading of a `V.E.` variable refused where the channel must not be flushed?
+    ReadFlushes,
+    /// Are numbers equal that differ by the rounding of a computation?
+    NearlyEqual,
+    /// Is the program number `O1234` refused?
+    ProgramNumber,
     /// How does the current decay before a reversal?
     Decay,
     /// After which starts does the current build up?
@@ -53,7 +71,7 @@ pub enum Question {
 
 impl Question {
     /// Every question, in the order of the rules.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 30] = [
         Self::LowerCase,
         Self::WithMotion,
         Self::SyntaxCheck,
@@ -65,11 +83,20 @@ impl Question {
         Self::Homing,
         Self::ManualActivation,
         Self::LookAhead,
+        Self::ContinueInSwitch,
         Self::AxisExchange,
         Self::SkipLevel,
         Self::MachineData,
         Self::BlockSearch,
         Self::RemedyClass,
+        Self::WholeNumber,
+        Self::Undeclared,
+        Self::JumpInto,
+        Self::TwoCalls,
+        Self::Described,
+        Self::ReadFlushes,
+        Self::NearlyEqual,
+        Self::ProgramNumber,
         Self::Decay,
         Self::Start,
         Self::Delay,

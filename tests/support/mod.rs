@@ -46,6 +46,14 @@ pub(crate) struct Bench {
     pub(crate) options: SessionOptions,
     pub(crate) files: BTreeMap<String, String>,
     handed: SourceMode,
+    after_error: AfterStop,
+}
+
+/// What follows a program that an error ends.
+pub(crate) enum AfterStop {
+    Nothing,
+    /// A reset of the channel, and the next program.
+    Reset,
 }
 
 impl Bench {
@@ -70,6 +78,7 @@ impl Bench {
             options,
             files,
             handed: SourceMode::Whole,
+            after_error: AfterStop::Nothing,
         }
     }
 
@@ -89,6 +98,11 @@ impl Bench {
     /// Executes no branch under an unknown condition (R2.51).
     pub(crate) fn passing_branches(mut self) -> Self {
         self.options.run.branches = Branches::Passed;
+        self
+    }
+
+    pub(crate) fn reset_after_error(mut self) -> Self {
+        self.after_error = AfterStop::Reset;
         self
     }
 
@@ -254,7 +268,10 @@ impl Bench {
         let _ = session.begin(&[], sink);
         for (at, text) in programs.iter().enumerate() {
             if session.is_stopped() && self.options.run.stop == StopPolicy::FirstError {
-                break;
+                match self.after_error {
+                    AfterStop::Nothing => break,
+                    AfterStop::Reset => session.reset(),
+                }
             }
             let name = format!(
                 "{}.nc",

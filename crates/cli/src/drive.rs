@@ -104,7 +104,9 @@ fn drives(report: &ListsReport, evidence: &Evidence) -> Vec<DriveReport> {
     let of_axis = |axis: &str| report.accepted.iter().find(|it| it.axis == axis);
     let drives = report.reports.iter().map(|axis| {
         let list = of_axis(&axis.axis).map(|accepted| &accepted.list);
-        check_drive(&axis.listed_drive(list), evidence)
+        let mut drive = check_drive(&axis.listed_drive(list), evidence);
+        report.embedded.rename_evidence(&mut drive);
+        drive
     });
     drives.collect()
 }

@@ -16,6 +16,7 @@ use super::vocabulary;
 use frictcomp::ControlError;
 use frictcomp::diagnostic::{Code, did_you_mean};
 use frictcomp::documents::PARAMETER_PAGES;
+use frictcomp::lists::ChannelKey;
 use frictcomp_host::FileRegistry;
 use frictcomp_report::fitted;
 
@@ -88,7 +89,12 @@ pub fn page_about(word: &str) -> Result<Cow<'static, str>, NoPage> {
         let parameters = PARAMETER_PAGES
             .iter()
             .flat_map(|parameter| [parameter.number, parameter.key]);
-        let all = codes.chain(parameters).chain(vocabulary::words());
+        let rows = ChannelKey::all().iter();
+        let keys = rows.flat_map(|row| [row.pattern(), row.number()]);
+        let all = codes
+            .chain(parameters)
+            .chain(vocabulary::words())
+            .chain(keys);
         NoPage {
             near: did_you_mean(word, all).map(str::to_owned),
         }
@@ -119,6 +125,7 @@ fn find(text: &str) -> Option<Cow<'static, str>> {
         .map(|parameter| parameter.page.into())
         .or_else(|| vocabulary::find(text).map(Cow::Owned))
         .or_else(|| control_error(text).map(Cow::Owned))
+        .or_else(|| channel_key(text).map(Cow::Owned))
 }
 
 /// Returns the page of an error number of the control, with `P-ERR-` or without (R2.114).
@@ -127,6 +134,18 @@ fn control_error(text: &str) -> Option<String> {
     let number = number.strip_prefix("P-ERR-").unwrap_or(&number);
     let row = ControlError::of(number.parse().ok()?)?;
     Some(row.explanation())
+}
+
+/// Returns the page of a key of a channel list, by its number or with any indices (R2.105).
+fn channel_key(text: &str) -> Option<String> {
+    let wanted = vocabulary::canonical(text);
+    let is_it = |row: &&ChannelKey| {
+        [&row.key(), row.number()]
+            .map(vocabulary::canonical)
+            .contains(&wanted)
+    };
+    let row = ChannelKey::all().iter().find(is_it)?;
+    (!wanted.is_empty()).then(|| row.explanation())
 }
 
 /// Turns `frict_comp.table[3].in` into `frict_comp.table[i].in`.

@@ -10,15 +10,16 @@ use super::machine::outside_policy;
 use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    AllowedRoots, CONFIG_NAME, Disk, check_list_file, is_configuration, nearest_config,
+    AllowedRoots, CONFIG_NAME, Disk, check_list_file, find_startup, is_configuration,
+    nearest_config,
 };
 
 /// The lists of a command.
 #[derive(Debug, Args)]
 pub(super) struct NamedLists {
-    /// The lists, or the `frictcomp.toml` that names them; by default the nearest `frictcomp.toml`
-    /// in the current folder or above
-    #[arg(value_name = "FILE")]
+    /// The lists, a TwinCAT project, the `frictcomp.toml` that names them, or the folder of one of these; by default
+    /// the nearest `frictcomp.toml` in the current folder or above
+    #[arg(value_name = "PATH")]
     files: Vec<PathBuf>,
     #[command(flatten)]
     build: CncBuildArgs,
@@ -27,11 +28,28 @@ pub(super) struct NamedLists {
     allow_outside: bool,
 }
 
+/// Returns the configuration in a folder, or else the start-up list or project below it.
+fn machine_in(folder: &Path) -> Result<Option<PathBuf>, Failure> {
+    let config = folder.join(CONFIG_NAME);
+    if config.is_file() {
+        return Ok(Some(config));
+    }
+    Ok(find_startup(folder)?)
+}
+
 impl NamedLists {
     /// Returns the files to check (R9.72).
     pub(super) fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         if !self.files.is_empty() {
-            return Ok(self.files.clone());
+            let files = self.files.iter().map(|path| {
+                let found = if path.is_dir() {
+                    machine_in(path)?
+                } else {
+                    None
+                };
+                Ok(found.unwrap_or_else(|| path.clone()))
+            });
+            return files.collect();
         }
         let nearest = nearest_config(Path::new(""), &Disk::default());
         let failure = || {

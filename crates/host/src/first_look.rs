@@ -77,7 +77,10 @@ pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
 }
 
 /// Returns the start-up list or the TwinCAT project below a folder, recognised by its content.
-fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
+///
+/// # Errors
+/// There are several.
+pub fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
     let disk = Disk::default();
     let mut found: Vec<PathBuf> = Vec::new();
     let walk = WalkBuilder::new(folder)

@@ -97,7 +97,7 @@ pub use encoded_text::{EncodedText, NotEncodable};
 pub use error::HostError;
 pub use file_kind::{CONFIG_NAME, is_program, is_source};
 pub use finder::{ProgramFinder, SearchPath};
-pub use first_look::{outline_of, write_new};
+pub use first_look::{find_startup, outline_of, write_new};
 pub use git::{ChangedFile, OldFile, Revision};
 pub use golden::{GoldenDrift, GoldenFile, GoldenKind, GoldenResults, UpdatedFolder};
 pub use input::{Input, Naming, reopen};

@@ -95,13 +95,13 @@ fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
     let presences = [&report.additive_torque, &report.actual_torque];
     for (signal, presence) in Signal::ALL.iter().zip(presences) {
         let (word, why) = match presence {
-            Presence::Present { evidence } => ("present", evidence.as_str()),
-            Presence::Missing { evidence } => ("missing", evidence.as_str()),
-            Presence::Unknown { reason } => ("unknown", reason.as_str()),
-            Presence::NotApplicable => ("none", "no drive takes or gives a torque here"),
+            Presence::Present { evidence } => ("present", evidence.to_string()),
+            Presence::Missing { evidence } => ("missing", evidence.to_string()),
+            Presence::Unknown { reason } => ("unknown", reason.clone()),
+            Presence::NotApplicable => ("none", "no drive takes or gives a torque here".to_owned()),
         };
         let signal = format!("  {}", signal.as_str());
-        let told = format!("{word:<8} {}", visible_line(why));
+        let told = format!("{word:<8} {}", visible_line(&why));
         rows.row(&[&signal, &told]);
     }
     let (numerator, denominator) = (report.scale.numerator, report.scale.denominator);

@@ -1,5 +1,6 @@
 //! COMP commands and the messages about them (chapter 1).
 
+use super::refused::PossibleRefusal;
 use super::reported::StopScope;
 use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
@@ -74,7 +75,8 @@ impl Interpreter {
         };
         let opener = described.opener;
         let what = format!("a COMP command stands within `{}`", opener.words);
-        self.may_refuse(opener.refuses_comp, &what, command.span, at);
+        let refusal = PossibleRefusal::asked(opener.refuses_comp, Question::Described);
+        self.may_refuse(refusal, &what, command.span, at);
     }
 
     /// FC902: the PLC may skip the command (R2.109).

@@ -10,6 +10,7 @@ use crate::interpreter::values::location::Location;
 use crate::interpreter::values::names::Sure;
 use crate::interpreter::values::value::{Value, exact};
 use crate::interpreter::values::value_type::{TypedValue, ValueType};
+use crate::readings::{Alternative, Question};
 use crate::syntax::ast::{Declaration, Hash, Operand};
 use crate::syntax::{Fault, Subscript, VariableFamily, VariableName};
 use crate::text::Span;
@@ -214,11 +215,22 @@ impl Interpreter {
         let shown = value.as_written();
         match kind.take(name.array(), value) {
             TypedValue::Taken(value) => Ok(value),
-            TypedValue::Rounded(value) => {
-                let what =
-                    format!("`{shown}` is between the last value of `{name}` and the next one");
-                self.may_refuse(20847, &what, span, at);
-                Ok(value)
+            TypedValue::Fraction(number) => {
+                self.state.rests_on.insert(Question::WholeNumber);
+                let whole = match self.machine.readings.of(Question::WholeNumber) {
+                    Some(Alternative::First) => Some(number.trunc()),
+                    Some(Alternative::Second) => Some(number.round()),
+                    None => None,
+                };
+                if let Some(whole) = whole {
+                    return self.typed(kind, name, whole.into(), span, at);
+                }
+                if !kind.has(number.floor()) || !kind.has(number.ceil()) {
+                    let what =
+                        format!("`{shown}` is between the last value of `{name}` and the next one");
+                    self.may_refuse(20847, &what, span, at);
+                }
+                Ok(Value::Unknown(Unknown::text(name.array())))
             }
             TypedValue::OutOfRange(least, most) => {
                 let what = format!("`{name}` takes {least} to {most}, and the value is {shown}");

@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use super::refused::PossibleRefusal;
 use super::reported::StopScope;
 use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
@@ -14,12 +15,13 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::ControlStep;
-use crate::interpreter::unknown::branching::Goal;
+use crate::interpreter::unknown::branching::{Goal, MachineQuestion};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::functions::{are_nearly_equal, finite};
-use crate::interpreter::values::plain::Truth;
+use crate::interpreter::values::plain::{Asking, Truth, Writer};
 use crate::interpreter::values::value::{Value, same_case};
 use crate::interpreter::ways::question::ConditionKind;
+use crate::readings::{Alternative, Question};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::text::Span;
@@ -167,10 +169,41 @@ impl Interpreter {
                 self.repeat_where((*condition, Truth::Fails), links.opener..entry, at)?
             }
             Flow::Break => Some(after),
+            Flow::Continue if index.switches.contains_key(&links.opener) => {
+                self.continue_in_switch(entry..links.end, span, at)
+            }
             Flow::Continue => Some(ControlStep::Jump(links.end)),
             Flow::Goto(target) => self.jump(target, span, at)?,
             Flow::Default | Flow::EndIf | Flow::EndSwitch | Flow::Do(None) | Flow::Repeat => None,
         })
+    }
+
+    /// `$CONTINUE` in a `$SWITCH` outside a loop is allowed (P-ERR-20244), and no page says what it does.
+    fn continue_in_switch(
+        &mut self,
+        rest: Range<EntryIndex>,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Option<ControlStep> {
+        self.state.rests_on.insert(Question::ContinueInSwitch);
+        let leaves = Some(ControlStep::Jump(rest.end));
+        match self.machine.readings.of(Question::ContinueInSwitch) {
+            Some(Alternative::First) => return leaves,
+            Some(Alternative::Second) => return None,
+            None => {}
+        }
+        let cause = Unknown::ContinueInSwitch;
+        let question = MachineQuestion {
+            kind: ConditionKind::Branch,
+            span,
+            texts: vec!["$CONTINUE == $BREAK".into()],
+            reads: Some(Asking::of_unknown(Writer::Nothing, cause.clone())),
+            cause,
+            kept: None,
+        };
+        let goals = [rest.end, rest.start + 1].map(Goal::block);
+        self.part(question, goals.into(), at);
+        None
     }
 
     fn branch(
@@ -436,12 +469,15 @@ impl Interpreter {
                 return Err(Fault::refused(Code::PErr21480, span, what));
             }
             JumpAcross::OneOfSeveralLoops => {
-                "this jump leaves a loop and stays within the one around it"
+                let what = "this jump leaves a loop and stays within the one around it";
+                self.may_refuse(21480, what, span, at);
+                return Ok(());
             }
             JumpAcross::IntoLoop => "this jump enters a loop from outside",
             JumpAcross::IntoSwitch => "this jump enters a `$SWITCH` from outside",
         };
-        self.may_refuse(21480, what, span, at);
+        let refusal = PossibleRefusal::asked(21480, Question::JumpInto);
+        self.may_refuse(refusal, what, span, at);
         Ok(())
     }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::refused::PossibleRefusal;
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::is_named_m;
 use crate::interpreter::programs::file_names::{FileName, file_names};
@@ -13,6 +14,7 @@ use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::language::{CoordinateEffect, GFunction};
+use crate::readings::Question;
 use crate::syntax::ast::{CallScope, GCall, Hash};
 use crate::syntax::{Fault, VariableName};
 use crate::text::Span;
@@ -87,7 +89,8 @@ impl Interpreter {
     ) {
         if outcome.implicit.replace(letter).is_some() {
             let what = "two words of this block call programs";
-            self.may_refuse(22008, what, span, at);
+            let refusal = PossibleRefusal::asked(22008, Question::TwoCalls);
+            self.may_refuse(refusal, what, span, at);
         }
     }
 
@@ -172,14 +175,11 @@ impl Interpreter {
         } else if !self.machine.channel.is_whole {
             let wanted = WantedCall::of_word(number, at.in_block(span));
             outcome.calls.push(wanted);
-        } else if number == 80 {
-            let what = "the channel list names no program for `G80`, which the control refuses";
-            return Err(Fault::refused(Code::PErr20131, span, what));
         } else {
-            let what = format!("the channel list names no program for `G{number}`");
-            self.may_refuse(None, &what, span, at);
-            self.pass_over_implicit(number);
-            self.pass_over(&format!("G{number}"), span, at);
+            let what = format!(
+                "the channel list names no program for `G{number}`, which the control refuses"
+            );
+            return Err(Fault::refused(Code::PErr20131, span, what));
         }
         Ok(())
     }

@@ -1,5 +1,7 @@
 //! `#ERROR`: an error that the program reports itself, and whether that ends it (R2.100; PM/207457163).
 
+use std::sync::Arc;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::run::block_context::BlockContext;
@@ -35,12 +37,14 @@ enum RemedyClass {
 }
 
 /// The blocks to which it applies whether an error ends the program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum StopScope {
     /// This block; each other one asks anew.
     Block,
     /// This block and all later ones.
     Rest,
+    /// This block and all later ones that are refused for the same reason, in the words of FC328.
+    Alike(Arc<str>),
 }
 
 impl Interpreter {
@@ -170,11 +174,16 @@ impl Interpreter {
             return;
         }
         let asking = || Asking::of_unknown(Writer::Nothing, error.clone());
+        let reads = match scope {
+            StopScope::Block => None,
+            StopScope::Rest => Some(asking()),
+            StopScope::Alike(reason) => Some(asking().about(ConditionSubject::Refusal(reason))),
+        };
         let question = MachineQuestion {
             kind: ConditionKind::Stop,
             span,
             texts: vec![error.to_string().into()],
-            reads: (scope == StopScope::Rest).then(asking),
+            reads,
             cause: error,
             kept: None,
         };

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use super::refused::PossibleRefusal;
 use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::axis_words::AxisWord;
@@ -17,6 +18,7 @@ use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::language::{AxisWords, GAction, GFunction, Group};
+use crate::readings::Question;
 use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, is_program_number, not_known, repeated_word};
 use crate::text::Span;
@@ -340,7 +342,8 @@ impl Interpreter {
             (b'N', _) => {}
             (b'O', _) if is_program_number(at.block) => {
                 self.pass_over("O", span, at);
-                self.may_refuse(20192, "`O` gives a program number", span, at);
+                let refusal = PossibleRefusal::asked(20192, Question::ProgramNumber);
+                self.may_refuse(refusal, "`O` gives a program number", span, at);
             }
             _ if !is_letter(letter) => self.unread_word(span, at),
             _ => self.lack_axis(&char::from(letter).to_string(), span, at),

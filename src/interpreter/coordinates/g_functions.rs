@@ -34,7 +34,6 @@ pub struct GFunctions {
     #[serde(default = "without_compensation")]
     pub(super) tool_side: u32,
     /// The number of the tool data in force, D, where it is known.
-    #[serde(default)]
     pub tool_data: Option<u32>,
     /// Condition for the end of blocks, G359 and G360.
     pub block_end: BlockEnd,
@@ -62,7 +61,7 @@ impl Default for GFunctions {
             offset: 53,
             centre_absolute: false,
             tool_side: without_compensation(),
-            tool_data: None,
+            tool_data: Some(0),
             block_end: BlockEnd::Through,
             unknown: GroupSet::default(),
             lacking: LackingFeeds::all(),

@@ -15,6 +15,7 @@ use crate::language::{
     ChainStep, ContouringCommand, GAction, GFunction, Group, HashCommand, HashWords, Holds, OnOff,
     Simplification, Simplifications,
 };
+use crate::lists::ChannelSwitch;
 use crate::machine::{ChannelSettings, SlopeProfile};
 
 /// Whether a position is one of the machine, and if not, what separates it from one; what separates more
@@ -115,6 +116,12 @@ impl Modal {
         let chosen = |number: &u32| Group::of(*number) == Some(Group::Unit);
         if channel.inch && !channel.functions.iter().any(chosen) {
             modal.functions.unknown.insert(Group::Unit);
+        }
+        if channel.has(ChannelSwitch::KeepOffset) {
+            modal.functions.unknown.insert(Group::Offset);
+        }
+        if channel.has(ChannelSwitch::KeepToolData) {
+            modal.select_tool_data(None);
         }
         if let Some(value) = channel.feed_mm_per_min {
             modal.functions.lacking.give(PER_MINUTE);
@@ -307,7 +314,7 @@ impl Modal {
         self.functions.offset == 53
             && self.is_known(Group::Offset)
             && self.reference(axis) == Some(0.0)
-            && self.functions.tool_data.is_none_or(|data| data == 0)
+            && self.functions.tool_data == Some(0)
     }
 
     /// Whether the path between points is a spline, G151 or `#HSC ON [OPMODE 2]`.

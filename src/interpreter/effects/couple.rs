@@ -20,9 +20,31 @@ impl Interpreter {
         self.state.control.mark_coupled(changed);
     }
 
+    /// Without a group that of the channel list comes into force (PM/207133579).
     pub(crate) fn enable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
-        let group = self.group_of(hash, at);
+        let mut group = self.group_of(hash, at);
+        if group.is_empty() {
+            group.push_str(LISTED);
+        }
+        let channel = &self.machine.channel;
+        if group == LISTED && channel.is_whole && channel.coupled.is_empty() {
+            let what = "the channel list defines no coupling group 0";
+            self.may_refuse(None, what, hash.span, at);
+        }
         self.enable_group(&group);
+    }
+
+    /// Defines the coupling group of the channel list (P-CHAN-00037, P-CHAN-00038), if all its axes are known.
+    pub(crate) fn define_listed_couplings(&mut self) {
+        let machine = &self.machine;
+        let numbers = machine.channel.coupled.iter().flatten();
+        let axes: Option<Vec<_>> = numbers
+            .map(|number| machine.axis_numbered(*number))
+            .collect();
+        if let Some(axes) = axes.filter(|axes| !axes.is_empty()) {
+            let changed = self.state.control.couplings.define(LISTED, axes);
+            self.state.control.mark_coupled(changed);
+        }
     }
 
     fn enable_group(&mut self, group: &str) {
@@ -155,11 +177,7 @@ impl Interpreter {
 
     fn axis_or_number(&self, argument: &Argument, text: &str) -> Option<AxisIndex> {
         let number = argument.logical_number(text);
-        let by_number = || {
-            let mut axes = self.machine.axes.iter();
-            let position = axes.position(|axis| number.is_some() && axis.number == number);
-            position.map(AxisIndex::new)
-        };
+        let by_number = || self.machine.axis_numbered(number?);
         self.axis_now(argument.span.of(text)).or_else(by_number)
     }
 
@@ -235,6 +253,9 @@ impl ControlState {
 pub(crate) fn gear_of(axis: AxisIndex) -> String {
     format!("gear {}", axis.get())
 }
+
+/// Name of the coupling group that the channel list defines.
+const LISTED: &str = "0";
 
 /// Names of the followers of other commands.
 const GANTRY: &str = "gantry";

@@ -17,6 +17,7 @@ use crate::interpreter::values::location::{Denoted, Location};
 use crate::interpreter::values::value::Value;
 use crate::language::{Flushes, is_read_only};
 use crate::lists::AxisType;
+use crate::readings::Question;
 use crate::syntax::ast::{Argument, Assignment, BinaryOperator, Expression, Node, Operand, Owner};
 use crate::syntax::{AxisOfVariable, Fault, Subscript, VariableFamily, VariableName};
 use crate::text::Span;
@@ -99,6 +100,7 @@ impl Interpreter {
                 flushing: &self.scratch.flushing,
                 relied: &self.scratch.relied,
                 held: self.scratch.held,
+                nearly_equal: self.machine.readings.of(Question::NearlyEqual),
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {
@@ -413,7 +415,8 @@ impl Interpreter {
     /// FC412, FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and a `V.E.`
     /// variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
     fn read_flushes(&mut self, name: &VariableName, at: &BlockContext<'_>) {
-        let written = name.to_string();
+        // One answer holds for all elements of an array.
+        let written = name.array().to_owned();
         let found = at.text.find(&written);
         let span = found.map(|start| Span::new(start, start + written.len()));
         let span = span.unwrap_or_else(|| Span::new(0, at.text.trim_end().len()));

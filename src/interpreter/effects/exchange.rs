@@ -114,9 +114,8 @@ impl Interpreter {
 
     /// Returns the axis of a name after a request with this logical axis number, if it is known.
     fn requested(&self, number: Option<u32>) -> Option<AxisNameMeaning> {
-        let mut axes = self.machine.axes.iter();
-        let found = axes.position(|axis| number.is_some() && axis.number == number)?;
-        Some(AxisNameMeaning::Axis(AxisIndex::new(found)))
+        let axis = self.machine.axis_numbered(number?)?;
+        Some(AxisNameMeaning::Axis(axis))
     }
 
     /// FC328: an axis or a name is asked for twice, or a name that the channel has (R2.106).

@@ -83,7 +83,10 @@ impl Interpreter {
         let result = VariableName::read(RESULT);
         self.state.control.memory.set_variable(&result, value);
         self.scratch.wrote = true;
-        let missing = name.as_deref().filter(|_| found.is_none());
-        self.state.control.files.miss(missing);
+        let files = &mut self.state.control.files;
+        match found {
+            Some(_) => files.find(),
+            None => files.miss(name.as_deref()),
+        }
     }
 }

@@ -1,13 +1,16 @@
 //! A reset between two programs, and the state before the first.
 
+use super::ending::ProgramStop;
 use crate::comp::{Kind, KindSet};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::readings::Question;
 
 impl Interpreter {
     /// A reset of the channel (R1.28): the compensation stays as it is, or returns to its start-up
-    /// state, depending on the reading; kinds with manual activation are switched off in any case.
+    /// state, depending on the reading; kinds with manual activation are switched off in any case. Couplings and
+    /// exchanged axes end with it, unless the channel list says otherwise.
     pub fn reset(&mut self) {
+        self.end_exchange(ProgramStop::Reset);
         let _ = self.state.control.compensation.reset();
         self.reset_friction();
         self.scratch.changes.clear();

@@ -23,6 +23,15 @@ use crate::syntax::ast::Block;
 use crate::syntax::{Fault, RawBlock};
 use crate::text::Span;
 
+/// What stops a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ProgramStop {
+    /// Its end.
+    End,
+    /// A reset of the channel, after an error, in a loop without an end, or between two programs.
+    Reset,
+}
+
 impl Interpreter {
     /// Whether faults of the main program keep it from running.
     pub(crate) fn is_refused(&self) -> bool {
@@ -139,13 +148,11 @@ impl Interpreter {
             self.state.control.history.close(change.axis, kinds);
         }
         self.state.control.frames.clear();
-        let keeps = match by {
-            EndedBy::Error => ChannelSwitch::KeepCouplingsAfterReset,
-            _ => ChannelSwitch::KeepCouplings,
-        };
-        if !self.machine.channel.has(keeps) {
-            self.release_couplings();
-        }
+        self.end_exchange(match by {
+            EndedBy::Error => ProgramStop::Reset,
+            _ if self.scratch.endless => ProgramStop::Reset,
+            _ => ProgramStop::End,
+        });
         self.state.control.couplings.end_following();
         // The program ends on all ways.
         self.state.track.reach = WaySet::always();
@@ -170,6 +177,32 @@ impl Interpreter {
             version: self.version,
         }));
         RunOutcome::Ended(by)
+    }
+
+    /// Couplings and exchanged axes end with the program or by a reset, unless the channel list says otherwise (R2.105).
+    pub(crate) fn end_exchange(&mut self, stop: ProgramStop) {
+        use ChannelSwitch::{KeepAxes, KeepAxesAfterReset, KeepCouplings, KeepCouplingsAfterReset};
+        let channel = &self.machine.channel;
+        let [keeps_axes, keeps_couplings] = match stop {
+            ProgramStop::Reset => [KeepAxesAfterReset, KeepCouplingsAfterReset],
+            ProgramStop::End => [KeepAxes, KeepCouplings],
+        }
+        .map(|switch| channel.has(switch));
+        let keeps_configuration = channel.has(KeepAxes);
+        if keeps_configuration && stop == ProgramStop::Reset && !keeps_couplings {
+            // What the reset of P-CHAN-00460 does to couplings is not documented.
+            if self.state.control.couplings.is_any() {
+                self.havoc_couplings();
+            }
+        } else if !(keeps_couplings || keeps_configuration) {
+            self.release_couplings();
+        }
+        if !keeps_configuration {
+            let axes = &mut self.state.control.channel_axes;
+            // P-CHAN-00115 decides which of the exchanged axes a reset leaves in the channel.
+            axes.doubtful = keeps_axes && !axes.are_own();
+            axes.names.clear();
+        }
     }
 
     /// The end of the program where all ways reach one.

@@ -119,9 +119,12 @@ impl Interpreter {
         self.state.parked = None;
         self.state.control.named.clear();
         self.state.control.optional = OptionalSection::Outside;
-        if !self.machine.channel.has(ChannelSwitch::KeepAxes) {
+        let channel = &self.machine.channel;
+        let keeps_axes = [ChannelSwitch::KeepAxes, ChannelSwitch::KeepAxesAfterReset];
+        if !keeps_axes.into_iter().any(|it| channel.has(it)) {
             self.state.control.channel_axes = ChannelAxes::default();
         }
+        self.define_listed_couplings();
         self.state.control.described = None;
         self.state.track = RunTrack::default();
         self.begin_search();

@@ -375,12 +375,18 @@ impl Builder {
                 !matches!(kind, ControlBlock::If | ControlBlock::RealTime)
             }),
             Flow::Continue => {
-                self.leaves(at, |kind| {
+                let is_loop = |kind| {
                     !matches!(
                         kind,
                         ControlBlock::If | ControlBlock::Switch | ControlBlock::RealTime
                     )
-                });
+                };
+                // P-ERR-20244: a `$SWITCH` will do.
+                let around: fn(ControlBlock) -> bool = match self.innermost(is_loop) {
+                    Some(_) => is_loop,
+                    None => |kind| kind == ControlBlock::Switch,
+                };
+                self.leaves(at, around);
             }
             Flow::Goto(target) => self.jump(target, at),
             _ => {}

@@ -13,8 +13,20 @@ pub(crate) struct ChangedFiles {
     any: bool,
     /// The files to which `#MSG SAVE` may write, where the program named one.
     messages: BTreeSet<String>,
-    /// The file that `#FILE EXIST` looked for last and that is not here.
-    missing: Option<String>,
+    /// What `#FILE EXIST` looked for last and is not here.
+    #[serde(default)]
+    missing: MissingFile,
+}
+
+/// A file that is looked for and not here.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+enum MissingFile {
+    #[default]
+    Nothing,
+    /// The one of this name, without its folder, in lower case.
+    Named(String),
+    /// Any one: the program computes its name.
+    Any,
 }
 
 impl ChangedFiles {
@@ -41,14 +53,23 @@ impl ChangedFiles {
         self.names.extend(self.messages.iter().cloned());
     }
 
-    /// `#FILE EXIST` looked for a file that is not here.
+    /// `#FILE EXIST` looked for a file that is not here; `None` for one whose name is not known.
     pub(crate) fn miss(&mut self, name: Option<&str>) {
-        self.missing = name.map(base_name);
+        self.missing = name.map_or(MissingFile::Any, |name| MissingFile::Named(base_name(name)));
+    }
+
+    /// `#FILE EXIST` found its file.
+    pub(crate) fn find(&mut self) {
+        self.missing = MissingFile::Nothing;
     }
 
     /// Whether the program asked whether a file that is not here exists.
     pub(crate) fn is_guarded(&self, name: &str) -> bool {
-        self.missing.as_deref() == Some(&base_name(name))
+        match &self.missing {
+            MissingFile::Nothing => false,
+            MissingFile::Named(missing) => *missing == base_name(name),
+            MissingFile::Any => true,
+        }
     }
 
     /// The files of another way may be changed, too.
@@ -57,7 +78,7 @@ impl ChangedFiles {
         self.any |= other.any;
         self.messages.extend(other.messages.iter().cloned());
         if self.missing != other.missing {
-            self.missing = None;
+            self.missing = MissingFile::Nothing;
         }
     }
 }

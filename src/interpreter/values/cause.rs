@@ -30,6 +30,9 @@ pub enum Unknown {
     /// The reaction of the control to a missing jump label.
     #[serde(rename = "a missing jump label")]
     MissingLabel,
+    /// What `$CONTINUE` does in a `$SWITCH` outside a loop (R2.40).
+    #[serde(rename = "`$CONTINUE` in a `$SWITCH`")]
+    ContinueInSwitch,
     /// Whether the control refuses a block, by the number of its error where that is public (R2.114).
     Refused(Option<u32>),
     /// Whether the control takes variables that no `#VAR` declares (R2.102).
@@ -152,7 +155,9 @@ impl Unknown {
             Self::Program(word) => format!("the program of `{word}`, which is missing"),
             Self::Changed(changed) => changed.seen_from(file),
             Self::RemedyClass => format!("what the control does at `{self}`"),
-            Self::MissingLabel | Self::Undeclared => format!("what the control does at {self}"),
+            Self::MissingLabel | Self::Undeclared | Self::ContinueInSwitch => {
+                format!("what the control does at {self}")
+            }
             Self::Refused(_) => format!("whether the control refuses a block by {self}"),
             Self::Rounding => format!("{self}, which the control may do otherwise"),
             Self::Passes => "how often a loop is repeated".to_owned(),
@@ -181,6 +186,7 @@ impl Unknown {
             Self::Program(word) => format!("FC325 says how to describe `{word}`").into(),
             Self::Changed(changed) => Advice::SetVariable(changed.name.to_string()),
             Self::RemedyClass => "`RC=0` lets the program go on, `RC=2` stops it".into(),
+            Self::ContinueInSwitch => "write `$BREAK`; `\"R2.40\"` in `[reading]` of frictcomp.toml decides".into(),
             Self::MissingLabel => "write the label that the jump looks for".into(),
             Self::Refused(number) => number.and_then(ControlError::of).map_or("", |row| row.cure).into(),
             Self::Undeclared => "declare the variable between `#VAR` and `#ENDVAR`".into(),
@@ -206,6 +212,7 @@ impl Unknown {
             Self::Changed(changed) => text.contains(&*changed.name),
             Self::Cycle(name) => text.contains(&**name),
             Self::RemedyClass => text.contains("#ERROR"),
+            Self::ContinueInSwitch => text.contains("$CONTINUE"),
             _ => false,
         }
     }
@@ -236,6 +243,7 @@ impl fmt::Display for Unknown {
             }
             Self::RemedyClass => f.write_str("#ERROR"),
             Self::MissingLabel => f.write_str("a missing jump label"),
+            Self::ContinueInSwitch => f.write_str("`$CONTINUE` in a `$SWITCH`"),
             Self::Refused(Some(number)) => write!(f, "error {number}"),
             Self::Refused(None) => f.write_str("an error"),
             Self::Undeclared => f.write_str("a missing declaration"),

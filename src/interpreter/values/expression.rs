@@ -17,6 +17,7 @@ use super::reads::Reads;
 use super::value::{Slot, Value, rounded};
 use super::work_budget::{ITEM, WorkBudget};
 use crate::diagnostic::{Advice, Budget, Code};
+use crate::readings::Alternative;
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
 use crate::syntax::{
     Fault, MAX_LINE, Subscript, Subscripts, VariableFamily, VariableName, compact,
@@ -51,6 +52,8 @@ pub(crate) struct ExpressionScope<'a> {
     /// The variables read whose value is known and which the PLC may write.
     pub(crate) relied: &'a RefCell<Vec<VariableName>>,
     pub(crate) held: HeldValues,
+    /// Whether numbers are equal that differ only by rounding (R2.112).
+    pub(crate) nearly_equal: Option<Alternative>,
 }
 
 /// Source of the own parameters of a program, `@P1` ….
@@ -177,7 +180,8 @@ impl Evaluator<'_> {
                 Node::Binary(operator) => {
                     let right = pop(stack);
                     let left = pop(stack);
-                    self.bounded(binary(operator, left, right, span), span)
+                    let reading = self.scope.nearly_equal;
+                    self.bounded(binary(operator, (left, right), reading, span), span)
                 }
                 Node::Call {
                     function: Function::Sizeof,

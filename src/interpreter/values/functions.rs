@@ -3,6 +3,7 @@
 use super::cause::Unknown;
 use super::value::{Slot, Value, is_true, rounded};
 use crate::diagnostic::Code;
+use crate::readings::Alternative;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BinaryOperator, Function};
 use crate::text::Span;
@@ -27,12 +28,27 @@ pub(crate) fn numeric(value: &Value, span: Span) -> Result<Option<f64>, Box<Faul
     }
 }
 
-pub(crate) fn binary(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot {
+/// The value of an operation; a reading decides whether comparisons have a tolerance (R2.112).
+pub(crate) fn binary(
+    operator: BinaryOperator,
+    (left, right): (Slot, Slot),
+    reading: Option<Alternative>,
+    span: Span,
+) -> Slot {
     match operator {
         BinaryOperator::And | BinaryOperator::Or => return logic(operator, left, right, span),
         _ => {}
     }
     match (left?, right?) {
+        (Value::Number(left), Value::Number(right))
+            if compares(operator) && are_nearly_equal(left, right) =>
+        {
+            match reading {
+                None => Ok(Value::Unknown(Unknown::Rounding)),
+                Some(Alternative::First) => arithmetic(operator, left, left, span),
+                Some(Alternative::Second) => arithmetic(operator, left, right, span),
+            }
+        }
         (Value::Number(left), Value::Number(right)) => arithmetic(operator, left, right, span),
         (unknown @ Value::Unknown(_), _) | (_, unknown @ Value::Unknown(_)) => Ok(unknown),
         (Value::Text(left), Value::Text(right)) => match operator {
@@ -65,18 +81,19 @@ fn logic(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot 
     }
 }
 
+fn compares(operator: BinaryOperator) -> bool {
+    use BinaryOperator::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
+    matches!(
+        operator,
+        Equal | NotEqual | GreaterOrEqual | LessOrEqual | Less | Greater
+    )
+}
+
 fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Slot {
     use BinaryOperator::{
         Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
         Modulo, Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
-    let compares = matches!(
-        operator,
-        Equal | NotEqual | GreaterOrEqual | LessOrEqual | Less | Greater
-    );
-    if compares && are_nearly_equal(left, right) {
-        return Ok(Value::Unknown(Unknown::Rounding));
-    }
     #[allow(clippy::float_cmp)] // comparison is the language's own
     let value = match operator {
         Add => left + right,

@@ -242,6 +242,8 @@ pub(crate) enum ConditionSubject {
     RemedyClass,
     /// Something that only the machine knows.
     Unknown(Unknown),
+    /// Whether the control takes blocks of a kind, in the words of FC328.
+    Refusal(Arc<str>),
 }
 
 /// A condition and the writer of the values that it is about.

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::cause::Unknown;
 use super::value::Value;
 
 /// Type of a declared variable.
@@ -24,8 +23,8 @@ pub(crate) enum ValueType {
 pub(crate) enum TypedValue {
     /// The variable has it.
     Taken(Value),
-    /// The variable has one of two whole numbers, of which one may be out of range.
-    Rounded(Value),
+    /// The variable has one of the two whole numbers beside this one.
+    Fraction(f64),
     /// The type does not have it: its least and its greatest value.
     OutOfRange(f64, f64),
     /// A text for a number, a number for a text, or a text that is too long.
@@ -54,6 +53,12 @@ impl ValueType {
             Self::Text(_) => Value::Text("".into()),
             _ => Value::Number(0.0),
         }
+    }
+
+    /// Whether a whole number is one of its own.
+    pub(crate) fn has(self, number: f64) -> bool {
+        let limits = self.limits();
+        limits.is_none_or(|(least, most)| (least..=most).contains(&number))
     }
 
     /// The least and the greatest of its whole numbers.
@@ -88,13 +93,7 @@ impl ValueType {
                 } else if number.fract() == 0.0 {
                     TypedValue::Taken(Value::Number(number))
                 } else {
-                    let unknown = Value::Unknown(Unknown::text(name));
-                    let is_inside = number.floor() >= least && number.ceil() <= most;
-                    if is_inside {
-                        TypedValue::Taken(unknown)
-                    } else {
-                        TypedValue::Rounded(unknown)
-                    }
+                    TypedValue::Fraction(number)
                 }
             }
             (_, value, _) => TypedValue::Taken(value),
@@ -114,15 +113,15 @@ mod tests {
         {
             TypedValue::Taken(Value::Number(number)) => number.to_string(),
             TypedValue::Taken(_) => "unknown".to_owned(),
-            TypedValue::Rounded(_) => "may be out of range".to_owned(),
+            TypedValue::Fraction(number) => format!("beside {number}"),
             TypedValue::OutOfRange(least, most) => format!("{least} to {most}"),
             TypedValue::OtherKind(why) => why,
         };
         assert_eq!(taken("UNS08", 255.0), "255");
         assert_eq!(taken("UNS08", 256.0), "0 to 255");
-        assert_eq!(taken("UNS08", 255.5), "may be out of range");
+        assert_eq!(taken("UNS08", 255.5), "beside 255.5");
         assert_eq!(taken("SGN16", -32769.0), "-32768 to 32767");
-        assert_eq!(taken("SGN32", 2.5), "unknown");
+        assert_eq!(taken("SGN32", 2.5), "beside 2.5");
         assert_eq!(taken("BOOLEAN", 2.0), "0 to 1");
         assert_eq!(taken("REAL64", 2.5), "2.5");
     }

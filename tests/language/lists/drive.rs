@@ -157,10 +157,11 @@ fn a_network_says_what_is_exchanged() {
     let Presence::Present { evidence } = contradicted.actual_torque else {
         panic!("{contradicted:?}");
     };
-    assert!(evidence.starts_with("net.xml:"), "{evidence}");
+    let shown = evidence.to_string();
+    assert!(shown.starts_with("net.xml:"), "{shown}");
     assert!(
-        evidence.ends_with("Slave[1]/ProcessData[1]/TxPdo[1]/Entry[2]"),
-        "{evidence}"
+        shown.ends_with("Slave[1]/ProcessData[1]/TxPdo[1]/Entry[2]"),
+        "{shown}"
     );
 }
 

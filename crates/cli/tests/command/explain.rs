@@ -36,7 +36,11 @@ fn every_word_that_a_user_meets_has_an_answer() {
         ("lr_param.ssfk", "P-ERR-70310"),
         ("P-AXIS-00070", "gantry"),
         ("p-stup-00015", "axis list"),
-        ("gruppe[0].achse[1].bezeichnung", "programs use for an axis"),
+        (
+            "gruppe[0].achse[1].bezeichnung",
+            "the name of an axis in programs",
+        ),
+        ("P-CHAN-00068", "does not read"),
         ("70310", "LEAD"),
         ("fc139", "implausible"),
         ("412", "flush"),

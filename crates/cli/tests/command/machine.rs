@@ -137,6 +137,30 @@ fn missing_lists_are_counted_and_shown_where_they_are_named() {
 }
 
 #[test]
+fn a_folder_is_checked_by_its_configuration_or_by_the_list_or_project_below_it() {
+    // R3.42
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    let project = "<TcSmProject><Axis><ItemName>A</ItemName><AchsMds>kopf.achs_nr 1\nEnde\n</AchsMds></Axis></TcSmProject>";
+    write(&root.path().join("twincat"), &[("M.tsproj", project)]);
+    for (folder, file) in [
+        ("cnc", "cnc/listen/hochlauf.lis"),
+        ("cnc/listen", "cnc/listen/hochlauf.lis"),
+        ("twincat", "twincat/M.tsproj"),
+    ] {
+        for command in ["lists", "drive"] {
+            let [of_folder, of_file] =
+                [folder, file].map(|path| tool(root.path(), &[command, path]));
+            assert_eq!(of_folder.status, of_file.status, "{command} {folder}");
+            assert_eq!(said(&of_folder), said(&of_file), "{command} {folder}");
+            assert_eq!(of_folder.stdout, of_file.stdout, "{command} {folder}");
+        }
+    }
+    let several = tool(root.path(), &["lists", "."]);
+    assert_eq!(several.status.code(), Some(2), "{}", said(&several));
+}
+
+#[test]
 fn what_is_no_start_up_list_starts_nothing() {
     // R3.12
     let root = tempfile::tempdir().unwrap();

@@ -151,7 +151,25 @@ fn judge(question: Question, run: &AskedRun) -> Judged {
         Question::LowerCase
         | Question::OffUnconfigured
         | Question::OnWithoutList
-        | Question::RemedyClass => judge_refusable(question, values),
+        | Question::RemedyClass
+        | Question::Undeclared
+        | Question::JumpInto
+        | Question::Described
+        | Question::ProgramNumber => judge_refusable(question, values),
+        Question::ContinueInSwitch | Question::NearlyEqual => {
+            let answer = value(values, "answer")?;
+            Ok((
+                first_if(answer),
+                format!("the value is {}", u8::from(answer)),
+            ))
+        }
+        Question::WholeNumber => {
+            let answer = value(values, "answer")?;
+            Ok((
+                first_if(!answer),
+                format!("0.5 becomes {}", u8::from(answer)),
+            ))
+        }
         Question::OrderInBlock => judge_order(values),
         Question::ManualActivation => {
             let otherwise = "V.A.LEAD_COMP_INIT is 0: the axis has no leadscrew compensation";
@@ -234,7 +252,10 @@ fn first_if(holds: bool) -> Alternative {
 fn judge_refusable(question: Question, values: &Values) -> Judged {
     if question == Question::LowerCase {
         require(values, ("start", true), STARTS)?;
-    } else if question != Question::RemedyClass {
+    } else if matches!(
+        question,
+        Question::OffUnconfigured | Question::OnWithoutList
+    ) {
         let otherwise = "V.A.FRICT_COMP_INIT is 1: the axis is not as the program requires";
         require(values, ("init", false), otherwise)?;
     }

@@ -150,6 +150,20 @@ fn by_itself(before: &str, part: String, read: &str) -> Script {
     }
 }
 
+const RESTS: &str = "the axis stands still";
+
+/// Returns the instructions for blocks that the control takes or refuses; the block that it may refuse ends in braces,
+/// or is the last one.
+fn refusable(blocks: &str) -> Script {
+    let allow = " ; frictcomp: allow FC328 the question";
+    let mut blocks = blocks.replacen("{}", allow, 1);
+    if !blocks.contains(allow) {
+        blocks.push_str(allow);
+    }
+    let part = format!(">begin\n{blocks}\n>answer {STATE}\nN99 M30\n");
+    by_itself(RESTS, part, READ_ERROR)
+}
+
 const READ: &str = "give message.txt to frictcomp ask read";
 
 const READ_ERROR: &str = "give message.txt to frictcomp ask read; where the control showed an error, add \
@@ -273,7 +287,7 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
              line with searched 1 in place of begin to message.txt, and give it to frictcomp ask read",
         ),
         Question::RemedyClass => by_itself(
-            "the axis stands still",
+            RESTS,
             format!(
                 ">begin\nN10 #ERROR [ID=1] ; frictcomp: allow FC902 the question\n>answer {STATE}\nN99 M30\n"
             ),
@@ -284,6 +298,43 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
             "N10 @[COMP ON FRICT]\nN99 M30\n".to_owned(),
             "write down whether P-ERR-70495 was shown, as README.txt says",
         ),
+        question => return of_language(question),
+    })
+}
+
+/// Returns the instructions for a question about a block that switches nothing.
+fn of_language(question: Question) -> Option<Script> {
+    Some(match question {
+        Question::ContinueInSwitch => by_itself(
+            RESTS,
+            ">begin\nN10 P1 = 1\nN20 $SWITCH P1\nN30 $CASE 1\n\
+             N40 $CONTINUE ; frictcomp: allow FC901 the question\nN50 P1 = 0\nN60 $BREAK\nN70 $ENDSWITCH\n\
+             >answer P1\nN99 M30\n"
+                .to_owned(),
+            READ,
+        ),
+        Question::WholeNumber => by_itself(
+            RESTS,
+            ">begin\nN10 #VAR\nV.P.FRICTASK : SGN16 = 0\nN20 #ENDVAR\nN30 V.P.FRICTASK = 0.5\n\
+             >answer V.P.FRICTASK\nN99 M30\n"
+                .to_owned(),
+            READ,
+        ),
+        Question::Undeclared => refusable("N10 V.L.FRICTASK = 1"),
+        Question::JumpInto => refusable(
+            "N10 P1 = 0\nN20 $GOTO [FRICTASK]{}\nN30 $WHILE P1 == 1\n[FRICTASK]\nN40 $ENDWHILE",
+        ),
+        Question::Described => refusable(
+            "N10 #CONTOUR BEGIN [ID1]\nN20 @[COMP ON FRICT]{}\nN30 #CONTOUR END",
+        ),
+        Question::NearlyEqual => by_itself(
+            RESTS,
+            ">begin\nN10 P1 = 0.1 + 0.2\nN20 P2 = 0\nN30 $IF P1 == 0.3\nN40 P2 = 1\nN50 $ENDIF\n\
+             >answer P2\nN99 M30\n"
+                .to_owned(),
+            READ,
+        ),
+        Question::ProgramNumber => refusable("N10 O1234"),
         _ => return None,
     })
 }

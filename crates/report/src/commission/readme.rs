@@ -105,8 +105,12 @@ RECORD, for each axis that moves, one sample every ms (the CNC cycle)
   commanded position, actual position, commanded velocity, actual torque;
   friction compensation active (frict_comp.f_is_active) if there is room
   Start the recording before the program, stop it after M30.
-  TwinCAT Scope: export CSV, header as full as possible, timelines for each
-  sample time, no scaling of values.
+  TwinCAT Scope: objects of the CNC at port 551 of the target, index group
+  0x120300, offset 0x<axis>nnnn with the logical number of the axis
+    000A, 000B  commanded and actual position    000C  commanded velocity
+    0115        actual torque                    0221  compensation active
+  Export CSV, header as full as possible, timelines for each sample time, no
+  scaling of values; note how many increments a mm or a degree has.
   Note as well: actual position of the MOTOR or of the LOAD (linear scale)?
   Backlash and the contact of the slide show at the load only.
 

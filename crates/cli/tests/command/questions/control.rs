@@ -96,6 +96,9 @@ impl Control {
             "V.A.LEAD_COMP_ACTIVE.X" => self.lead,
             "V.A.LEAD_COMP_INIT.X" => self.asked.0 == "R1.40",
             "V.S.FRICTASK" => self.variable == 1,
+            "P1" => !self.follows_second("R2.40"),
+            "P2" => !self.follows_second("R2.112"),
+            "V.P.FRICTASK" => self.follows_second("R2.101"),
             "" => false,
             other => panic!("unknown value {other}"),
         };
@@ -111,6 +114,8 @@ impl Control {
             self.level_2 = true;
         } else if block.starts_with("#ERROR") && self.follows_second("R2.100") {
             return Some(455);
+        } else if self.refuses(block) {
+            return Some(456);
         } else if block.starts_with("#CALL AX") && self.follows_second("R2.70") {
             self.on = self.configured;
         } else if block.starts_with("#MACHINE DATA") && !self.follows_second("R2.92") {
@@ -119,6 +124,18 @@ impl Control {
             self.variable = value.parse().expect("a number");
         }
         None
+    }
+
+    /// Whether a block is an error by the second reading of a question.
+    fn refuses(&self, block: &str) -> bool {
+        let asked = [
+            ("V.L.FRICTASK", "R2.102"),
+            ("$GOTO [FRICTASK]", "R2.103"),
+            ("#CONTOUR BEGIN", "R2.109"),
+            ("O1234", "R2.113"),
+        ];
+        let mut rows = asked.into_iter();
+        rows.any(|(begins, rule)| block.starts_with(begins) && self.follows_second(rule))
     }
 
     fn commands(&mut self, block: &str) -> Option<u32> {

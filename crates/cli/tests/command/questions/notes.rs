@@ -38,7 +38,7 @@ fn the_lines_to_copy_are_no_answers() {
     );
     assert_eq!(
         said.matches("; keep the line of what was seen").count(),
-        9,
+        10,
         "{said}"
     );
     assert_eq!(bench.read("frictcomp.toml"), before);

@@ -105,6 +105,23 @@ fn the_trace_keeps_the_limits_of_the_lists() {
 }
 
 #[test]
+fn the_channel_list_names_the_main_spindle_and_the_unit_of_the_feed() {
+    // R2.105, R3.13: 0.2 mm/rev at 3000 1/min; the other spindle turns at 100 1/min.
+    let program = "S1[REV3000 M3] S2[REV100 M3]\nG95 F0.2 G01 X50\nM30\n";
+    let spindles = "spindel[0].bezeichnung S1\n\
+        spindel[0].log_achs_nr 6\n\
+        spindel[1].bezeichnung S2\n\
+        spindel[1].log_achs_nr 11\n";
+    for main in ["main_spindle_ax_nr 6", "main_spindle_name S1"] {
+        let (_, top) = timed(machine(AXIS, &format!("{spindles}{main}")), program);
+        assert!((top - 10.0).abs() < 1e-6, "{main}: {top}");
+    }
+    let metres = machine(AXIS, "prog_start.feedrate_factor 0.1");
+    let (_, top) = timed(metres, "G01 X50 F6\nM30\n");
+    assert!((top - 100.0).abs() < 1e-6, "{top}");
+}
+
+#[test]
 fn a_program_selects_the_profile() {
     // R11.20: steps of 0.7 m/s² from line 1 on; from line 3 on the ramps of the list again.
     let program = "#SLOPE [TYPE=STEP]\nG01 X100 F6000\n#SLOPE DEFAULT\nG60 X300\nX400\nM30\n";

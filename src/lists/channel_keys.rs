@@ -39,7 +39,7 @@ const GROUP: &str = "The coupling group 0";
 /// Case of the keys that keep couplings and parameters.
 const OUTLIVES: &str = "Switches that decide what outlives a program";
 /// Test of the keys that only decide velocities.
-const VELOCITY: &str = "crates/physics/tests/motion/listed.rs";
+const VELOCITY: &str = "crates/physics/tests/physics/motion/listed.rs";
 
 /// Reason of keys that only limit or shape the velocity.
 const ONLY_VELOCITY: &str = "limits or shapes the velocity, which no state depends on";

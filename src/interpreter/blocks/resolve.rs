@@ -320,10 +320,10 @@ impl Interpreter {
         }
         if let RepeatedCall::Perhaps(_) = cycle.call {
             let section = self.programs.section(found);
-            let region = section.start..section.end;
+            let blocks = section.start..section.end;
             let name = self.programs.index(found.unit).source.name().clone();
             let cause = Unknown::Cycle(name);
-            self.perhaps_execute(found.unit, region, &cause, finder);
+            self.perhaps_execute(found.unit, blocks, &cause, finder);
             return None;
         }
         Some(Request {

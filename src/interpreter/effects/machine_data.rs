@@ -68,7 +68,7 @@ impl Interpreter {
         lost.filter(|(_, kinds)| !kinds.is_empty()).collect()
     }
 
-    /// The axes that the command may name in a region that may or may not be executed.
+    /// The axes that the command may name in blocks that are passed over.
     pub(crate) fn perhaps_transferred(
         &self,
         arguments: &BracketArguments,

@@ -22,8 +22,11 @@ impl Interpreter {
         let levels = LEVEL.saturating_mul(control.frames.depth() as u64);
         let pairs = PAIR.saturating_mul(control.pairs(reach));
         let axes = 20 * self.machine.axes.len() as u64;
+        let answers = 10 * reach.conditions().count() as u64;
         let units = COPY.saturating_add(levels).saturating_add(pairs);
-        self.state.work.charge_ways(units.saturating_add(axes));
+        self.state
+            .work
+            .charge_ways(units.saturating_add(axes + answers));
     }
 
     /// Counts the work of a block that is executed while other ways wait.

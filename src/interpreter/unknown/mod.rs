@@ -1,4 +1,5 @@
-//! Offline uncertainty: regions that may or may not be executed, and the ways around them.
+//! Where ways part: questions to the machine, errors that end some ways, states that only the machine knows, and the
+//! blocks that are passed over because no way can execute them.
 
 pub(super) mod branching;
 pub(super) mod leaving;

@@ -34,6 +34,10 @@
 //! quarter of the budget of ways is used, a program that was called before is executed only in states that are new to it,
 //! and what it left otherwise is taken over. Past the budget all ways are joined, and what they may change is unknown.
 //!
+//! **What if only one way may be seen?** Motions and the debugger follow one way. The others are its shadows: they are
+//! executed up to the block where the sides of the question meet, and raise no event. What no way can execute, such as
+//! the passes of a loop beyond its budget, is passed over: its text is read, and what it names is unknown.
+//!
 //! This room has the sets, questions and words. What a way consists of is in `run`, with the ways that wait, the heads
 //! of loops and the effects of calls; where ways part, meet and end is in `execution`.
 

@@ -87,7 +87,7 @@ fn perhaps(
             possible.in_words(file)
         ),
         (State::Unknown, ..) => format!("{may} in an unknown state of friction compensation"),
-        // A region that may or may not be executed could have switched it (R2.51).
+        // Blocks that are passed over could have switched it (R2.51).
         (found, State::Unknown, None) => {
             format!("may move with friction compensation {}", found.as_str())
         }

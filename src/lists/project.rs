@@ -35,13 +35,13 @@ const MAX_LISTS: usize = 4096;
 const ROOTS: [&str; 3] = ["TcSmProject", "TcSmItem", "TreeItem"];
 
 /// Elements and attributes that describe the item around them.
-const ITEM_KEYS: [&str; 5] = [
-    "Name",
-    "ItemName",
-    "DefaultChannel",
-    "DefaultIndex",
-    "DefaultProgName",
-];
+const ITEM_KEYS: [&str; 5] = ["Name", "ItemName", CHANNEL, INDEX, "DefaultProgName"];
+
+/// The element with the channel of an axis, from 1; 0 for one in no channel.
+const CHANNEL: &str = "DefaultChannel";
+
+/// The element with the position of an axis in its channel, from 0.
+const INDEX: &str = "DefaultIndex";
 
 /// The name of an item that has the name of its file.
 const NAME_OF_FILE: &str = "__FILENAME__";
@@ -107,6 +107,8 @@ pub(crate) struct Project {
     pub(crate) lists: Vec<ProjectList>,
     /// Elements that should hold a list of a kind, but do not.
     pub(crate) empty: Vec<(Given<String>, ListKind)>,
+    /// Elements that should hold a number, but do not, with their names.
+    pub(crate) odd: Vec<(&'static str, Given<String>)>,
 }
 
 /// Whether a text is XML, as TwinCAT projects are (R3.42).
@@ -420,9 +422,21 @@ impl Parser<'_, '_> {
                 let name = if text == NAME_OF_FILE { stem() } else { text };
                 item.name.get_or_insert_with(|| name.to_owned());
             }
-            "DefaultChannel" => item.channel = number(),
-            "DefaultIndex" => item.index = number(),
+            CHANNEL => item.channel = number(),
+            INDEX => item.index = number(),
             _ => item.program_name = Some(Given::new(text.to_owned(), self.file, span)),
+        }
+        let is_odd = |name: &&str| {
+            let value = if *name == CHANNEL {
+                &item.channel
+            } else {
+                &item.index
+            };
+            *name == key && value.is_none()
+        };
+        if let Some(name) = [CHANNEL, INDEX].into_iter().find(is_odd) {
+            let given = Given::new(text.to_owned(), self.file, span);
+            self.project.odd.push((name, given));
         }
     }
 

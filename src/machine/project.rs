@@ -207,12 +207,27 @@ impl Loader<'_> {
             if list.kind == Some(ListKind::Value) {
                 let mut around = list.items.iter();
                 let owner = around.find_map(|at| owners.iter().find(|(item, _)| item == at));
+                let owner = owner.map(|(_, axis)| axis.clone());
+                let path = self.embed(project, list);
+                let mut known = startup.value_lists.iter();
+                if let Some(first) = known.find(|it| owner.is_some() && it.owner == owner) {
+                    let message = format!(
+                        "`{}` is the second value list of its axis, after `{}`",
+                        path.value, first.path.value
+                    );
+                    self.leave_out(&path, message);
+                    continue;
+                }
                 startup.value_lists.push(NamedList {
-                    path: self.embed(project, list),
+                    path,
                     axis_number: None,
-                    owner: owner.map(|(_, axis)| axis.clone()),
+                    owner,
                 });
             }
+        }
+        for (name, given) in &project.odd {
+            let message = format!("`{}` of `{name}` is no number of a place", given.value);
+            self.leave_out(given, message);
         }
         for (element, kind) in &project.empty {
             let message = format!("`{}` holds no entry of {}", element.value, kind.noun());

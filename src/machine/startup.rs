@@ -6,8 +6,8 @@ use super::loader::{FirstChannel, Loader};
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
-    AXIS_NAME_HELP, AxisType, AxisValues, ChannelAxis, ChannelList, ChannelSettings, Entries,
-    Given, ListKind, NamedList, StartupList, is_axis_name,
+    AXIS_NAME_HELP, AxisPlacement, AxisType, AxisValues, ChannelAxis, ChannelList, ChannelSettings,
+    Entries, Given, ListKind, NamedList, StartupList, is_axis_name,
 };
 
 /// More axes than any control has; further ones are not read.
@@ -97,10 +97,17 @@ impl Loader<'_> {
             let mut channel = base.clone();
             channel.override_with(own);
             number += 1;
+            let mut placed: Vec<&AxisPlacement> = Vec::new();
             for placement in startup.placements.iter().filter(|it| it.is_in(number)) {
                 let mut listed = listed.iter().map(|(_, draft)| draft);
                 let is_it = |it: &&AxisDraft| it.list.as_ref() == Some(&placement.list);
                 if listed.find(is_it).is_some_and(|it| !it.is_spindle()) {
+                    let mut earlier = placed.iter().copied();
+                    let first =
+                        earlier.find(|it| it.index.is_some() && it.index == placement.index);
+                    self.diagnostics
+                        .extend(first.and_then(|first| one_place(first, placement)));
+                    placed.push(placement);
                     channel.place(placement);
                 }
             }
@@ -263,6 +270,17 @@ impl Loader<'_> {
         self.diagnostics
             .push(Diagnostic::new(Code::Fc135, place, message).with_help("the list has no effect"));
     }
+}
+
+/// Returns FC124 for two axes of a project that have one place in their channel: the last one takes it.
+fn one_place(first: &AxisPlacement, other: &AxisPlacement) -> Option<Diagnostic> {
+    let channel = other.channel.as_ref()?;
+    let message = format!(
+        "`{}` and `{}` have the index {} of channel {}",
+        first.list, other.list, other.index?, channel.value
+    );
+    let said = Diagnostic::new(Code::Fc124, channel.place(), message);
+    Some(said.with_help("give each axis of a channel its own `DefaultIndex`"))
 }
 
 /// Returns FC124 for a channel whose axes have names of an earlier channel. Programs are assumed to

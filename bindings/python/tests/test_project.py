@@ -20,8 +20,8 @@ def test_a_project_describes_the_machine() -> None:
     machine = frictcomp.Machine.from_project(PROJECT)
     assert "Machine.tsproj" in repr(machine)
     timeline = frictcomp.run(PART, machine=machine)
-    assert timeline.axes == ("X", "Y", "Z")
-    assert timeline.friction == {"X": "inactive", "Y": "unconfigured", "Z": "unconfigured"}
+    assert timeline.axes == ["X", "Y", "Z", "S"]
+    assert timeline.friction == {"X": "inactive"} | dict.fromkeys("YZS", "unconfigured")
     told = records("run", "--isolated", "--project", PROJECT, "--format", "ndjson", PART)
     said = [it for it in told if it["record"] == "diagnostic" and "seq" in it]
     assert [(it.code, it.line, it.message) for it in timeline.messages] == [
@@ -54,5 +54,5 @@ def test_what_is_no_project_with_a_cnc_is_refused(tmp_path: Path, name: str, tex
     with pytest.raises(frictcomp.Error) as caught:
         frictcomp.run(ROOT / PART, machine=frictcomp.Machine.from_project(path))
     assert caught.value.file == str(path)
-    told = command("lists", str(path))
-    assert told.returncode in (1, 2), told.stdout
+    told = command("run", "--isolated", "--project", str(path), PART)
+    assert told.returncode == 2, told.stdout

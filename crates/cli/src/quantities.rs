@@ -1,11 +1,11 @@
 //! Numbers of options with their units: `10um`, `0.01mm`. A number alone has the unit that the help of the option names.
 
 /// A unit: its word, and the factor to the unit of a number alone as a fraction, so that decimal numbers stay exact.
-type Unit = (&'static str, f64, f64);
+type UnitScale = (&'static str, f64, f64);
 
-const MM: Unit = ("mm", 1.0, 1.0);
-const UM_OF_MM: [Unit; 2] = [("um", 1.0, 1000.0), ("µm", 1.0, 1000.0)];
-const DEGREES: [Unit; 2] = [("deg", 1.0, 1.0), ("°", 1.0, 1.0)];
+const MM: UnitScale = ("mm", 1.0, 1.0);
+const UM_OF_MM: [UnitScale; 2] = [("um", 1.0, 1000.0), ("µm", 1.0, 1000.0)];
+const DEGREES: [UnitScale; 2] = [("deg", 1.0, 1.0), ("°", 1.0, 1.0)];
 
 /// Parses a length in mm.
 pub(super) fn mm(text: &str) -> Result<f64, String> {
@@ -30,7 +30,7 @@ pub(super) fn mm_per_min(text: &str) -> Result<f64, String> {
     parse(text, &[&FEEDS])
 }
 
-const FEEDS: [Unit; 3] = [
+const FEEDS: [UnitScale; 3] = [
     ("mm/min", 1.0, 1.0),
     ("m/min", 1000.0, 1.0),
     ("mm/s", 60.0, 1.0),
@@ -85,7 +85,7 @@ pub(super) fn ms(text: &str) -> Result<f64, String> {
     )
 }
 
-fn parse(text: &str, units: &[&[Unit]]) -> Result<f64, String> {
+fn parse(text: &str, units: &[&[UnitScale]]) -> Result<f64, String> {
     let text = text.trim().to_lowercase();
     let units = units.concat();
     let (alone, times, per) = units[0];

@@ -54,10 +54,10 @@ impl Interpreter {
         } else {
             self.asked_value(*condition, at)?
         };
-        if let Some(doubt) = doubt {
-            if self.part_at_jump(*condition, &doubt, span, at) {
-                return Ok(Some(false));
-            }
+        if let Some(doubt) = doubt
+            && self.part_at_jump(*condition, &doubt, span, at)
+        {
+            return Ok(Some(false));
         }
         let truth = value.truth();
         truth.map(Some).ok_or_else(|| no_condition(span))
@@ -101,27 +101,7 @@ impl Interpreter {
                 Some(Seeking::Condition) => None,
                 _ => Some(self.skip_other_branches(links, after)),
             },
-            Flow::Switch(target, operand) => {
-                let (value, doubt) = self.asked_value(*operand, at)?;
-                if let Some(target) = target {
-                    let place = self.target_place(target.place, at)?;
-                    self.warn_own(place.as_ref(), target.span, at);
-                    let set = self.as_declared(place.as_ref(), value.clone(), target.span, at)?;
-                    self.set_by(place, set, at);
-                }
-                if let Some(doubt) = &doubt
-                    && self.part_at_cases(*operand, doubt, span, at)
-                {
-                    return Ok(None);
-                }
-                if let Value::Unknown(cause) = value {
-                    self.part_at_unknown_case(flow, (cause, span), at);
-                    None
-                } else {
-                    self.state.control.seek(Seeking::Case(value));
-                    Some(ControlStep::Jump(links.next))
-                }
-            }
+            Flow::Switch(..) => self.switch(flow, links.next, span, at)?,
             Flow::Case(operand) => match seeking {
                 Some(Seeking::Case(wanted)) => {
                     let value = self.value(*operand, at)?;
@@ -204,6 +184,37 @@ impl Interpreter {
         let goals = [rest.end, rest.start + 1].map(Goal::block);
         self.part(question, goals.into(), at);
         None
+    }
+
+    fn switch(
+        &mut self,
+        flow: &Flow,
+        first: EntryIndex,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
+        let Flow::Switch(target, operand) = flow else {
+            return Ok(None);
+        };
+        let (value, doubt) = self.asked_value(*operand, at)?;
+        if let Some(target) = target {
+            let place = self.target_place(target.place, at)?;
+            self.warn_own(place.as_ref(), target.span, at);
+            let set = self.as_declared(place.as_ref(), value.clone(), target.span, at)?;
+            self.set_by(place, set, at);
+        }
+        if let Some(doubt) = &doubt
+            && self.part_at_cases(*operand, doubt, span, at)
+        {
+            return Ok(None);
+        }
+        if let Value::Unknown(cause) = value {
+            self.part_at_unknown_case(flow, (cause, span), at);
+            Ok(None)
+        } else {
+            self.state.control.seek(Seeking::Case(value));
+            Ok(Some(ControlStep::Jump(first)))
+        }
     }
 
     fn branch(

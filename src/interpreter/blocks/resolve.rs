@@ -426,15 +426,14 @@ impl Interpreter {
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> ControlStep {
-        if self.state.control.ending.is_none() {
-            if let Some(name) = self.machine.programs.end.clone() {
-                let wanted =
-                    WantedCall::program(CallScope::Global, name, Span::new(0, at.text.len()));
-                self.state.control.frames.clear();
-                if let Some(request) = self.resolve(wanted, at, finder) {
-                    self.state.control.ending = Some(by);
-                    return ControlStep::Call(vec![request]);
-                }
+        if self.state.control.ending.is_none()
+            && let Some(name) = self.machine.programs.end.clone()
+        {
+            let wanted = WantedCall::program(CallScope::Global, name, Span::new(0, at.text.len()));
+            self.state.control.frames.clear();
+            if let Some(request) = self.resolve(wanted, at, finder) {
+                self.state.control.ending = Some(by);
+                return ControlStep::Call(vec![request]);
             }
         }
         ControlStep::End(self.state.control.ending.take().unwrap_or(by))

@@ -63,9 +63,8 @@ impl Interpreter {
     #[inline]
     fn begin_block(&mut self, at: &BlockContext<'_>) -> usize {
         self.scratch.clear();
-        if !(self.joined.is_empty() && self.joined_withheld.is_empty())
-            && !self.state.track.is_shadow()
-        {
+        let are_told = self.joined.is_empty() && self.joined_withheld.is_empty();
+        if !(are_told || self.state.track.is_shadow()) {
             self.scratch.diagnostics.append(&mut self.joined);
             self.scratch
                 .aside

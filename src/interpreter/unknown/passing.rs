@@ -46,29 +46,46 @@ use crate::text::{Place, Span};
 /// passed over.
 const MAX_EXITS: usize = 8;
 
+/// An effect of blocks on more than they name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum WideEffect {
+    Anything,
+    AnyValue,
+    Couplings,
+    ModalCycles,
+    PlcActs,
+    JumpsAnywhere,
+    Returns,
+}
+
 /// What blocks could do, by their text.
 #[derive(Default)]
 struct PossibleEffects {
+    wide: BTreeSet<WideEffect>,
     switched: Vec<(String, KindSet)>,
     written: BTreeSet<Location>,
-    /// Whether they could write any value.
-    writes_anything: bool,
     /// Names of macros that are defined.
     macros: BTreeSet<String>,
     calls: Vec<WantedCall>,
-    /// Whether they could change anything.
-    is_open: bool,
-    couples: bool,
-    ends_cycles: bool,
-    lets_plc_act: bool,
     jumps: Vec<LabelName>,
     /// Blocks to which they leave loops and cases.
     leaves: Vec<EntryIndex>,
-    /// Whether they may jump to any label.
-    jumps_anywhere: bool,
-    returns: bool,
     ends: Vec<Place>,
     refused: Vec<Diagnostic>,
+}
+
+impl PossibleEffects {
+    fn add(&mut self, effect: WideEffect) {
+        self.wide.insert(effect);
+    }
+
+    fn add_if(&mut self, has: bool, effect: WideEffect) {
+        self.wide.extend(has.then_some(effect));
+    }
+
+    fn has(&self, effect: WideEffect) -> bool {
+        self.wide.contains(&effect)
+    }
 }
 
 /// Reads blocks for their possible effects.
@@ -137,7 +154,7 @@ impl EffectReader<'_> {
                         let wanted = WantedCall::program(call.scope, name, span);
                         self.effects.calls.push(wanted);
                     }
-                    _ => self.effects.is_open = true,
+                    _ => self.effects.add(WideEffect::Anything),
                 }
             }
             Item::GCall(call) => self.function(FunctionWord::g(call.number)),
@@ -148,7 +165,10 @@ impl EffectReader<'_> {
                 self.effects.macros.insert(name.to_owned());
             }
             Item::Unread(Unread::Everything, span) => {
-                self.effects.is_open |= !self.run.machine.harmless.has_command(span.of(at.text));
+                self.effects.add_if(
+                    !self.run.machine.harmless.has_command(span.of(at.text)),
+                    WideEffect::Anything,
+                );
             }
             Item::Unread(Unread::Parameters, _) => {
                 self.effects.written.insert(Location::Parameters);
@@ -162,10 +182,10 @@ impl EffectReader<'_> {
                         let wanted = WantedCall::program(CallScope::Global, name, span);
                         self.effects.calls.push(wanted);
                     }
-                    None => self.effects.is_open = true,
+                    None => self.effects.add(WideEffect::Anything),
                 }
             }
-            Item::Return(_) => self.effects.returns = true,
+            Item::Return(_) => self.effects.add(WideEffect::Returns),
             Item::Unread(Unread::Spindle, _)
             | Item::Bracket { .. }
             | Item::BadCommand(_)
@@ -185,7 +205,7 @@ impl EffectReader<'_> {
             Flow::Goto(BlockReference::Number(Operand::Number(number))) => {
                 self.effects.jumps.push(LabelName::numbered(*number));
             }
-            Flow::Goto(_) => self.effects.jumps_anywhere = true,
+            Flow::Goto(_) => self.effects.add(WideEffect::JumpsAnywhere),
             Flow::Break | Flow::Continue => {
                 let (unit, entry) = self.place;
                 let index = self.run.programs.index(unit);
@@ -213,13 +233,13 @@ impl EffectReader<'_> {
             }
             HashAction::ReportError => self.effects.ends.push(at.place(hash.span)),
             HashAction::Declare | HashAction::Delete | HashAction::Initialise => {
-                self.effects.writes_anything = true;
+                self.effects.add(WideEffect::AnyValue);
             }
             HashAction::DefineCoupling(_)
             | HashAction::EnableCoupling
             | HashAction::ReleaseCoupling
-            | HashAction::ReleaseCouplings => self.effects.couples = true,
-            HashAction::EndModalCycles => self.effects.ends_cycles = true,
+            | HashAction::ReleaseCouplings => self.effects.add(WideEffect::Couplings),
+            HashAction::EndModalCycles => self.effects.add(WideEffect::ModalCycles),
             HashAction::NamePrograms
             | HashAction::RetainCycleChanges
             | HashAction::ForgetMacros
@@ -227,7 +247,7 @@ impl EffectReader<'_> {
             | HashAction::EndDescription
             | HashAction::SaveConfig(_)
             | HashAction::ChangeFile(_)
-            | HashAction::ExchangeAxes(_) => self.effects.is_open = true,
+            | HashAction::ExchangeAxes(_) => self.effects.add(WideEffect::Anything),
             HashAction::PassOver
             | HashAction::Comment
             | HashAction::EndComment
@@ -248,7 +268,8 @@ impl EffectReader<'_> {
             let frict = KindSet::of(Kind::Frict);
             self.effects.switched.extend(all(axes, frict));
         }
-        self.effects.lets_plc_act |= hash.command.lets_plc_act();
+        self.effects
+            .add_if(hash.command.lets_plc_act(), WideEffect::PlcActs);
     }
 
     fn word(&mut self, word: &Word, at: &BlockContext<'_>) {
@@ -259,17 +280,22 @@ impl EffectReader<'_> {
         let Address::Letter(letter) = word.address else {
             return;
         };
-        self.effects.lets_plc_act |= self.run.lets_plc_act_at(letter, number);
+        self.effects.add_if(
+            self.run.lets_plc_act_at(letter, number),
+            WideEffect::PlcActs,
+        );
         match (letter, number) {
             (b'M', Some(2 | 30)) => {
                 let whole = Span::new(0, at.text.trim_end().len());
                 self.effects.ends.push(at.place(whole));
             }
-            (b'M', Some(17 | 29)) => self.effects.returns = true,
-            (b'G' | b'M', None) => self.effects.is_open = true,
+            (b'M', Some(17 | 29)) => self.effects.add(WideEffect::Returns),
+            (b'G' | b'M', None) => self.effects.add(WideEffect::Anything),
             (b'G' | b'M' | b'T' | b'D', _) => self.function(FunctionWord { letter, number }),
             (b'O', _) if is_program_number(at.block) => {}
-            (b'A'..=b'Z', _) => self.effects.is_open |= !is_letter(letter),
+            (b'A'..=b'Z', _) => self
+                .effects
+                .add_if(!is_letter(letter), WideEffect::Anything),
             _ => {}
         }
     }
@@ -283,7 +309,7 @@ impl EffectReader<'_> {
                     self.effects.calls.push(wanted);
                     return;
                 }
-                Configured::Unknown(_) => self.effects.is_open = true,
+                Configured::Unknown(_) => self.effects.add(WideEffect::Anything),
                 Configured::None => {}
             }
         }
@@ -310,7 +336,7 @@ impl EffectReader<'_> {
         let code = match self.run.state.control.memory.macro_code(&name) {
             Some(Value::Text(code)) => Arc::clone(code),
             Some(Value::Unknown(_)) => {
-                self.effects.is_open = true;
+                self.effects.add(WideEffect::Anything);
                 return;
             }
             Some(Value::Number(_)) | None => return,
@@ -522,17 +548,17 @@ impl Interpreter {
         loop {
             let whole = index.completed(known.clone());
             let effects = self.possible_effects(program.unit, whole.clone());
-            let jumps = effects.jumps.into_iter();
+            let jumps = effects.jumps.iter().cloned();
             let mut exits: BTreeSet<EntryIndex> = jumps
                 .filter_map(|name| index.label(program.section, name))
                 .collect();
-            if effects.jumps_anywhere {
+            if effects.has(WideEffect::JumpsAnywhere) {
                 exits.extend(index.labels(program.section));
             }
-            if effects.returns {
+            if effects.has(WideEffect::Returns) {
                 exits.insert(section.end);
             }
-            exits.extend(effects.leaves);
+            exits.extend(&effects.leaves);
             let first = exits.first().map_or(whole.start, |to| whole.start.min(*to));
             exits.retain(|to| *to > whole.end);
             let mut whole = first..whole.end;
@@ -611,7 +637,7 @@ impl Interpreter {
                 Err(_) => {}
             }
         }
-        if effects.writes_anything {
+        if effects.has(WideEffect::AnyValue) {
             self.havoc_memory(cause);
         }
         for target in &effects.written {
@@ -624,16 +650,16 @@ impl Interpreter {
         self.state.control.modal.havoc_words();
         self.state.control.modal.havoc_positions();
         self.perhaps_move_all();
-        if effects.lets_plc_act {
+        if effects.has(WideEffect::PlcActs) {
             self.let_plc_act();
         }
-        if effects.couples {
+        if effects.has(WideEffect::Couplings) {
             self.havoc_couplings();
         }
-        if effects.ends_cycles {
+        if effects.has(WideEffect::ModalCycles) {
             self.state.control.cycles.havoc();
         }
-        if effects.is_open {
+        if effects.has(WideEffect::Anything) {
             self.havoc_all(cause);
             self.state.control.cycles.havoc();
             self.state.control.havoc_exchange();

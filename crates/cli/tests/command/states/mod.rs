@@ -6,5 +6,4 @@ mod sessions;
 mod undescribed;
 mod versions;
 mod ways;
-mod ways_counted;
 mod ways_given;

@@ -89,7 +89,7 @@ impl Interpreter {
     }
 
     /// Any axes may be coupled.
-    fn couple_any(&mut self) {
+    pub(crate) fn couple_any(&mut self) {
         let all = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
         let changed = self.state.control.couplings.define(RESTORED_GROUP, all);
         self.state.control.mark_coupled(changed);

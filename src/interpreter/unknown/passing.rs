@@ -34,7 +34,7 @@ use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::ways::words::of_axes;
-use crate::language::{GFunction, HashAction, Touches};
+use crate::language::{AxisAction, GFunction, HashAction, Moves, Plc, Touches};
 use crate::syntax::ast::{
     Address, Block, BlockReference, CallName, CallScope, Effect as Unread, Expression, Flow, Hash,
     Item, Node, Operand, Repetition, Word,
@@ -52,6 +52,8 @@ enum WideEffect {
     Anything,
     AnyValue,
     Couplings,
+    NewCouplings,
+    Followers,
     ModalCycles,
     PlcActs,
     JumpsAnywhere,
@@ -64,8 +66,9 @@ struct PossibleEffects {
     wide: BTreeSet<WideEffect>,
     switched: Vec<(String, KindSet)>,
     written: BTreeSet<Location>,
-    /// Names of macros that are defined.
+    /// Names of macros that are defined, and of those that are used.
     macros: BTreeSet<String>,
+    used_macros: BTreeSet<String>,
     calls: Vec<WantedCall>,
     jumps: Vec<LabelName>,
     /// Blocks to which they leave loops and cases.
@@ -92,7 +95,6 @@ impl PossibleEffects {
 struct EffectReader<'a> {
     run: &'a Interpreter,
     effects: PossibleEffects,
-    expanded: HashSet<String>,
     /// The block that is read.
     place: (usize, EntryIndex),
 }
@@ -186,8 +188,15 @@ impl EffectReader<'_> {
                 }
             }
             Item::Return(_) => self.effects.add(WideEffect::Returns),
+            Item::Bracket { command, .. } => {
+                let moves = command.motion.map(|motion| motion.moves);
+                let links =
+                    moves == Some(Moves::Follower) || command.action == AxisAction::EndFollowing;
+                self.effects.add_if(links, WideEffect::Followers);
+                let acts = command.plc == Plc::Acts;
+                self.effects.add_if(acts, WideEffect::PlcActs);
+            }
             Item::Unread(Unread::Spindle, _)
-            | Item::Bracket { .. }
             | Item::BadCommand(_)
             | Item::BareNumber(..)
             | Item::Label(_) => {}
@@ -235,8 +244,8 @@ impl EffectReader<'_> {
             HashAction::Declare | HashAction::Delete | HashAction::Initialise => {
                 self.effects.add(WideEffect::AnyValue);
             }
-            HashAction::DefineCoupling(_)
-            | HashAction::EnableCoupling
+            HashAction::DefineCoupling(_) => self.effects.add(WideEffect::NewCouplings),
+            HashAction::EnableCoupling
             | HashAction::ReleaseCoupling
             | HashAction::ReleaseCouplings => self.effects.add(WideEffect::Couplings),
             HashAction::EndModalCycles => self.effects.add(WideEffect::ModalCycles),
@@ -263,6 +272,9 @@ impl EffectReader<'_> {
             | HashAction::Round(_)
             | HashAction::SelectSlope(_) => {}
         }
+        let moves = hash.command.motion.map(|motion| motion.moves);
+        let links = matches!(moves, Some(Moves::Gantry | Moves::Follower));
+        self.effects.add_if(links, WideEffect::Followers);
         if hash.command.touches == Touches::Friction {
             let axes = self.run.axes_or_all(&hash.brackets, at.text);
             let frict = KindSet::of(Kind::Frict);
@@ -330,7 +342,7 @@ impl EffectReader<'_> {
     /// The code of a macro, once however often it is used: macros that use each other would be read endlessly.
     fn expand(&mut self, used: Span, at: &BlockContext<'_>) {
         let name = unquoted(used.of(at.text)).trim().to_owned();
-        if !self.expanded.insert(name.clone()) {
+        if !self.effects.used_macros.insert(name.clone()) {
             return;
         }
         let code = match self.run.state.control.memory.macro_code(&name) {
@@ -388,7 +400,9 @@ impl EffectReader<'_> {
                 Location::Variable(VariableName::with_values(span.of(at.text), values))
             }
             Node::Variable { .. } => Location::Elements(array()),
-            Node::IndexedParameter { .. } | Node::Unread => Location::Parameters,
+            Node::IndexedParameter { .. } | Node::Unread => {
+                return self.effects.add(WideEffect::AnyValue);
+            }
             _ => return,
         };
         self.effects.written.insert(target);
@@ -577,7 +591,6 @@ impl Interpreter {
         let mut reader = EffectReader {
             run: self,
             effects: PossibleEffects::default(),
-            expanded: HashSet::new(),
             place: (unit, blocks.start),
         };
         reader.blocks(unit, blocks);
@@ -595,6 +608,7 @@ impl Interpreter {
     ) {
         let mut found = vec![(unit, blocks)];
         let mut seen = HashSet::new();
+        let (mut defined, mut used) = (BTreeSet::new(), BTreeSet::new());
         while let Some((unit, blocks)) = found.pop() {
             if !seen.insert((unit, blocks.start)) || self.is_exhausted() {
                 continue;
@@ -619,7 +633,13 @@ impl Interpreter {
                     }
                 }
             }
+            defined.extend(effects.macros.iter().cloned());
+            used.extend(effects.used_macros.iter().cloned());
             self.suffer(effects, cause);
+        }
+        if !defined.is_disjoint(&used) {
+            // Their code is what they had before.
+            self.havoc_all(cause);
         }
         self.version += 1;
     }
@@ -652,6 +672,12 @@ impl Interpreter {
         self.perhaps_move_all();
         if effects.has(WideEffect::PlcActs) {
             self.let_plc_act();
+        }
+        if effects.has(WideEffect::Followers) {
+            self.state.control.couplings.havoc_followers(&[]);
+        }
+        if effects.has(WideEffect::NewCouplings) {
+            self.couple_any();
         }
         if effects.has(WideEffect::Couplings) {
             self.havoc_couplings();

@@ -152,12 +152,12 @@ fn a_folder_is_checked_by_its_configuration_or_by_the_list_or_project_below_it()
             let [of_folder, of_file] =
                 [folder, file].map(|path| tool(root.path(), &[command, path]));
             assert_eq!(of_folder.status, of_file.status, "{command} {folder}");
-            assert_eq!(said(&of_folder), said(&of_file), "{command} {folder}");
+            assert_eq!(stderr(&of_folder), stderr(&of_file), "{command} {folder}");
             assert_eq!(of_folder.stdout, of_file.stdout, "{command} {folder}");
         }
     }
     let several = tool(root.path(), &["lists", "."]);
-    assert_eq!(several.status.code(), Some(2), "{}", said(&several));
+    assert_eq!(several.status.code(), Some(2), "{}", stderr(&several));
 }
 
 #[test]

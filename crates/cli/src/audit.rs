@@ -134,7 +134,11 @@ enum AuditFormat {
 
 /// Runs the command.
 pub(super) fn run(args: &AuditArgs, console: Console) -> Result<u8, Failure> {
-    let console = if args.quiet { console.quiet() } else { console };
+    let console = if args.quiet {
+        console.quiet()?
+    } else {
+        console
+    };
     Failures::of(console, |failures| match &args.sequence {
         Some(order) => args.follow(order, console, failures),
         None => args.audit(console, failures),

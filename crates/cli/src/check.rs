@@ -74,7 +74,7 @@ pub(super) struct CheckArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
-    let console = args.listing.console(console);
+    let console = args.listing.console(console)?;
     if args.watch {
         return watch(args, console);
     }

@@ -141,11 +141,12 @@ impl Console {
         })
     }
 
-    /// Returns the console without remarks, only with results and failures.
-    pub(super) fn quiet(self) -> Self {
-        Self {
-            remarks: RemarkOutput::Kept,
-            ..self
+    /// Returns the console without remarks, only with results and failures, if the user asks for no more of them.
+    pub(super) fn quiet(self) -> Result<Self, Failure> {
+        let remarks = RemarkOutput::Kept;
+        match self.detail {
+            Detail::Brief => Ok(Self { remarks, ..self }),
+            Detail::Full => Err(Failure::new("`--quiet` and `--verbose` exclude each other")),
         }
     }
 

@@ -147,7 +147,7 @@ fn check_axes(args: &DriveArgs, reports: &[DriveReport]) -> Result<(), Failure> 
 
 /// Runs the command.
 pub(super) fn run(args: &DriveArgs, console: Console) -> Result<u8, Failure> {
-    let console = args.listing.console(console);
+    let console = args.listing.console(console)?;
     Failures::of(console, |failures| judge(args, console, failures))
 }
 

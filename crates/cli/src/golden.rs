@@ -81,7 +81,11 @@ struct GoldenRun<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
-    let console = if args.quiet { console.quiet() } else { console };
+    let console = if args.quiet {
+        console.quiet()?
+    } else {
+        console
+    };
     Failures::of(console, |failures| golden(args, console, failures))
 }
 

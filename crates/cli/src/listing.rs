@@ -66,8 +66,12 @@ fn format_of_counts(format: ListingFormat) -> Result<RecordsFormat, Failure> {
 
 impl ListingArgs {
     /// Returns a console that reports as much as the user asked for.
-    pub(super) fn console(&self, console: Console) -> Console {
-        if self.quiet { console.quiet() } else { console }
+    pub(super) fn console(&self, console: Console) -> Result<Console, Failure> {
+        if self.quiet {
+            console.quiet()
+        } else {
+            Ok(console)
+        }
     }
 
     /// Begins the list.

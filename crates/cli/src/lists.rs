@@ -72,7 +72,7 @@ fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
 
 /// Runs the command.
 pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
-    let console = args.listing.console(console);
+    let console = args.listing.console(console)?;
     Failures::of(console, |failures| check(args, console, failures))
 }
 

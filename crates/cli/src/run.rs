@@ -191,7 +191,11 @@ struct FirstProgram<'a> {
 /// Runs the command.
 pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     args.check_options()?;
-    let console = if args.quiet { console.quiet() } else { console };
+    let console = if args.quiet {
+        console.quiet()?
+    } else {
+        console
+    };
     if args.watch {
         watch(args, console)
     } else {

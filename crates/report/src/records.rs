@@ -1,9 +1,10 @@
 //! The records of chapter 9.2 as JSON objects, one after another in one buffer.
 
-use frictcomp::timeline::{Record, Row, States};
+use frictcomp::timeline::{EndedBy, Record, Row, States};
 use serde::Serialize;
 
 use super::strings::{KeptText, append_json, append_json_text, integer};
+use super::text::headline;
 use super::view::View;
 
 /// Text before and after an object.
@@ -21,6 +22,8 @@ pub(super) struct Encoder {
     file: KeptText<String>,
     /// The states of a version.
     states: KeptText<u64>,
+    /// The end of the last program, which the verdict names.
+    ended: Option<EndedBy>,
 }
 
 impl Encoder {
@@ -30,6 +33,7 @@ impl Encoder {
             frame,
             file: KeptText::default(),
             states: KeptText::default(),
+            ended: None,
         }
     }
 
@@ -44,15 +48,28 @@ impl Encoder {
             }
         }
         let object = record.with_states(self.view.kinds);
-        let ends = matches!(record, Record::End(_));
-        if !ends {
+        let end = match record {
+            Record::End(end) => Some(end.by),
+            _ => None,
+        };
+        self.ended = end.or(self.ended);
+        if end.is_none() {
             self.object(out, &object);
         }
         for said in record.diagnostics() {
             self.object(out, &said);
         }
-        if ends {
+        if end.is_some() {
             self.object(out, &object);
+        }
+        if let Record::Summary(summary) = record
+            && let Some(verdict) = headline(summary, self.ended)
+        {
+            out.truncate(out.len() - self.frame.after.len() - b"}".len());
+            out.extend_from_slice(br#","headline":"#);
+            append_json(out, &verdict);
+            out.push(b'}');
+            out.extend_from_slice(self.frame.after);
         }
     }
 

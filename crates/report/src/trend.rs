@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::strings::to_pretty;
+use super::headline::{Headline, Standing};
+use super::strings::{counted, to_pretty};
 use super::visible::visible_line;
 use crate::table::Table;
 use frictcomp_recordings::identify::{FrictionChange, FrictionLevels, FrictionParameter};
@@ -37,18 +38,63 @@ pub struct DatedFriction {
     pub levels: FrictionLevels,
 }
 
-/// A row for each recording, then the changes, then the files left out.
+impl TrendReport {
+    /// Returns the verdict: the parameters that changed, and by how much the one that changed most.
+    pub fn headline(&self) -> Headline {
+        let most = self
+            .changes
+            .iter()
+            .max_by(|one, other| one.part.abs().total_cmp(&other.part.abs()));
+        let text = match most {
+            None => format!(
+                "no parameter of these {} changed by more than 3 combined errors and 5 %",
+                counted(self.dates.len(), "recording")
+            ),
+            Some(most) => {
+                let is_changed = |it: &&FrictionParameter| {
+                    let mut changes = self.changes.iter();
+                    changes.any(|change| change.parameter == **it)
+                };
+                let changed = FrictionParameter::ALL.iter().filter(is_changed);
+                let changed: Vec<&str> = changed.map(|it| it.as_str()).collect();
+                let (name, by) = (most.parameter.as_str(), self.change(most));
+                match &changed[..] {
+                    [.., _, _] => format!("{} changed; {name} most, by {by}", changed.join(", ")),
+                    _ => format!("{name} changed by {by}"),
+                }
+            }
+        };
+        Headline::new(Standing::Plain, text)
+    }
+
+    /// Returns the size of a change and its dates.
+    fn change(&self, change: &FrictionChange) -> String {
+        let date = |at: usize| self.dates.get(at).map_or("?", |it| &it.date);
+        let whole = match change.parameter {
+            FrictionParameter::Offset => " of Fc",
+            _ => "",
+        };
+        format!(
+            "{:+.1} %{whole} between {} and {}",
+            change.part * 100.0,
+            date(change.from),
+            date(change.to)
+        )
+    }
+}
+
+/// The verdict, a row for each recording, then the changes, then the files left out.
 pub fn render_text(report: &TrendReport) -> String {
-    let mut out = String::new();
+    let mut out = format!("{}\n\n", report.headline());
     let axis = report
         .axis
         .as_deref()
         .map(|it| format!(" of axis {}", visible_line(it)));
     let _ = writeln!(
         out,
-        "friction{} over {} recordings, in {}, fv per mm/s\n",
+        "friction{} over {}, in {}, fv per mm/s\n",
         axis.unwrap_or_default(),
-        report.dates.len(),
+        counted(report.dates.len(), "recording"),
         visible_line(&report.unit)
     );
     let names = FrictionParameter::ALL.iter().map(|it| it.as_str());
@@ -71,13 +117,12 @@ pub fn render_text(report: &TrendReport) -> String {
     }
     let _ = writeln!(out, "{table}");
     for change in &report.changes {
-        let _ = writeln!(out, "{}", sentence(report, change));
-    }
-    if report.changes.is_empty() {
         let _ = writeln!(
             out,
-            "no parameter of these {} recordings changed by more than 3 combined errors and 5 %",
-            report.dates.len()
+            "{} changed by {}, {:.0} combined errors",
+            change.parameter.as_str(),
+            report.change(change),
+            change.errors
         );
     }
     for (file, reason) in &report.left_out {
@@ -91,27 +136,10 @@ pub fn render_text(report: &TrendReport) -> String {
     out
 }
 
-/// A change in a sentence.
-fn sentence(report: &TrendReport, change: &FrictionChange) -> String {
-    let date = |at: usize| report.dates.get(at).map_or("?", |it| &it.date);
-    let whole = if change.parameter == FrictionParameter::Offset {
-        " of Fc"
-    } else {
-        ""
-    };
-    format!(
-        "{} changed by {:+.1} %{whole} between {} and {}, {:.0} combined errors",
-        change.parameter.as_str(),
-        change.part * 100.0,
-        date(change.from),
-        date(change.to),
-        change.errors
-    )
-}
-
 #[derive(Serialize)]
 struct TrendDocument<'a> {
     schema: u32,
+    headline: Headline,
     axis: Option<&'a str>,
     unit: &'a str,
     dates: Vec<Dated<'a>>,
@@ -174,6 +202,7 @@ pub fn render_json(report: &TrendReport) -> String {
     });
     to_pretty(&TrendDocument {
         schema: 1,
+        headline: report.headline(),
         axis: report.axis.as_deref(),
         unit: &report.unit,
         dates: dates.collect(),

@@ -145,6 +145,10 @@ fn a_trend_says_what_changed() {
         &["commission", "trend", "r", "--axis", "X", "--svg", "x.svg"],
     );
     assert_eq!(status, Some(0), "{said}");
+    // R18.20
+    let verdict =
+        "Fc, Fs, fv, offset changed; offset most, by +20.0 % of Fc between 2026-03-01 and";
+    assert!(said.starts_with(verdict), "{said}");
     assert!(said.contains("over 4 recordings"), "{said}");
     for parameter in ["Fc", "Fs", "fv"] {
         let change = format!("{parameter} changed by +");

@@ -5,7 +5,7 @@ mod help;
 
 use std::fs;
 
-use crate::folder::{Bench, json, stderr};
+use crate::folder::{Bench, json, one_line, stderr};
 use serde_json::Value;
 
 const LEAVE_OFF: &str = "N10 X[COMP OFF FRICT]\nN20 X1\nN30 X[COMP OFF FRICT]\nN40 M30\n";
@@ -55,6 +55,24 @@ fn only_what_counts_is_said_where_that_is_wanted() {
         stderr(&bench.call(&["golden", "-q", "--update", "a.nc"])),
         ""
     );
+}
+
+#[test]
+fn records_end_with_the_verdict_of_the_text() {
+    // R18.20
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("l.lis", "frict_comp.mode 0\n")]);
+    for arguments in [
+        ["check", "a.nc"],
+        ["run", "a.nc"],
+        ["audit", "a.nc"],
+        ["lists", "l.lis"],
+    ] {
+        let text = bench.stdout(&arguments);
+        let lines = bench.stdout(&[&arguments[..], &["--format", "ndjson"]].concat());
+        let summary = json(lines.lines().last().expect("a summary"));
+        let verdict = summary["headline"]["text"].as_str().expect("a verdict");
+        assert!(one_line(&text).contains(verdict), "{verdict}: {text}");
+    }
 }
 
 #[test]
@@ -250,6 +268,9 @@ fn options_without_effect_are_refused() {
         &["run", "--columns", "position", "a.nc"],
         &["run", "--quiet", "--changes", "a.nc"],
         &["run", "--quiet", "--format", "csv", "a.nc"],
+        &["run", "-qv", "a.nc"],
+        &["-v", "check", "-q", "a.nc"],
+        &["audit", "-q", "--verbose", "a.nc"],
         &["run", "--isolated", "--config", "frictcomp.toml", "a.nc"],
         &["show", "values", "--format", "sarif", "a.nc"],
         &["show", "passed-over", "--format", "github", "a.nc"],

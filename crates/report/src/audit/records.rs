@@ -25,6 +25,7 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
         .count();
     let mut summary = json!({
         "record": "summary",
+        "headline": report.headline(),
         "programs": report.programs(),
         "axes": report.findings().count(),
         "axes_with_hazards": report.findings().filter(|it| it.hazards() > 0).count(),

@@ -373,6 +373,7 @@ fn push_round(out: &mut String, round: &Round) {
 #[derive(Serialize)]
 struct ResultsDocument<'a> {
     schema: u32,
+    headline: Headline,
     complete: bool,
     recordings: &'a [RecordingResult],
     inputs: &'a [InputFile],
@@ -388,6 +389,7 @@ struct ResultsDocument<'a> {
 pub fn render_results_json(report: &ResultsReport) -> String {
     to_pretty(&ResultsDocument {
         schema: Results::SCHEMA,
+        headline: report.headline(),
         complete: report.is_complete(),
         recordings: &report.results,
         inputs: &report.inputs,

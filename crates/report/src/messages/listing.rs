@@ -46,7 +46,7 @@ impl<W: Write> Listing<W> {
         *self.tally.programs.entry(result).or_default() += 1;
     }
 
-    /// Writes the verdict on everything, in text only (R18.20).
+    /// Takes the verdict on everything (R18.20).
     pub fn headline(&mut self, headline: &Headline) {
         self.format.headline(&mut self.output.bytes, headline);
     }

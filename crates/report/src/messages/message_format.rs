@@ -23,7 +23,7 @@ pub(super) trait MessageFormat: fmt::Debug {
     /// Appends a record of another kind, if the format has records.
     fn record(&mut self, _out: &mut Vec<u8>, _record: &Value) {}
 
-    /// Appends the verdict on everything, if the format is for people.
+    /// Takes the verdict on everything: a last line for people, a member of the summary of records.
     fn headline(&mut self, _out: &mut Vec<u8>, _headline: &Headline) {}
 
     /// Appends the text after the last message.

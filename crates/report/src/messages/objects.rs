@@ -5,6 +5,7 @@ use frictcomp::timeline::{DiagnosticRecord, ReadingsInForce};
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::headline::Headline;
 use crate::json;
 use crate::strings::append_json;
 
@@ -20,6 +21,7 @@ pub(super) struct Objects {
     between: &'static [u8],
     after: &'static [u8],
     closing: &'static [u8],
+    headline: Option<Headline>,
 }
 
 impl Objects {
@@ -31,6 +33,7 @@ impl Objects {
             between: b",\n",
             after: b"",
             closing: b"\n]}\n",
+            headline: None,
         }
     }
 
@@ -42,6 +45,7 @@ impl Objects {
             between: b"",
             after: b"\n",
             closing: b"",
+            headline: None,
         }
     }
 
@@ -70,16 +74,24 @@ impl MessageFormat for Objects {
         });
     }
 
+    fn headline(&mut self, _out: &mut Vec<u8>, headline: &Headline) {
+        self.headline = Some(headline.clone());
+    }
+
     fn close(&mut self, out: &mut Vec<u8>, tally: &Tally) {
-        self.object(out, |out| append_json(out, &SummaryObject::of(tally)));
+        let headline = self.headline.take();
+        let summary = SummaryObject::new(tally, headline.as_ref());
+        self.object(out, |out| append_json(out, &summary));
         out.extend_from_slice(self.closing);
     }
 }
 
-/// The counts, and the readings on which the results rest (R15.3).
+/// The verdict, the counts, and the readings on which the results rest (R15.3).
 #[derive(Serialize)]
 struct SummaryObject<'a> {
     record: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    headline: Option<&'a Headline>,
     files: u64,
     errors: u64,
     warnings: u64,
@@ -89,9 +101,10 @@ struct SummaryObject<'a> {
 }
 
 impl<'a> SummaryObject<'a> {
-    fn of(tally: &'a Tally) -> Self {
+    fn new(tally: &'a Tally, headline: Option<&'a Headline>) -> Self {
         Self {
             record: "summary",
+            headline,
             files: tally.files,
             errors: tally.of(Severity::Error),
             warnings: tally.of(Severity::Warning),

@@ -117,8 +117,8 @@ pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayA
 }
 
 impl Interpreter {
-    /// The answers to the condition in the last executed block, where only the machine knows which holds
-    /// and no way was followed ([`Branches::Passed`]).
+    /// The answers to the condition in the last executed block, where only the machine knows which holds and none
+    /// was chosen ([`Branches::Passed`]).
     pub fn offered(&self) -> &[WayCondition] {
         &self.offered
     }

@@ -313,7 +313,7 @@ impl Interpreter {
         if labels.is_empty() {
             return;
         }
-        self.state.work.charge_region(ITEM * labels.len());
+        self.state.work.charge_reading(ITEM * labels.len());
         if matches!(target, BlockReference::Number(_)) {
             labels.retain(|(name, _)| matches!(name, LabelName::Number(_)));
         }

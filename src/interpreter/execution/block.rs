@@ -199,6 +199,15 @@ impl Interpreter {
                 Some(step) => ControlFlow::Break(NextBlock::Step(step)),
             };
         }
+        if self.options.takes_motions() && self.scratch.motion.is_some() {
+            let State {
+                track,
+                waiting,
+                ended,
+                ..
+            } = &mut self.state;
+            track.shadow.moves_alone |= !(waiting.is_empty() && ended.is_empty());
+        }
         let flow = self.raise(number, stopped, at, observer);
         self.scratch.clear_said();
         match step {

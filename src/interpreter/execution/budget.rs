@@ -24,9 +24,9 @@ impl Interpreter {
     /// the run did not reach its end.
     pub(crate) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.scratch.wrote);
-        if self.is_past_regions() {
+        if self.is_past_all_ways() {
             self.havoc_all(&Unknown::Work);
-            return Some(too_many_regions(at));
+            return Some(too_much_to_follow(at));
         }
         if self.state.work.level() > self.options.limits.work && self.is_exhausted() {
             self.havoc_all(&Unknown::Work);
@@ -111,7 +111,7 @@ fn cut_off(message: String, at: &BlockContext<'_>) -> Diagnostic {
 
 /// FC908 where even what the ways could change takes too long to find.
 #[cold]
-fn too_many_regions(at: &BlockContext<'_>) -> Diagnostic {
+fn too_much_to_follow(at: &BlockContext<'_>) -> Diagnostic {
     let message = "what the blocks from here on could change takes too much work to find; the dry run ends here, \
                    and everything that a program can change is unknown";
     let fault = Fault::new(Code::Fc908, Span::new(0, at.text.len()), message)

@@ -81,11 +81,14 @@ impl Interpreter {
         }
         let both_count = mine.track.failed.is_some() == other.track.failed.is_some();
         let differing = mine.join(other, &cause);
-        self.state.work.charge_region(ITEM * differing);
+        self.state.work.charge_reading(ITEM * differing);
         self.enter_path(mine);
         self.scratch.havoc_last_motion();
         if both_count {
             self.tell_join(&before, parted);
+        }
+        if self.state.waiting.is_empty() {
+            self.state.track.shadow.moves_alone = false;
         }
     }
 
@@ -135,12 +138,9 @@ impl Interpreter {
         }
         let [mine, theirs] = sides;
         let variables = mine.memory.differing_variables(&theirs.memory);
-        let has_moved = self.options.takes_motions() && !self.state.track.shadow.moved.is_empty();
+        let has_moved = self.options.takes_motions() && self.state.track.has_undecided_motion();
         let others = [
-            (
-                has_moved,
-                "the positions of the axes that these blocks move",
-            ),
+            (has_moved, "the motions on the way here"),
             (mine.couplings != theirs.couplings, "the axis couplings"),
             (
                 mine.channel_axes != theirs.channel_axes,

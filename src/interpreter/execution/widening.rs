@@ -3,7 +3,7 @@
 //! Each way that only the machine decides costs work, and loops and calls multiply it. Past the budget every way is
 //! taken to the end of the outermost control block of the main program that any of them is in. Nothing of it is
 //! executed any more: whatever its blocks, and those of the programs that it calls, could change is unknown (R2.51).
-//! The program continues there, and no further way is followed.
+//! The program continues there, with a quarter of the budget for its ways.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -22,7 +22,7 @@ use crate::interpreter::ways::words::of_axes;
 const MAX_NAMED: usize = 3;
 
 impl Interpreter {
-    /// Whether following the ways of the program takes more work than its budget, and they are still followed.
+    /// Whether following the ways of the program takes more work than its budget.
     #[inline]
     pub(crate) fn is_past_ways(&self) -> bool {
         let is_past = self.state.work.ways() > self.options.limits.ways

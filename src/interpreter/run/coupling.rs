@@ -35,8 +35,6 @@ pub(crate) struct Couplings {
     /// Axes that may follow any other one.
     #[serde(default)]
     strays: BTreeSet<AxisIndex>,
-    /// Rises with every change of what may be in force or defined.
-    version: u64,
 }
 
 /// An axis, the one that it follows, `None` for any, and whether it certainly does.

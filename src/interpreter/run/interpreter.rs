@@ -24,7 +24,7 @@ use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::found::{FoundVariables, VariableUse};
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::work_budget::{PER_REGION_UNIT, WorkBudget};
+use crate::interpreter::values::work_budget::{PER_UNIT_READ, WorkBudget};
 use crate::interpreter::ways::possible_state::{PossibleStates, shown, ways_of};
 use crate::interpreter::ways::words::WayCondition;
 use crate::machine::{AxisSet, Machine, Setting};
@@ -426,7 +426,7 @@ impl Interpreter {
 
     /// Whether even reading what the ways could change takes too much work.
     #[inline]
-    pub(crate) fn is_past_regions(&self) -> bool {
+    pub(crate) fn is_past_all_ways(&self) -> bool {
         self.state.work.ways() > self.options.limits.ways
             && self.state.work.ways() > self.ways_bound().saturating_mul(2)
     }
@@ -434,13 +434,13 @@ impl Interpreter {
     #[cold]
     pub(crate) fn ways_bound(&self) -> u64 {
         let granted = self.work_bound() - self.options.limits.work;
-        let granted = granted.saturating_mul(PER_REGION_UNIT);
+        let granted = granted.saturating_mul(PER_UNIT_READ);
         self.options.limits.ways.saturating_add(granted)
     }
 
     /// Whether the budget of work is used up.
     pub(crate) fn is_exhausted(&self) -> bool {
-        self.state.work.level() > self.work_bound() || self.is_past_regions()
+        self.state.work.level() > self.work_bound() || self.is_past_all_ways()
     }
 
     /// The macros of the channel list, which no program takes away (TF5200 Programming manual,

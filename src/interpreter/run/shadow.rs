@@ -28,6 +28,8 @@ pub(crate) struct Shadow {
     pub(crate) until: Option<Meeting>,
     /// The axes that shadows may have moved since the last event.
     pub(crate) moved: BTreeSet<AxisIndex>,
+    /// Whether the followed way has moved where another one did not go.
+    pub(crate) moves_alone: bool,
 }
 
 impl Shadow {
@@ -37,6 +39,7 @@ impl Shadow {
             self.until = None;
         }
         self.moved.extend(&other.moved);
+        self.moves_alone |= other.moves_alone;
     }
 }
 
@@ -45,6 +48,11 @@ impl RunTrack {
     #[inline]
     pub(crate) fn is_shadow(&self) -> bool {
         self.shadow.until.is_some()
+    }
+
+    /// Whether motions on the ways that lead here are not those of all ways.
+    pub(crate) fn has_undecided_motion(&self) -> bool {
+        self.shadow.moves_alone || !self.shadow.moved.is_empty()
     }
 
     /// A shadow that has come to the block at which the sides of its question meet is followed again, and so is the last

@@ -201,6 +201,9 @@ impl Interpreter {
             texts: question.texts.into_iter().take(count - 1).collect(),
             ..question
         };
+        // It is compared with those that were asked before.
+        let known = 20 * self.state.conditions.len() as u64;
+        self.state.work.charge_ways(known);
         let says = goals.iter().take(count).map(Goal::says).collect();
         let condition = self.ask(question, says, at);
         let mut ways: Vec<WaySet> = answers(condition, count).map(WaySet::of).collect();

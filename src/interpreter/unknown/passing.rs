@@ -116,7 +116,7 @@ impl EffectReader<'_> {
             }
             self.place = (unit, range.end - left);
             left -= 1;
-            self.run.state.work.charge_region(ITEM + raw.text.len());
+            self.run.state.work.charge_reading(ITEM + raw.text.len());
             let shown = ShownBlockLines::default();
             let at = BlockContext::of_raw(index.source.name(), &raw, &block, &shown);
             // Blocks that are skipped change nothing (R2.3).
@@ -353,7 +353,7 @@ impl EffectReader<'_> {
             }
             Some(Value::Number(_)) | None => return,
         };
-        self.run.state.work.charge_region(ITEM + code.len());
+        self.run.state.work.charge_reading(ITEM + code.len());
         let block = crate::syntax::parse_block(&code);
         let shown = ShownBlockLines::default();
         let code = MacroCode {

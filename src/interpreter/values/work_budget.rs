@@ -25,7 +25,7 @@ const PER_MESSAGE: u64 = 1500;
 const PER_WORK: u64 = 2;
 
 /// Units of a way that a unit of a region needs: regions are read, ways are only copied and compared.
-pub(crate) const PER_REGION_UNIT: u64 = 40;
+pub(crate) const PER_UNIT_READ: u64 = 40;
 
 /// Units of ways that a block allows when it is executed for the first time.
 const PER_NEW_BLOCK: u64 = 15_000;
@@ -56,14 +56,14 @@ impl WorkBudget {
         self.ways.set(self.ways.get().saturating_add(units));
     }
 
-    /// Counts work of reading regions that may or may not be executed.
-    pub(crate) fn charge_region(&self, units: usize) {
+    /// Counts work of reading blocks that are passed over, and of joining what differs.
+    pub(crate) fn charge_reading(&self, units: usize) {
         let units = u64::try_from(units).unwrap_or(u64::MAX);
         self.spent.set(self.spent.get().saturating_add(units));
-        self.charge_ways(units.saturating_mul(PER_REGION_UNIT));
+        self.charge_ways(units.saturating_mul(PER_UNIT_READ));
     }
 
-    /// The work of following ways and of reading regions.
+    /// The work of following ways, and of reading blocks that are passed over.
     #[inline]
     pub(crate) fn ways(&self) -> u64 {
         self.ways.get()

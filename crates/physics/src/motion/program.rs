@@ -172,6 +172,9 @@ impl<S: TraceSink> Sink for ProgramTrace<S> {
             }
             Record::End(ref end) => {
                 let notes = end.notes.iter().map(|note| &note.diagnostic);
+                for said in notes.clone() {
+                    self.note_undecided(std::slice::from_ref(said));
+                }
                 let notes = notes.filter(|said| error(said) || said.code.is_budget());
                 self.errors.extend(notes.cloned());
                 self.is_cut_short |= end.by == EndedBy::Budget;

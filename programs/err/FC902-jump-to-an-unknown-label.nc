@@ -1,9 +1,0 @@
-%REPEAT
-; wrong: the label is known to the machine only
-N10 G90
-N20 $GOTO V.E.NEXT_STEP
-N30 X[COMP OFF FRICT]
-[RETRACT]
-N40 G00 Z100
-N50 X[COMP ON FRICT]
-N60 M30

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::reported::StopScope;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
@@ -167,13 +168,20 @@ impl Interpreter {
     ) -> bool {
         let next = self.next_block();
         let Some((goal, span)) = self.jump_after(place, at) else {
-            return self.part_at(
-                condition,
-                doubt,
-                (ConditionKind::Branch, place),
-                [next, next].map(Goal::block),
-                at,
-            );
+            // A label that is written is reported before the program begins where it does not exist.
+            let is_computed = |item: &Item| {
+                let Item::Flow(Flow::Goto(target), _) = item else {
+                    return false;
+                };
+                !matches!(
+                    target,
+                    BlockReference::Label(_) | BlockReference::Number(Operand::Number(_))
+                )
+            };
+            if at.block.items.iter().any(is_computed) {
+                self.perhaps_stop((Unknown::MissingLabel, StopScope::Block), place, at);
+            }
+            return true;
         };
         let asked = (ConditionKind::Branch, span);
         let across = if goal.labels.is_none() {

@@ -16,7 +16,17 @@ impl Places<'_> {
     fn hold(&self, diagnostic: &Diagnostic) {
         self.0.hold(diagnostic);
         for (paint, width) in [(Paint::Plain, 1), (Paint::Styled, 40), (Paint::Plain, 200)] {
-            assert!(render(diagnostic, Look { paint, width, ..Look::default() }).ends_with('\n'));
+            assert!(
+                render(
+                    diagnostic,
+                    Look {
+                        paint,
+                        width,
+                        ..Look::default()
+                    }
+                )
+                .ends_with('\n')
+            );
         }
         for format in [
             ListingFormat::Concise,

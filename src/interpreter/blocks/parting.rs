@@ -211,7 +211,8 @@ impl Interpreter {
     ) {
         if let Some((goal, span)) = self.jump_after(place, at) {
             let goals = vec![goal, Goal::block(self.next_block())];
-            self.part_by_cause(ConditionKind::Branch, (cause, span), goals, at);
+            let texts = vec![span.of(at.text).trim().into()];
+            self.part_by_cause(ConditionKind::Branch, (cause, span), (goals, texts), at);
         }
     }
 
@@ -220,18 +221,13 @@ impl Interpreter {
         &mut self,
         kind: ConditionKind,
         (cause, span): (Unknown, Span),
-        goals: Vec<Goal>,
+        (goals, texts): (Vec<Goal>, Vec<Arc<str>>),
         at: &BlockContext<'_>,
     ) {
-        let text = span.of(at.text).trim();
-        let texts = (1..goals.len()).map(|answer| match goals.len() {
-            2 => text.into(),
-            _ => format!("answer {answer} of {text}").into(),
-        });
         let question = MachineQuestion {
             kind,
             span,
-            texts: texts.collect(),
+            texts,
             cause,
             reads: None,
             kept: None,
@@ -252,21 +248,22 @@ impl Interpreter {
             return;
         };
         let links = self.programs.index(unit).links(entry);
-        let goals = match flow {
+        let sides = match flow {
             Flow::Case(_) => {
                 let mut other = Goal::block(links.next);
                 let frame = self.state.control.frames.running_mut();
                 other.seeking = frame.and_then(|frame| frame.seeking.take());
-                vec![Goal::block(next), other]
+                (vec![Goal::block(next), other], vec![in_line(at.line)])
             }
             _ => self.each_case(unit, links),
         };
-        self.part_by_cause(ConditionKind::Case, (cause, span), goals, at);
+        self.part_by_cause(ConditionKind::Case, (cause, span), sides, at);
     }
 
-    /// The blocks of the cases of a `$SWITCH`, whichever values they have, and the block after it.
-    fn each_case(&mut self, unit: usize, switch: Links) -> Vec<Goal> {
+    /// The blocks of the cases of a `$SWITCH`, whichever values they have, each with its name, and the block after it.
+    fn each_case(&mut self, unit: usize, switch: Links) -> (Vec<Goal>, Vec<Arc<str>>) {
         let mut goals = Vec::new();
+        let mut texts = Vec::new();
         let mut entry = switch.next;
         let mut after = switch.end;
         while entry < switch.end {
@@ -277,6 +274,7 @@ impl Interpreter {
                 break;
             }
             goals.push(Goal::block(entry + 1));
+            texts.push(in_line(parsed.line));
             let next = self.programs.index(unit).links(entry).next;
             if next <= entry {
                 break;
@@ -284,7 +282,7 @@ impl Interpreter {
             entry = next;
         }
         goals.push(Goal::block(after));
-        goals
+        (goals, texts)
     }
 
     /// Whether the jump after a condition goes back, so that its condition is that of a loop.
@@ -627,4 +625,9 @@ impl ControlState {
     fn is_effective(&self, (axis, kind): (AxisIndex, Kind)) -> bool {
         self.compensation.is_parameterised(axis, kind)
     }
+}
+
+/// The name of a case whose value is not known.
+fn in_line(line: u32) -> Arc<str> {
+    format!("the case in line {line} applies").into()
 }

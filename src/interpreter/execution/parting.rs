@@ -16,12 +16,58 @@ impl Interpreter {
     #[cold]
     pub(crate) fn take_sides(&mut self, step: Option<&ControlStep>, finder: &mut dyn Finder) {
         let sides = std::mem::take(&mut self.sides);
-        let here = self.state.control.frames.running().map_or(0, |it| it.next);
         let meeting = self.meeting(&sides);
         let base = self.state.leave_path();
+        self.let_wait(sides, meeting, &base, step, finder);
+        if self.state.waiting.is_empty() {
+            // No answer is possible: the ways were merged too far to tell. The run can only continue.
+            self.enter_path(base);
+        } else {
+            self.enter_first();
+        }
+    }
+
+    /// The ways that jump part from the one on which the block itself leads elsewhere, which goes on.
+    #[cold]
+    pub(crate) fn take_jumps(&mut self, finder: &mut dyn Finder) {
+        let sides = std::mem::take(&mut self.sides);
+        let meeting = self.meeting(&sides);
+        let next = self.state.control.frames.running().map(|it| it.next);
+        let (own, jumps): (Vec<_>, Vec<_>) =
+            sides.into_iter().partition(|side| Some(side.to) == next);
+        let mut base = self.state.leave_path();
+        self.let_wait(jumps, meeting, &base, None, finder);
+        if let Some(own) = own.first() {
+            let ways = base.track.reach.and(&own.ways);
+            if !ways.is_never() {
+                base.track.reach = ways;
+            }
+        }
+        self.enter_path(base);
+        let ways = self.state.track.reach.clone();
+        self.state.go_on_with(ways);
+    }
+
+    /// Whether a user has chosen that the block jumps.
+    pub(crate) fn is_jump_chosen(&self) -> bool {
+        let next = self.state.control.frames.running().map(|it| it.next);
+        self.options.branches == Branches::Passed
+            && matches!(self.sides.as_slice(), [only] if Some(only.to) != next)
+    }
+
+    /// Sides of a question wait at their blocks.
+    fn let_wait(
+        &mut self,
+        sides: Vec<BranchSide>,
+        meeting: Option<Meeting>,
+        base: &Path,
+        step: Option<&ControlStep>,
+        finder: &mut dyn Finder,
+    ) {
+        let here = base.control.frames.running().map_or(0, |it| it.next);
         let mut open: Vec<Path> = Vec::new();
         // The answer of a user is the one way that is followed.
-        let is_chosen = self.options.branches == Branches::Passed && sides.len() == 1;
+        let is_chosen = self.options.branches == Branches::Passed && meeting.is_none();
         for side in sides {
             let ways = base.track.reach.and(&side.ways);
             if ways.is_never() {
@@ -56,12 +102,6 @@ impl Interpreter {
         self.version += 1;
         for path in open {
             self.state.waiting.push(path);
-        }
-        if self.state.waiting.is_empty() {
-            // No answer is possible: the ways were merged too far to tell. The run can only continue.
-            self.enter_path(base);
-        } else {
-            self.enter_first();
         }
     }
 

@@ -219,8 +219,8 @@ impl Interpreter {
         }
     }
 
-    /// Parts the run after a block that asked, unless it ends or returns in any case. Returns the
-    /// remaining step.
+    /// Parts the run after a block that asked. Returns the remaining step, which is that of the way on which no jump is
+    /// taken.
     fn part_and_step(
         &mut self,
         step: Option<ControlStep>,
@@ -234,8 +234,17 @@ impl Interpreter {
                 self.take_sides(step.as_ref(), finder);
                 None
             }
-            step => {
+            Some(ControlStep::Covered) => {
+                // An error ends the block on all ways.
                 self.sides.clear();
+                step
+            }
+            _ if self.is_jump_chosen() => {
+                self.take_sides(None, finder);
+                None
+            }
+            step => {
+                self.take_jumps(finder);
                 step
             }
         }

@@ -8,7 +8,6 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
@@ -16,7 +15,6 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Last, Path};
 use crate::interpreter::unknown::branching::MAX_OPEN;
 use crate::interpreter::values::cause::Unknown;
-use crate::interpreter::ways::words::of_axes;
 
 /// Most values that the advice names.
 const MAX_NAMED: usize = 3;
@@ -124,7 +122,7 @@ impl Interpreter {
         let place = place.or_else(last)?;
         let to = index.and_then(|index| index.entries.get(passed.end.checked_sub(1)? as usize));
         let to = to.map_or(String::new(), |entry| format!(" to line {}", entry.line));
-        let unknown = self.unknown_kinds();
+        let unknown = self.newly_unknown(&[]);
         let unknown = if unknown.is_empty() {
             String::new()
         } else {
@@ -145,20 +143,6 @@ impl Interpreter {
             said = said.with_help(cause.advice());
         }
         Some(said.with_help(Advice::RaiseBudget(Budget::Ways)))
-    }
-
-    /// The kinds that are unknown, with their axes.
-    fn unknown_kinds(&self) -> Vec<String> {
-        let compensation = &self.state.control.compensation;
-        let axes = || (0..compensation.len()).map(AxisIndex::new);
-        let of_kind = |kind: &Kind| {
-            let unknown = axes().filter(|axis| compensation.unknown(*axis).contains(*kind));
-            let names: Vec<&str> = unknown
-                .map(|axis| self.machine.axis(axis).name.as_str())
-                .collect();
-            (!names.is_empty()).then(|| of_axes(*kind, &names))
-        };
-        Kind::ALL.iter().filter_map(of_kind).collect()
     }
 }
 

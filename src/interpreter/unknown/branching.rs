@@ -96,7 +96,7 @@ impl Goal {
         }
     }
 
-    /// Any of some jump labels in the order of the text; `None` where there is none.
+    /// The way continues at any of the jump labels, which stand in the order of the text; `None` without a label.
     pub(crate) fn any(labels: Vec<EntryIndex>) -> Option<Self> {
         let first = *labels.first()?;
         Some(Self {

@@ -34,7 +34,7 @@ use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::ways::words::of_axes;
-use crate::language::{AxisAction, GFunction, HashAction, Moves, Plc, Touches};
+use crate::language::{AxisAction, GFunction, HashAction, Moves, Plc, Touches, is_read_only};
 use crate::syntax::ast::{
     Address, Block, BlockReference, CallName, CallScope, Effect as Unread, Expression, Flow, Hash,
     Item, Node, Operand, Repetition, Word,
@@ -55,9 +55,13 @@ enum WideEffect {
     NewCouplings,
     Followers,
     ModalCycles,
+    ModalWords,
+    AnyMotion,
     PlcActs,
     JumpsAnywhere,
     Returns,
+    /// An error of the control may end the program.
+    Refusal,
 }
 
 /// What blocks could do, by their text.
@@ -65,6 +69,7 @@ enum WideEffect {
 struct PossibleEffects {
     wide: BTreeSet<WideEffect>,
     switched: Vec<(String, KindSet)>,
+    moved: BTreeSet<AxisIndex>,
     written: BTreeSet<Location>,
     /// Names of macros that are defined, and of those that are used.
     macros: BTreeSet<String>,
@@ -195,11 +200,12 @@ impl EffectReader<'_> {
                 self.effects.add_if(links, WideEffect::Followers);
                 let acts = command.plc == Plc::Acts;
                 self.effects.add_if(acts, WideEffect::PlcActs);
+                let is_motion = command.motion.is_some();
+                self.effects.add_if(is_motion, WideEffect::AnyMotion);
+                self.effects.add(WideEffect::ModalWords);
             }
-            Item::Unread(Unread::Spindle, _)
-            | Item::BadCommand(_)
-            | Item::BareNumber(..)
-            | Item::Label(_) => {}
+            Item::Unread(Unread::Spindle, _) => self.effects.add(WideEffect::ModalWords),
+            Item::BadCommand(_) | Item::BareNumber(..) | Item::Label(_) => {}
         }
     }
 
@@ -214,7 +220,10 @@ impl EffectReader<'_> {
             Flow::Goto(BlockReference::Number(Operand::Number(number))) => {
                 self.effects.jumps.push(LabelName::numbered(*number));
             }
-            Flow::Goto(_) => self.effects.add(WideEffect::JumpsAnywhere),
+            Flow::Goto(_) => {
+                self.effects.add(WideEffect::JumpsAnywhere);
+                self.effects.add(WideEffect::Refusal);
+            }
             Flow::Break | Flow::Continue => {
                 let (unit, entry) = self.place;
                 let index = self.run.programs.index(unit);
@@ -240,9 +249,10 @@ impl EffectReader<'_> {
                 let axes = self.run.perhaps_transferred(&hash.brackets, at.text);
                 self.effects.switched.extend(all(axes, KindSet::ALL));
             }
-            HashAction::ReportError => self.effects.ends.push(at.place(hash.span)),
+            HashAction::ReportError => self.effects.add(WideEffect::Refusal),
             HashAction::Declare | HashAction::Delete | HashAction::Initialise => {
                 self.effects.add(WideEffect::AnyValue);
+                self.effects.add(WideEffect::Refusal);
             }
             HashAction::DefineCoupling(_) => self.effects.add(WideEffect::NewCouplings),
             HashAction::EnableCoupling
@@ -272,6 +282,10 @@ impl EffectReader<'_> {
             | HashAction::Round(_)
             | HashAction::SelectSlope(_) => {}
         }
+        self.effects.add(WideEffect::ModalWords);
+        let is_motion = hash.command.motion.is_some()
+            || matches!(hash.command.touches, Touches::Motion | Touches::Plane);
+        self.effects.add_if(is_motion, WideEffect::AnyMotion);
         let moves = hash.command.motion.map(|motion| motion.moves);
         let links = matches!(moves, Some(Moves::Gantry | Moves::Follower));
         self.effects.add_if(links, WideEffect::Followers);
@@ -289,8 +303,13 @@ impl EffectReader<'_> {
             Some(Operand::Number(number)) => rounded(number),
             _ => None,
         };
-        let Address::Letter(letter) = word.address else {
-            return;
+        let letter = match word.address {
+            Address::Letter(letter) => letter,
+            Address::Name(name) => return self.axis_word(name.of(at.text)),
+            Address::Lower(_) | Address::Main(_) => {
+                self.effects.add(WideEffect::ModalWords);
+                return self.effects.add(WideEffect::AnyMotion);
+            }
         };
         self.effects.add_if(
             self.run.lets_plc_act_at(letter, number),
@@ -305,14 +324,24 @@ impl EffectReader<'_> {
             (b'G' | b'M', None) => self.effects.add(WideEffect::Anything),
             (b'G' | b'M' | b'T' | b'D', _) => self.function(FunctionWord { letter, number }),
             (b'O', _) if is_program_number(at.block) => {}
-            (b'A'..=b'Z', _) => self
-                .effects
-                .add_if(!is_letter(letter), WideEffect::Anything),
-            _ => {}
+            (b'A'..=b'Z', _) if !is_letter(letter) => self.effects.add(WideEffect::Anything),
+            (b'N', _) => {}
+            _ => self.axis_word(char::from(letter).encode_utf8(&mut [0; 4])),
+        }
+    }
+
+    /// A word of an axis, or one that stays in force.
+    fn axis_word(&mut self, name: &str) {
+        let control = &self.run.state.control;
+        match self.run.axis_named(name) {
+            _ if control.channel_axes.doubtful => self.effects.add(WideEffect::AnyMotion),
+            Some(axis) => _ = self.effects.moved.insert(axis),
+            None => self.effects.add(WideEffect::ModalWords),
         }
     }
 
     fn function(&mut self, word: FunctionWord) {
+        self.effects.add(WideEffect::ModalWords);
         let data = (word.letter == b'T').then(|| word.of_data());
         for word in [word].into_iter().chain(data) {
             match self.run.configured(word) {
@@ -405,6 +434,10 @@ impl EffectReader<'_> {
             }
             _ => return,
         };
+        if let Location::Variable(name) | Location::Elements(name) = &target {
+            let is_refused = is_read_only(name.array());
+            self.effects.add_if(is_refused, WideEffect::Refusal);
+        }
         self.effects.written.insert(target);
     }
 }
@@ -477,10 +510,10 @@ impl Interpreter {
                 self.perhaps_execute(unit, blocks, &cause, finder);
                 continue;
             };
-            let before = self.scratch.doubted.len();
+            let before = self.unknown_kinds();
             let after = self.pass_over_blocks(blocks, &cause, finder);
             outcome.step = Some(ControlStep::Jump(after));
-            self.tell_passed(&cause, before, said);
+            self.tell_passed(&cause, &before, said);
         }
     }
 
@@ -609,6 +642,8 @@ impl Interpreter {
         let mut found = vec![(unit, blocks)];
         let mut seen = HashSet::new();
         let (mut defined, mut used) = (BTreeSet::new(), BTreeSet::new());
+        // The program may end anywhere in them, with the effects of any of them.
+        let mut ends = Vec::new();
         while let Some((unit, blocks)) = found.pop() {
             if !seen.insert((unit, blocks.start)) || self.is_exhausted() {
                 continue;
@@ -629,22 +664,30 @@ impl Interpreter {
                     Ok(None) => {}
                     Err(_) => {
                         self.havoc_all(cause);
-                        self.may_end_at(None, EndedBy::Error);
+                        ends.push((None, EndedBy::Error));
                     }
                 }
             }
             defined.extend(effects.macros.iter().cloned());
             used.extend(effects.used_macros.iter().cloned());
-            self.suffer(effects, cause);
+            ends.extend(self.suffer(effects, cause));
         }
         if !defined.is_disjoint(&used) {
             // Their code is what they had before.
             self.havoc_all(cause);
         }
+        for (place, by) in ends {
+            self.may_end_at(place, by);
+        }
         self.version += 1;
     }
 
-    fn suffer(&mut self, effects: PossibleEffects, cause: &Unknown) {
+    /// Makes unknown what blocks could change. Returns where they may end the program.
+    fn suffer(
+        &mut self,
+        effects: PossibleEffects,
+        cause: &Unknown,
+    ) -> Vec<(Option<Place>, EndedBy)> {
         let unknown = || Value::Unknown(cause.clone());
         for (name, kinds) in &effects.switched {
             match self.state.control.addressed(name) {
@@ -667,9 +710,18 @@ impl Interpreter {
             self.state.control.memory.havoc_macro(name, cause);
             self.scratch.wrote = true;
         }
-        self.state.control.modal.havoc_words();
-        self.state.control.modal.havoc_positions();
-        self.perhaps_move_all();
+        for axis in &effects.moved {
+            self.state.control.modal.havoc_position(*axis);
+            self.scratch.perhaps_move(*axis);
+            self.see(*axis);
+        }
+        if effects.has(WideEffect::ModalWords) {
+            self.state.control.modal.havoc_words();
+        }
+        if effects.has(WideEffect::AnyMotion) {
+            self.state.control.modal.havoc_positions();
+            self.perhaps_move_all();
+        }
         if effects.has(WideEffect::PlcActs) {
             self.let_plc_act();
         }
@@ -691,6 +743,15 @@ impl Interpreter {
             self.state.control.havoc_exchange();
             self.state.control.files.change(None);
         }
+        let couples = effects.has(WideEffect::NewCouplings)
+            || effects.has(WideEffect::Couplings)
+            || self.state.control.couplings.len() > 0;
+        let is_coupled = couples && !effects.switched.is_empty();
+        let is_refused = is_coupled || effects.has(WideEffect::Refusal);
+        let mut ends: Vec<_> = is_refused
+            .then_some((None, EndedBy::Error))
+            .into_iter()
+            .collect();
         let refused = effects.refused.into_iter().map(|mut said| {
             let value = cause.seen_from(&said.place.file);
             let message = &mut said.message;
@@ -698,12 +759,12 @@ impl Interpreter {
             said
         });
         for said in refused {
-            self.may_end_at(Some(said.place.clone()), EndedBy::Error);
+            ends.push((Some(said.place.clone()), EndedBy::Error));
             self.scratch.of_some_ways.push(said);
         }
-        for place in effects.ends {
-            self.may_end_at(Some(place), EndedBy::M30);
-        }
+        let own = effects.ends.into_iter();
+        ends.extend(own.map(|place| (Some(place), EndedBy::M30)));
+        ends
     }
 
     /// The program may end at a block in the state in which it goes on.
@@ -736,20 +797,30 @@ impl Interpreter {
         (self.state.control, self.state.track) = here;
     }
 
-    /// FC901: a control block that cannot be followed is passed over, which leaves kinds unknown.
-    fn tell_passed(&mut self, cause: &Unknown, before: usize, mut said: Diagnostic) {
+    /// The kinds of each axis that are unknown.
+    fn unknown_kinds(&self) -> Vec<KindSet> {
+        let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
+        axes.map(|axis| self.state.control.compensation.unknown(axis))
+            .collect()
+    }
+
+    /// The kinds that are unknown and were not before, with their axes.
+    pub(crate) fn newly_unknown(&self, before: &[KindSet]) -> Vec<String> {
         let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
-        for (axis, doubted) in self.scratch.doubted.get(before..).unwrap_or_default() {
-            for kind in doubted.iter() {
-                let names = kinds.entry(kind).or_default();
-                let name = self.machine.axis(*axis).name.as_str();
-                if !names.contains(&name) {
-                    names.push(name);
-                }
+        for (place, now) in self.unknown_kinds().into_iter().enumerate() {
+            let axis = self.machine.axis(AxisIndex::new(place));
+            let before = before.get(place).copied().unwrap_or(KindSet::NONE);
+            for kind in now.without(before).intersection(axis.configured).iter() {
+                kinds.entry(kind).or_default().push(axis.name.as_str());
             }
         }
         let named = kinds.iter().map(|(kind, axes)| of_axes(*kind, axes));
-        let named: Vec<String> = named.collect();
+        named.collect()
+    }
+
+    /// FC901: a control block that cannot be followed is passed over, which leaves kinds unknown.
+    fn tell_passed(&mut self, cause: &Unknown, before: &[KindSet], mut said: Diagnostic) {
+        let named = self.newly_unknown(before);
         let is_new = !named.is_empty()
             && !self.scratch.unread.get()
             && self

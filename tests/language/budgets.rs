@@ -74,13 +74,16 @@ fn ran(text: &str, options: Options) -> Ran {
 }
 
 fn run(text: &str) -> Ran {
-    ran(text, Options::default().with_branches(Branches::Passed))
+    ran(
+        text,
+        Options::default().with_branches(Branches::OneFollowed),
+    )
 }
 
 fn going_on() -> Options {
     Options::default()
         .with_stop(StopPolicy::KeepGoing)
-        .with_branches(Branches::Passed)
+        .with_branches(Branches::OneFollowed)
 }
 
 #[test]
@@ -262,7 +265,7 @@ fn heard(text: &str, stop: StopPolicy) -> Heard {
     let options = SessionOptions::from(
         Options::default()
             .with_stop(stop)
-            .with_branches(Branches::Passed),
+            .with_branches(Branches::OneFollowed),
     );
     let mut session = Session::new(machine, options);
     let mut heard = Heard::default();

@@ -95,9 +95,9 @@ impl Bench {
         self
     }
 
-    /// Executes no branch under an unknown condition (R2.51).
+    /// Raises events on one way only (R14.8).
     pub(crate) fn passing_branches(mut self) -> Self {
-        self.options.run.branches = Branches::Passed;
+        self.options.run.branches = Branches::OneFollowed;
         self
     }
 

@@ -219,7 +219,7 @@ mod only {
     fn wildcards_are_expanded() {
         // R13.1
         let bench = Bench::new(&[("a.nc", SWITCH_OFF), ("B.NC", SWITCH_OFF), ("c.txt", "")]);
-        let output = bench.call(&["check", "*.nc"]);
+        let output = bench.call(&["check", "-v", "*.nc"]);
         let said = String::from_utf8(output.stderr).expect("text");
         assert!(said.contains("2 files checked"), "{said}");
         assert_eq!(bench.status(&["check", "*.mpf"]), Some(2));

@@ -28,7 +28,7 @@ use crate::interpreter::ways::question::{ConditionKind, MAX_ANSWERS};
 use crate::interpreter::ways::set::WaySet;
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
-use crate::syntax::ast::{BlockReference, Expression, Flow, Item, Operand};
+use crate::syntax::ast::{Block, BlockReference, Expression, Flow, Item, Operand};
 use crate::text::{Place, Span};
 
 impl Interpreter {
@@ -253,15 +253,29 @@ impl Interpreter {
                 let mut other = Goal::block(links.next);
                 let frame = self.state.control.frames.running_mut();
                 other.seeking = frame.and_then(|frame| frame.seeking.take());
-                (vec![Goal::block(next), other], vec![in_line(at.line)])
+                let wanted = match &other.seeking {
+                    Some(Seeking::Case(wanted)) => wanted.as_written(),
+                    _ => String::new(),
+                };
+                let text = compared(&wanted, flow, (at.block, at.text));
+                (vec![Goal::block(next), other], vec![text])
             }
-            _ => self.each_case(unit, links),
+            Flow::Switch(_, operand) => {
+                let subject = operand_text(*operand, (at.block, at.text));
+                self.each_case(unit, links, &subject)
+            }
+            _ => return,
         };
         self.part_by_cause(ConditionKind::Case, (cause, span), sides, at);
     }
 
     /// The blocks of the cases of a `$SWITCH`, whichever values they have, each with its name, and the block after it.
-    fn each_case(&mut self, unit: usize, switch: Links) -> (Vec<Goal>, Vec<Arc<str>>) {
+    fn each_case(
+        &mut self,
+        unit: usize,
+        switch: Links,
+        subject: &str,
+    ) -> (Vec<Goal>, Vec<Arc<str>>) {
         let mut goals = Vec::new();
         let mut texts = Vec::new();
         let mut entry = switch.next;
@@ -269,12 +283,16 @@ impl Interpreter {
         while entry < switch.end {
             let parsed = self.programs.parsed(unit, entry);
             let mut items = parsed.block.items.iter();
-            if items.any(|item| matches!(item, Item::Flow(Flow::Default, _))) {
+            let flow = items.find_map(|item| match item {
+                Item::Flow(flow, _) => Some(flow),
+                _ => None,
+            });
+            let Some(case @ Flow::Case(_)) = flow else {
                 after = entry;
                 break;
-            }
+            };
             goals.push(Goal::block(entry + 1));
-            texts.push(in_line(parsed.line));
+            texts.push(compared(subject, case, (&parsed.block, &parsed.text)));
             let next = self.programs.index(unit).links(entry).next;
             if next <= entry {
                 break;
@@ -627,7 +645,18 @@ impl ControlState {
     }
 }
 
-/// The name of a case whose value is not known.
-fn in_line(line: u32) -> Arc<str> {
-    format!("the case in line {line} applies").into()
+/// The condition that a case applies.
+fn compared(subject: &str, case: &Flow, block: (&Block, &str)) -> Arc<str> {
+    let value = match case {
+        Flow::Case(operand) => operand_text(*operand, block),
+        _ => String::new(),
+    };
+    format!("{subject} == {value}").into()
+}
+
+fn operand_text(operand: Operand, (block, text): (&Block, &str)) -> String {
+    match operand {
+        Operand::Expression(expression) => text_of(block, text, expression).0,
+        Operand::Number(number) => number.to_string(),
+    }
 }

@@ -51,7 +51,7 @@ impl Interpreter {
     /// Whether a user has chosen that the block jumps.
     pub(crate) fn is_jump_chosen(&self) -> bool {
         let next = self.state.control.frames.running().map(|it| it.next);
-        self.options.branches == Branches::Passed
+        self.options.branches == Branches::OneFollowed
             && matches!(self.sides.as_slice(), [only] if Some(only.to) != next)
     }
 
@@ -67,7 +67,7 @@ impl Interpreter {
         let here = base.control.frames.running().map_or(0, |it| it.next);
         let mut open: Vec<Path> = Vec::new();
         // The answer of a user is the one way that is followed.
-        let is_chosen = self.options.branches == Branches::Passed && meeting.is_none();
+        let is_chosen = self.options.branches == Branches::OneFollowed && meeting.is_none();
         for side in sides {
             let ways = base.track.reach.and(&side.ways);
             if ways.is_never() {

@@ -78,7 +78,7 @@ pub struct Interpreter {
     pub(crate) joined: Vec<Diagnostic>,
     /// Such messages that are withheld, because they were reported before or nothing differs.
     pub(crate) joined_withheld: Vec<Diagnostic>,
-    /// The answers among which the user may choose where no way is followed.
+    /// The answers among which the user may choose where one way is followed.
     pub(crate) offered: Vec<WayCondition>,
     /// The places of the chosen answers to the next such conditions.
     pub(crate) chosen: VecDeque<usize>,

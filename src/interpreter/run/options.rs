@@ -28,7 +28,7 @@ pub enum Branches {
     Followed,
     /// Events are raised on one way only: the blocks that another answer would pass over are executed without
     /// events, and what the ways agree on is known after them. This also applies where blocks report their motion.
-    Passed,
+    OneFollowed,
 }
 
 /// Options of a run.
@@ -57,7 +57,7 @@ pub struct Options {
 impl Options {
     /// Whether events are raised on one way only, and the others are its shadows (R14.8).
     pub(crate) fn follows_one_way(&self) -> bool {
-        self.branches == Branches::Passed || self.takes_motions()
+        self.branches == Branches::OneFollowed || self.takes_motions()
     }
 
     /// Whether blocks report their motion.

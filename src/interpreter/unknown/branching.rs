@@ -118,7 +118,7 @@ pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayA
 
 impl Interpreter {
     /// The answers to the condition in the last executed block, where only the machine knows which holds and none
-    /// was chosen ([`Branches::Passed`]).
+    /// was chosen ([`Branches::OneFollowed`]).
     pub fn offered(&self) -> &[WayCondition] {
         &self.offered
     }
@@ -150,7 +150,7 @@ impl Interpreter {
             return true;
         }
         self.offered.clear();
-        let offers = self.options.branches == Branches::Passed;
+        let offers = self.options.branches == Branches::OneFollowed;
         if let Some(kept) = &question.kept
             && let Some(own) = goals.get_mut(kept.sides.trailing_zeros() as usize)
         {

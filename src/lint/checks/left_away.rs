@@ -47,8 +47,13 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
             let parted = possible.filter(|it| !(is_lost && it.rests_on_calls()));
             let parted = parted.and(away);
             let known = command.filter(|_| end != State::Unknown);
+            // What is passed over may lead away, too.
+            let doubted = ended.found.history.latest(axis, kind, KindEffect::Doubted);
+            let doubted = away
+                .or(doubted)
+                .filter(|_| end == State::Unknown && !is_lost);
             let site = passed.or(parted).or(known);
-            if let Some(site) = site.or(last.map(|(_, site)| site)) {
+            if let Some(site) = site.or(last.map(|(_, site)| site)).or(doubted) {
                 let subject = LeftAwayKind {
                     linter,
                     axis,

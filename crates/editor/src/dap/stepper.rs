@@ -281,7 +281,7 @@ impl Stepper {
         let machine = Arc::new(machine.clone());
         let options = Options::default()
             .with_notes(Notes::Taken)
-            .with_branches(Branches::Passed);
+            .with_branches(Branches::OneFollowed);
         let mut here = Interpreter::new(Arc::clone(&machine), machine.compensation(), options);
         for (name, setting) in loaded.settings.iter().chain(settings) {
             here.set(name, setting);

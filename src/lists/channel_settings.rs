@@ -157,6 +157,11 @@ const FUNCTIONS: &str = "prog_start.g_gruppe[].nr";
 /// Kinds of synchronisation without an acknowledgement by the PLC: no output, or output only.
 const UNACKNOWLEDGED: [&str; 5] = ["NO_SYNCH", "MOS", "MOS_TS", "MEP_MOS", "MET_MOS"];
 
+/// Kinds of synchronisation with an acknowledgement (TF5200 Channel parameters, page 148946059).
+const ACKNOWLEDGED: [&str; 7] = [
+    "MVS_SVS", "MVS_SNS", "MNS_SNS", "MVS_SLM", "MEP_SVS", "MET_SVS", "MCS_SNS",
+];
+
 /// The keys of a pair of the coupling group 0: its follower, its leader, and 1 for a pair of spindles.
 const PAIR: [&str; 3] = [
     "synchro_data.koppel_gruppe[].paar[].log_achs_nr_slave",
@@ -213,8 +218,8 @@ impl ChannelDraft {
                     None => diagnostics.push(odd(entry, "`0` for mm or `1` for inch")),
                 }
             }
-            ("m_synch[]", &[function]) => self.synchronise((b'M', function), entry),
-            ("h_synch[]", &[function]) => self.synchronise((b'H', function), entry),
+            ("m_synch[]", &[function]) => self.synchronise((b'M', function), entry, diagnostics),
+            ("h_synch[]", &[function]) => self.synchronise((b'H', function), entry, diagnostics),
             ("prog_start.slope.profile", []) => {
                 let given = number(entry, diagnostics);
                 let profile = given
@@ -267,12 +272,27 @@ impl ChannelDraft {
         }
     }
 
-    /// The kind of synchronisation of a function, by its name or as a bit code.
-    fn synchronise(&mut self, function: (u8, u32), entry: &Entry) {
+    /// The kind of synchronisation of a function, by its name or as a bit code. One that is not known counts as
+    /// acknowledged.
+    fn synchronise(
+        &mut self,
+        function: (u8, u32),
+        entry: &Entry,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
         let text = entry.text().value.trim_matches('"').to_ascii_uppercase();
         let digits = text.strip_prefix("0X").map_or((&*text, 10), |it| (it, 16));
         let number = u32::from_str_radix(digits.0, digits.1).ok();
         let is_silent = UNACKNOWLEDGED.contains(&&*text) || number.is_some_and(|it| it < 2);
+        if !is_silent && number.is_none() && !ACKNOWLEDGED.contains(&&*text) {
+            let known = UNACKNOWLEDGED.iter().chain(&ACKNOWLEDGED);
+            let known: Vec<String> = known.map(|it| format!("`{it}`")).collect();
+            let help = format!(
+                "write one of {}, or its bit code; until then the PLC counts as acknowledging the function",
+                known.join(", ")
+            );
+            diagnostics.push(odd(entry, &help));
+        }
         self.acknowledged.insert(function, !is_silent);
     }
 

@@ -112,6 +112,7 @@ impl Configuration {
         } else {
             self.machine.axis_set = AxisSet::Configured;
         }
+        self.diagnostics.extend(equal_numbers(&axes));
         for draft in axes {
             let (finished, report) = draft.finish(&conditions, &mut self.diagnostics);
             self.machine.axes.push(finished);
@@ -176,4 +177,27 @@ fn not_startup(entries: &Entries) -> Diagnostic {
     let message = format!("`{}` is {what}, not a start-up list", source.name());
     Diagnostic::new(Code::Fc125, source.place(Span::new(0, 0)), message)
         .with_help("a start-up list (`hochlauf.lis`) names the lists of the axes and channels")
+}
+
+/// FC124 for each axis whose logical number an earlier one has, too: what names an axis by its number takes the first.
+fn equal_numbers(axes: &[AxisDraft]) -> impl Iterator<Item = Diagnostic> {
+    axes.iter().enumerate().filter_map(|(at, axis)| {
+        let number = axis.values.number.as_ref()?;
+        let numbered = |it: &&AxisDraft| {
+            let own = it.values.number.as_ref();
+            own.is_some_and(|own| own.value == number.value)
+        };
+        let first = axes[..at].iter().find(numbered)?;
+        let message = format!(
+            "axes `{}` and `{}` have the same number {}",
+            first.name, axis.name, number.value
+        );
+        let label = first.values.number.as_ref()?.place();
+        let said = Diagnostic::new(Code::Fc124, number.place(), message)
+            .with_label(label, "the other axis")
+            .with_help(
+                "give each axis its own number; value lists, couplings and axis exchange by number take the first",
+            );
+        Some(said)
+    })
 }

@@ -266,7 +266,7 @@ impl Auditor {
         let conditions: Vec<Option<u32>> = subjects
             .map(|&AuditedKind { axis, kind }| {
                 let is_open = configured.is_configured(axis, kind);
-                is_open.then(|| interpreter.find_open(axis, kind))?
+                is_open.then(|| interpreter.here.find_open(axis, kind))?
             })
             .collect();
         let side = |is_away| {

@@ -185,7 +185,7 @@ impl Session {
         for (name, position) in &options.start {
             interpreter.place(name, *position);
         }
-        interpreter.havoc_start();
+        interpreter.here.havoc_start();
         let start = interpreter.compensation().clone();
         Self {
             remark: undescribed(&machine, &options.switched)
@@ -371,7 +371,7 @@ impl Session {
 
     /// A restart of the control between two programs (R1.29).
     pub fn restart(&mut self) {
-        self.interpreter.restart();
+        self.interpreter.here.restart();
         self.stopped = false;
     }
 
@@ -431,7 +431,7 @@ impl Session {
         carried.variables.retain(|name, value| {
             let name = VariableName::read(name);
             let given = self.given.get(&name);
-            self.interpreter.only_programs_write(&name) || given != Some(value)
+            self.interpreter.here.only_programs_write(&name) || given != Some(value)
         });
         SavedState {
             schema: STATE_SCHEMA,

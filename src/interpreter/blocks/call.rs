@@ -6,14 +6,14 @@ use crate::diagnostic::Code;
 use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::after_motion_only;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Call, CallName, CallScope, Operand};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// Returns the program that a call statement names; `None` where the name is not known offline (R2.52).
     pub(crate) fn wanted(
         &mut self,

@@ -9,13 +9,13 @@ use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::effects::couple::gear_of;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::language::{AxisAction, AxisWords, Certainty, HashCommand, MotionKind, Moves};
 use crate::syntax::ast::{BracketArguments, Hash};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// A command in the bracket of an axis.
     pub(crate) fn move_by_bracket(&mut self, bracket: AxisBracket<'_>, at: &BlockContext<'_>) {
         let Some(axis) = self.axis_named(bracket.name) else {

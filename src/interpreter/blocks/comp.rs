@@ -10,7 +10,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::event::Outcome;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::ways::history::RepeatedSwitch;
 use crate::language::{ChainStep, HashCommand};
@@ -19,7 +19,7 @@ use crate::readings::Question;
 use crate::syntax::{Fault, is_axis_name};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     pub(crate) fn comp(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let before = self.scratch.changes.len();
         if self.state.control.optional != OptionalSection::Outside {

@@ -2,8 +2,8 @@
 
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::hash_parts::declared_name;
-use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::state::State;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
@@ -15,7 +15,7 @@ use crate::syntax::ast::{Declaration, Hash, Operand};
 use crate::syntax::{Fault, Subscript, VariableFamily, VariableName};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     pub(crate) fn delete(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         for argument in &hash.arguments {
             let Operand::Expression(place) = *argument else {

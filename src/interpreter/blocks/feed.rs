@@ -5,7 +5,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::programs::call_sites::is_main_program;
 use crate::interpreter::programs::wanted::{Configured, FunctionWord};
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::rounded;
@@ -17,7 +17,7 @@ use crate::text::Span;
 /// Last sentence on a feed move without a feed (PM/206811147).
 const PLC: &str = "unless the PLC gives the feed";
 
-impl Interpreter {
+impl Executor {
     /// Looks for a feed move that has no feed, or the feed 0, and for a negative feed.
     #[inline]
     pub(crate) fn check_feed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {

@@ -12,7 +12,7 @@ use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, Links};
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::unknown::branching::{Goal, MachineQuestion};
@@ -33,7 +33,7 @@ struct Count {
     step: Operand,
 }
 
-impl Interpreter {
+impl Executor {
     /// The condition of `$IF c $GOTO …`; `None` for any other statement.
     pub(crate) fn one_line_condition(
         &mut self,

@@ -9,7 +9,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::cycles::ModalCycles;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
@@ -23,7 +23,7 @@ use crate::text::Span;
 /// Number of axes that a message names.
 const MAX_NAMED: usize = 8;
 
-impl Interpreter {
+impl Executor {
     pub(crate) fn hash(
         &mut self,
         hash: &Hash,

@@ -9,7 +9,7 @@ use crate::interpreter::programs::file_names::{FileName, file_names};
 use crate::interpreter::programs::wanted::{Configured, FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
@@ -19,7 +19,7 @@ use crate::syntax::ast::{CallScope, GCall, Hash};
 use crate::syntax::{Fault, VariableName};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// An M, T or D word. A number that is not known offline may be any number.
     pub(crate) fn function_word(
         &mut self,

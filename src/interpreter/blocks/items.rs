@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::block_scratch::{AfterError, BlockScratch};
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stopping::{is_harmless, stops};
@@ -22,7 +22,7 @@ use crate::text::Span;
 /// Messages about one block that are reported one by one (R2.85).
 pub(crate) const MAX_SAID: usize = 1000;
 
-impl Interpreter {
+impl Executor {
     /// Returns the first place of the block that the control would refuse; nothing to its right is executed there.
     pub(crate) fn first_refusal(&self, block: &Block) -> Option<u32> {
         if self.options.stop == StopPolicy::KeepGoing {

@@ -2,14 +2,14 @@
 
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode};
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::lone_part::LonePart;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::expression::unquoted;
 use crate::syntax::Fault;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// Reports what shares the block with a macro and must not, or perhaps not.
     pub(crate) fn check_sharing(
         &mut self,

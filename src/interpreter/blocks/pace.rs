@@ -4,7 +4,7 @@
 use crate::interpreter::coordinates::pace::Factors;
 use crate::interpreter::coordinates::slope::SlopeSelection;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::language::{AxisAction, AxisCommand, HashAction, Holds, Simplification};
 use crate::syntax::ast::{Argument, BracketArguments, Hash, SpindleWord};
 use crate::text::Span;
@@ -28,7 +28,7 @@ pub(crate) struct AxisBracket<'a> {
     pub(crate) span: Span,
 }
 
-impl Interpreter {
+impl Executor {
     /// Notes a command that a commanded trace does not follow in full.
     pub(crate) fn simplify(&mut self, what: Simplification, holds: Holds) {
         if holds == Holds::Once {

@@ -12,7 +12,7 @@ use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::AfterError;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::path::Marked;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::unknown::branching::{Goal, MachineQuestion};
@@ -31,7 +31,7 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{Block, BlockReference, Expression, Flow, Item, Operand};
 use crate::text::{Place, Span};
 
-impl Interpreter {
+impl Executor {
     /// The run parts at a condition: where it holds and where it does not. Whether it can.
     pub(crate) fn part_at(
         &mut self,

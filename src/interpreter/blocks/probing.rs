@@ -1,12 +1,12 @@
 //! Blocks whose jump waits for the signal of a probe (R2.91).
 
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::language::GFunction;
 use crate::syntax::ast::{Address, Item};
 
-impl Interpreter {
+impl Executor {
     /// Whether the jump of a block waits for the signal of a probe (R2.91).
     pub(crate) fn jump_is_probed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) -> bool {
         if outcome.probes {

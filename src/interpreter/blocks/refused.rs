@@ -3,7 +3,7 @@
 use super::reported::StopScope;
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::cause::Unknown;
 use crate::language::Flushes;
 use crate::readings::{Alternative, Question};
@@ -44,7 +44,7 @@ impl PossibleRefusal {
     }
 }
 
-impl Interpreter {
+impl Executor {
     /// FC328: the control may refuse the block with an error; once a program for each text.
     #[cold]
     pub(crate) fn may_refuse(

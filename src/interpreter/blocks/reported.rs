@@ -7,7 +7,7 @@ use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::AfterError;
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::step::ControlStep;
@@ -47,7 +47,7 @@ pub(crate) enum StopScope {
     Alike(Arc<str>),
 }
 
-impl Interpreter {
+impl Executor {
     /// The program reports an error of its own. With the class 0 it goes on.
     pub(crate) fn report_error(
         &mut self,

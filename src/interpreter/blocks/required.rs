@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::AfterError;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::ways::history::Split;
 use crate::interpreter::ways::possible_state::ways_of;
@@ -17,7 +17,7 @@ use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// The axes that the block certainly moves, except by homing, and the words that move them (R1.36).
     fn moved_in_automatic(&self, words: AxisWords) -> Vec<(AxisIndex, Span)> {
         let homing_counts = self.machine.readings.takes_second(Question::Homing);

@@ -9,7 +9,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::LeftOpen;
 use crate::interpreter::run::cycles::{ModalCycles, Repeated, RepeatedCall};
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::step::{ControlStep, Passage, Request};
 use crate::interpreter::run::stopping::stops;
@@ -20,7 +20,7 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// Looks for the programs that a block calls.
     #[inline(never)]
     pub(crate) fn resolve_all(

@@ -5,7 +5,7 @@ use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::wanted::{CalledPart, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::BlockScratch;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::step::{AwaitedBlock, ControlStep, Destination};
@@ -16,7 +16,7 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, CallScope, Operand, Return, ReturnLevels, SequenceCall};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// `L SEQUENCE […]`
     pub(crate) fn sequence(
         &mut self,

@@ -9,13 +9,13 @@ use crate::interpreter::coordinates::motion::{
 use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::value::rounded;
 use crate::language::{AxisWords, Group};
 use crate::machine::AxisType;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// I, J, K or R of a circle.
     pub(crate) fn circle_word(&mut self, letter: u8, value: Option<f64>, span: Span) {
         let metric = self.state.control.modal.is_known(Group::Unit);

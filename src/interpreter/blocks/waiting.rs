@@ -3,7 +3,7 @@
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::location::Location;
@@ -11,7 +11,7 @@ use crate::interpreter::values::plain::{Truth, conclusions, is_written_by_machin
 use crate::syntax::Fault;
 use crate::syntax::ast::{Hash, Operand};
 
-impl Interpreter {
+impl Executor {
     /// The condition holds after the block, and its plain conclusions are held as values that the program set.
     pub(crate) fn wait_for(
         &mut self,

@@ -13,7 +13,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::AxisNameMeaning;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
@@ -34,7 +34,7 @@ struct LetterWord {
 /// The least number of an M function that the control refuses in any case.
 const FIRST_ABOVE_M: i64 = 1001;
 
-impl Interpreter {
+impl Executor {
     pub(crate) fn word(
         &mut self,
         word: &Word,
@@ -54,7 +54,7 @@ impl Interpreter {
             {
                 return Ok(());
             }
-            if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+            if let Some(axis) = self.names.letter(letter) {
                 self.axis_word(axis, word.span, number);
                 return Ok(());
             }
@@ -78,7 +78,7 @@ impl Interpreter {
                 if !are_own && self.exchanged_word((name, number), word.span, at) {
                     return;
                 }
-                match self.names.get(name).copied() {
+                match self.names.get(name) {
                     Some(axis) => self.axis_word(axis, word.span, number),
                     None if self.is_main_spindle(name) => {
                         self.state.control.modal.pace.speed(number);
@@ -203,7 +203,7 @@ impl Interpreter {
         let Some(Operand::Number(number)) = word.value else {
             return false;
         };
-        if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+        if let Some(axis) = self.names.letter(letter) {
             let is_own = self.state.control.channel_axes.are_own();
             if is_own {
                 self.axis_word(axis, word.span, Some(number));

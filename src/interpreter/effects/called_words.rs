@@ -3,14 +3,14 @@
 use crate::diagnostic::Code;
 use crate::interpreter::programs::wanted::{Configured, FunctionWord};
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// The program for a word, `G80`, `M6`, else for its letter.
     pub(crate) fn configured(&self, word: FunctionWord) -> Configured {
         let letter = char::from(word.letter);

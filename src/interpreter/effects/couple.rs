@@ -3,11 +3,11 @@
 use crate::comp::AxisIndex;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::language::{FurtherWord, Holds, MembersBy, Moves, OnOff, Simplification};
 use crate::syntax::ast::{Argument, BracketArguments, Hash};
 
-impl Interpreter {
+impl Executor {
     pub(crate) fn define_coupling(
         &mut self,
         hash: &Hash,

@@ -8,7 +8,7 @@ use crate::interpreter::coordinates::modal::PositionFrame;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::expression::{
     Evaluator, ExpressionScope, Macros, ParameterSource, misused,
 };
@@ -44,7 +44,7 @@ enum OwnVariable {
     Programmed(AxisIndex),
 }
 
-impl Interpreter {
+impl Executor {
     /// The value of an operand.
     pub(crate) fn value(
         &mut self,
@@ -411,7 +411,7 @@ impl Interpreter {
     }
 }
 
-impl Interpreter {
+impl Executor {
     /// FC412, FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and a `V.E.`
     /// variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
     fn read_flushes(&mut self, name: &VariableName, at: &BlockContext<'_>) {

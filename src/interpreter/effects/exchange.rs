@@ -12,7 +12,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::{Addressed, AxisNameMeaning, ChannelAxes};
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::value::rounded;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::language::{Exchange, FurtherWord};
@@ -21,7 +21,7 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{Argument, BracketArguments, Hash};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// Executes an exchange command.
     pub(crate) fn exchange_axes(&mut self, exchange: Exchange, hash: &Hash, at: &BlockContext<'_>) {
         self.state.control.modal.hash(hash.command);

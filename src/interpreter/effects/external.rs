@@ -1,11 +1,11 @@
 //! Programs that only the machine has (R2.83).
 
 use crate::interpreter::programs::wanted::WantedCall;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::cause::{MissingProgram, Unknown};
 use crate::syntax::ast::CallScope;
 
-impl Interpreter {
+impl Executor {
     /// Whether only the machine has the program.
     pub(crate) fn is_external(&self, wanted: &WantedCall) -> bool {
         wanted.word.is_some()

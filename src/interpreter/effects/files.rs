@@ -5,7 +5,7 @@ use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::outcome::{BlockOutcome, LookedFor};
 use crate::interpreter::values::cause::{MissingProgram, Unknown};
 use crate::interpreter::values::value::Value;
@@ -17,7 +17,7 @@ use crate::text::Span;
 /// The variable with the result of `#FILE EXIST`.
 const RESULT: &str = "V.G.FILE_EXIST";
 
-impl Interpreter {
+impl Executor {
     /// Executes a command on a file.
     pub(crate) fn file_command(
         &mut self,

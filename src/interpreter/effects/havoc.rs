@@ -3,7 +3,7 @@
 use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::coordinates::moving::MovedAxis;
 use crate::interpreter::run::block_scratch::BlockScratch;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::found::VariableUse;
 use crate::interpreter::values::location::Location;
@@ -12,7 +12,7 @@ use crate::language::{Certainty, MotionKind};
 use crate::syntax::ast::Effect as Unread;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// Makes unknown what text of unknown meaning could change (R2.70).
     pub(crate) fn havoc_unread(&mut self, effect: Unread, cause: &Unknown) {
         match effect {

@@ -3,7 +3,7 @@
 
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::value::rounded;
 use crate::machine::Machine;
 use crate::syntax::ast::{BracketArguments, Hash, Operand};
@@ -37,7 +37,7 @@ pub(crate) fn enables(arguments: &BracketArguments, text: &str) -> bool {
     value.is_some_and(|value| value.value == Some(Operand::Number(1.0)))
 }
 
-impl Interpreter {
+impl Executor {
     /// The axes whose list a command transfers again, with the kinds that NC commands have set there:
     /// all kinds where it writes a parameter of friction compensation.
     pub(crate) fn transferred(

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::state::State;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::{HeldValues, SetAt};
@@ -70,7 +70,7 @@ impl Doubt {
     }
 }
 
-impl Interpreter {
+impl Executor {
     /// Whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
     /// P-CHAN-00041, P-CHAN-00027.
     pub(crate) fn may_acknowledge(&self, letter: u8, number: Option<i64>) -> bool {

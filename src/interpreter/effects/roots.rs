@@ -2,13 +2,13 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::mentioned::MentionedUnknowns;
 use crate::interpreter::values::cause::Unknown;
 use crate::syntax::Fault;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// Adds a message about an unknown value once per program (FC902); again only where `what` differs.
     pub(crate) fn tell_once(
         &mut self,

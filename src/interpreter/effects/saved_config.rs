@@ -4,7 +4,7 @@ use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::saved_config::{SavedConfig, SavedItem};
 use crate::language::ConfigAction;
 use crate::syntax::Fault;
@@ -13,7 +13,7 @@ use crate::syntax::ast::Hash;
 /// The group in which saved couplings are restored.
 const RESTORED_GROUP: &str = "1";
 
-impl Interpreter {
+impl Executor {
     /// Executes a command of saved configurations.
     pub(crate) fn saved_config(
         &mut self,

@@ -15,14 +15,14 @@ impl Interpreter {
     #[must_use]
     pub fn settled(&self) -> Self {
         let mut copy = self.clone();
-        match copy.state.parked.take() {
+        match copy.here.state.parked.take() {
             Some(
                 step @ (ControlStep::Call(_) | ControlStep::Return | ControlStep::ReturnTo(_)),
             ) => {
                 // A return of the main program ends it; then nothing comes next.
-                let _ = copy.follow(step);
+                let _ = copy.others.follow(&mut copy.here, step);
             }
-            other => copy.state.parked = other,
+            other => copy.here.state.parked = other,
         }
         copy
     }
@@ -48,6 +48,6 @@ impl Interpreter {
             remark: None,
         };
         let at = BlockContext::of_raw(&file, &raw, &block, &shown);
-        copy.value(operand, &at).map_err(|fault| fault.message)
+        copy.here.value(operand, &at).map_err(|fault| fault.message)
     }
 }

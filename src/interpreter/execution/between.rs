@@ -2,6 +2,7 @@
 
 use super::ending::ProgramStop;
 use crate::comp::{Kind, KindSet};
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::readings::Question;
 
@@ -10,13 +11,15 @@ impl Interpreter {
     /// state, depending on the reading; kinds with manual activation are switched off in any case. Couplings and
     /// exchanged axes end with it, unless the channel list says otherwise.
     pub fn reset(&mut self) {
-        self.end_exchange(ProgramStop::Reset);
-        let _ = self.state.control.compensation.reset();
-        self.reset_friction();
-        self.scratch.changes.clear();
-        self.version += 1;
+        self.here.end_exchange(ProgramStop::Reset);
+        let _ = self.here.state.control.compensation.reset();
+        self.here.reset_friction();
+        self.here.scratch.changes.clear();
+        self.here.version += 1;
     }
+}
 
+impl Executor {
     /// If the state before the start of the control is not known, friction compensation is unknown where
     /// the machine is read as keeping it (R1.29).
     pub(crate) fn havoc_start(&mut self) {

@@ -9,6 +9,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
 use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
@@ -32,7 +33,7 @@ fn is_still(item: &Item) -> bool {
     )
 }
 
-impl Interpreter {
+impl Executor {
     /// Checks the motion of the axes of a block: the axes that move with its words, and whether
     /// each may.
     #[inline]
@@ -58,31 +59,6 @@ impl Interpreter {
         }
     }
 
-    /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
-    /// messages.
-    #[inline]
-    fn begin_block(&mut self, at: &BlockContext<'_>) -> usize {
-        self.scratch.clear();
-        let are_told = self.joined.is_empty() && self.joined_withheld.is_empty();
-        if !(are_told || self.state.track.is_shadow()) {
-            self.scratch.diagnostics.append(&mut self.joined);
-            self.scratch
-                .aside
-                .withheld
-                .append(&mut self.joined_withheld);
-        }
-        if !self.state.track.shadow.moved.is_empty() && !self.state.track.is_shadow() {
-            self.take_moves_of_shadows();
-        }
-        let first = self.scratch.diagnostics.len();
-        self.state.seq += 1;
-        self.state.blocks += 1;
-        if self.state.track.searching.is_some() {
-            self.search(at);
-        }
-        first
-    }
-
     /// Remembers the axes that a shadow moves.
     #[cold]
     fn note_moves_of_shadow(&mut self) {
@@ -100,28 +76,6 @@ impl Interpreter {
         }
     }
 
-    /// Finds the programs that a block calls.
-    #[inline]
-    fn take_calls(
-        &mut self,
-        outcome: &mut BlockOutcome,
-        at: &BlockContext<'_>,
-        finder: &mut dyn Finder,
-    ) -> Vec<Request> {
-        if outcome.calls.is_empty() {
-            return Vec::new();
-        }
-        if !outcome.goes_on() {
-            self.pass_over_calls(outcome, at);
-            return Vec::new();
-        }
-        let calls = self.resolve_all(std::mem::take(&mut outcome.calls), at, finder);
-        if self.state.waiting.is_empty() {
-            return calls;
-        }
-        self.without_open_recursion(calls, at, finder)
-    }
-
     /// Returns whether a block did no more than move.
     #[inline]
     fn is_plain(&self) -> bool {
@@ -129,95 +83,6 @@ impl Interpreter {
             && self.scratch.unsaid.is_none()
             && self.state.work.level() <= self.options.limits.work
             && self.state.work.ways() <= self.options.limits.ways
-    }
-
-    /// Executes a block and informs the observer. `Continue` where the next block follows.
-    pub(crate) fn execute(
-        &mut self,
-        at: &BlockContext<'_>,
-        finder: &mut dyn Finder,
-        observer: &mut dyn Observer,
-    ) -> ControlFlow<NextBlock> {
-        let first = self.begin_block(at);
-        let mut outcome = BlockOutcome::default();
-        let limit = self.first_refusal(at.block);
-        let number = self.block_number(at);
-        let undecided = self.undecided_level(at.block);
-        if let Some(level) = undecided {
-            let whole = Span::new(0, at.text.trim_end().len());
-            self.pass_over_part(Unknown::SkipLevel(level), whole, at);
-        } else if !self.is_halted() {
-            self.remembered_items(at, &mut outcome, limit);
-        }
-        self.look_at_motion(&outcome, at);
-        self.outdate_readings(at);
-        self.pass_over_parts(&mut outcome, finder);
-        let calls = self.take_calls(&mut outcome, at, finder);
-        if let Some(name) = outcome.looks_for.take() {
-            self.look_for_file(name, at, finder);
-        }
-        if self.scratch.plc_acts {
-            self.let_plc_act();
-        }
-        let refused = limit.is_some() || self.scratch.diagnostics.iter().any(stops);
-        let stopped = refused && self.options.stop == StopPolicy::FirstError;
-        if refused {
-            self.fail(AfterError::Reset, at);
-        }
-        if !at.block.faults.is_empty() {
-            self.take_faults(at, stopped);
-        }
-        if !stopped {
-            self.move_axes(&outcome, at);
-        }
-        let is_over = self.account(at);
-        let step = if is_over || self.scratch.too_deep {
-            Some(ControlStep::End(EndedBy::Budget))
-        } else if stopped {
-            Some(ControlStep::End(ended_by(&self.scratch.diagnostics)))
-        } else if calls.is_empty() && outcome.goes_on() && self.state.control.cycles.is_empty() {
-            None
-        } else {
-            match self.step(outcome, calls, at, finder) {
-                Some(ControlStep::Jump(target)) if self.state.control.frames.is_passed(target) => {
-                    Some(self.come_round(target, finder))
-                }
-                step => step,
-            }
-        };
-        let step = match step {
-            Some(ControlStep::End(EndedBy::Error)) => Some(self.end_by_error(at)),
-            step => step,
-        };
-        self.limit_messages(first);
-        self.note_doubts(at);
-        if self.state.track.is_shadow() {
-            self.note_moves_of_shadow();
-            self.scratch.clear_said();
-            return match step {
-                None => ControlFlow::Continue(()),
-                Some(step) => ControlFlow::Break(NextBlock::Step(step)),
-            };
-        }
-        if self.options.takes_motions() && self.scratch.motion.is_some() {
-            let State {
-                track,
-                waiting,
-                ended,
-                ..
-            } = &mut self.state;
-            track.shadow.moves_alone |= !(waiting.is_empty() && ended.is_empty());
-        }
-        let flow = self.raise(number, stopped, at, observer);
-        self.scratch.clear_said();
-        match step {
-            step if flow.is_break() => {
-                self.state.parked = step;
-                ControlFlow::Break(NextBlock::Paused)
-            }
-            None => ControlFlow::Continue(()),
-            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
-        }
     }
 
     /// Informs the observer of a block.
@@ -442,6 +307,151 @@ impl Interpreter {
         }
         for doubted in &self.scratch.doubted {
             history.doubt(*doubted, KindEffect::Doubted, site());
+        }
+    }
+}
+
+impl Interpreter {
+    /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
+    /// messages.
+    #[inline]
+    fn begin_block(&mut self, at: &BlockContext<'_>) -> usize {
+        self.here.scratch.clear();
+        let are_told = self.others.joined.is_empty() && self.others.joined_withheld.is_empty();
+        if !(are_told || self.here.state.track.is_shadow()) {
+            self.here
+                .scratch
+                .diagnostics
+                .append(&mut self.others.joined);
+            self.here
+                .scratch
+                .aside
+                .withheld
+                .append(&mut self.others.joined_withheld);
+        }
+        if !self.here.state.track.shadow.moved.is_empty() && !self.here.state.track.is_shadow() {
+            self.here.take_moves_of_shadows();
+        }
+        let first = self.here.scratch.diagnostics.len();
+        self.here.state.seq += 1;
+        self.here.state.blocks += 1;
+        if self.here.state.track.searching.is_some() {
+            self.here.search(at);
+        }
+        first
+    }
+
+    /// Finds the programs that a block calls.
+    #[inline]
+    fn take_calls(
+        &mut self,
+        outcome: &mut BlockOutcome,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        if outcome.calls.is_empty() {
+            return Vec::new();
+        }
+        if !outcome.goes_on() {
+            self.here.pass_over_calls(outcome, at);
+            return Vec::new();
+        }
+        let calls = self
+            .here
+            .resolve_all(std::mem::take(&mut outcome.calls), at, finder);
+        if self.others.waiting.is_empty() {
+            return calls;
+        }
+        self.others
+            .without_open_recursion(&mut self.here, calls, at, finder)
+    }
+
+    /// Executes a block and informs the observer. `Continue` where the next block follows.
+    pub(crate) fn execute(
+        &mut self,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<NextBlock> {
+        let first = self.begin_block(at);
+        let mut outcome = BlockOutcome::default();
+        let limit = self.here.first_refusal(at.block);
+        let number = self.here.block_number(at);
+        let undecided = self.here.undecided_level(at.block);
+        if let Some(level) = undecided {
+            let whole = Span::new(0, at.text.trim_end().len());
+            self.here
+                .pass_over_part(Unknown::SkipLevel(level), whole, at);
+        } else if !self.here.is_halted() {
+            self.here.remembered_items(at, &mut outcome, limit);
+        }
+        self.here.look_at_motion(&outcome, at);
+        self.here.outdate_readings(at);
+        self.here.pass_over_parts(&mut outcome, finder);
+        self.others.let_leave(&mut self.here);
+        let calls = self.take_calls(&mut outcome, at, finder);
+        if let Some(name) = outcome.looks_for.take() {
+            self.here.look_for_file(name, at, finder);
+        }
+        if self.here.scratch.plc_acts {
+            self.here.let_plc_act();
+        }
+        let refused = limit.is_some() || self.here.scratch.diagnostics.iter().any(stops);
+        let stopped = refused && self.here.options.stop == StopPolicy::FirstError;
+        if refused {
+            self.here.fail(AfterError::Reset, at);
+        }
+        if !at.block.faults.is_empty() {
+            self.here.take_faults(at, stopped);
+        }
+        if !stopped {
+            self.here.move_axes(&outcome, at);
+        }
+        let is_over = self.here.account(at);
+        let step = if is_over || self.here.scratch.too_deep {
+            Some(ControlStep::End(EndedBy::Budget))
+        } else if stopped {
+            Some(ControlStep::End(ended_by(&self.here.scratch.diagnostics)))
+        } else if calls.is_empty() && outcome.goes_on() && self.here.state.control.cycles.is_empty()
+        {
+            None
+        } else {
+            match self.here.step(outcome, calls, at, finder) {
+                Some(ControlStep::Jump(target))
+                    if self.here.state.control.frames.is_passed(target) =>
+                {
+                    Some(self.others.come_round(&mut self.here, target, finder))
+                }
+                step => step,
+            }
+        };
+        let step = match step {
+            Some(ControlStep::End(EndedBy::Error)) => Some(self.here.end_by_error(at)),
+            step => step,
+        };
+        self.here.limit_messages(first);
+        self.here.note_doubts(at);
+        if self.here.state.track.is_shadow() {
+            self.here.note_moves_of_shadow();
+            self.here.scratch.clear_said();
+            return match step {
+                None => ControlFlow::Continue(()),
+                Some(step) => ControlFlow::Break(NextBlock::Step(step)),
+            };
+        }
+        if self.here.options.takes_motions() && self.here.scratch.motion.is_some() {
+            let is_alone = self.others.waiting.is_empty() && self.here.state.ended.is_empty();
+            self.here.state.track.shadow.moves_alone |= !is_alone;
+        }
+        let flow = self.here.raise(number, stopped, at, observer);
+        self.here.scratch.clear_said();
+        match step {
+            step if flow.is_break() => {
+                self.here.state.parked = step;
+                ControlFlow::Break(NextBlock::Paused)
+            }
+            None => ControlFlow::Continue(()),
+            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
         }
     }
 }

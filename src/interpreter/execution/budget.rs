@@ -3,12 +3,12 @@
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic, Severity};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::cause::Unknown;
 use crate::syntax::Fault;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// FC910 when the next block may not be executed any more.
     #[inline]
     pub(crate) fn over_budget(&self, at: &BlockContext<'_>) -> Option<Diagnostic> {

@@ -7,13 +7,15 @@ use std::sync::Arc;
 use crate::interpreter::programs::call_sites::holds_program_end;
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::stack::{CallFrame, Retains};
 use crate::interpreter::run::step::{ControlStep, Destination, Request};
 use crate::lists::ChannelSwitch;
 use crate::syntax::ast::CallForm;
 
-impl Interpreter {
+impl Executor {
     /// Whether the running program has M30 or M02 after its last executed block; `None` if its lines are read one
     /// after another.
     fn holds_end_after(&self) -> Option<bool> {
@@ -75,36 +77,6 @@ impl Interpreter {
         }
     }
 
-    /// Calls the next of several programs that one block calls.
-    #[cold]
-    pub(crate) fn call_waiting(&mut self) -> ControlFlow<EndedBy> {
-        let frame = self.state.control.frames.running_mut();
-        match frame.and_then(|frame| frame.waiting.pop()) {
-            Some(request) => self.call(request),
-            None => ControlFlow::Continue(()),
-        }
-    }
-
-    /// Begins a part of a program once more, or leaves a program.
-    pub(crate) fn end_of_pass(&mut self) {
-        let executed = self.state.seq;
-        let frame = self.state.control.frames.running_mut();
-        let again = frame.and_then(|frame| {
-            let start = frame.passage.as_mut()?.again(executed)?;
-            frame.next = start;
-            frame.seeking = None;
-            Some(())
-        });
-        if again.is_none() {
-            self.note_return();
-            self.come_back_from_call();
-        } else {
-            // Its loops begin anew.
-            let depth = self.state.control.frames.depth();
-            self.state.track.loops.retain(|known| known.depth < depth);
-        }
-    }
-
     /// Notes a call of a whole file that comes back from its end (R17.2).
     fn note_return(&mut self) {
         let Some(frame) = self.state.control.frames.running() else {
@@ -114,33 +86,6 @@ impl Interpreter {
         let is_whole = frame.level > 0 && frame.passage.is_none();
         if is_whole && self.programs.index(unit).main == Some(section) {
             self.programs.unit_mut(unit).returned = true;
-        }
-    }
-
-    /// The called files that were executed to their end.
-    pub fn returned_files(&self) -> impl Iterator<Item = &Arc<str>> {
-        let units = self.programs.units().iter().skip(1);
-        let returned = units.filter(|unit| unit.returned);
-        returned.map(|unit| unit.index.source.name())
-    }
-
-    /// Leaves programs down to the one that is returned to.
-    pub(crate) fn go_back(&mut self, to: &Destination) {
-        while self
-            .state
-            .control
-            .frames
-            .running()
-            .is_some_and(|frame| frame.level > to.level)
-        {
-            self.leave_for_elsewhere();
-        }
-        if let Some(frame) = self.state.control.frames.running_mut() {
-            frame.waiting.clear();
-            if let Some(entry) = to.entry {
-                frame.next = entry;
-                frame.seeking = None;
-            }
         }
     }
 
@@ -160,19 +105,75 @@ impl Interpreter {
             passage: None,
         });
     }
+}
+
+impl OtherPaths {
+    /// Calls the next of several programs that one block calls.
+    #[cold]
+    pub(crate) fn call_waiting(&mut self, here: &mut Executor) -> ControlFlow<EndedBy> {
+        let frame = here.state.control.frames.running_mut();
+        match frame.and_then(|frame| frame.waiting.pop()) {
+            Some(request) => self.call(here, request),
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Begins a part of a program once more, or leaves a program.
+    pub(crate) fn end_of_pass(&mut self, here: &mut Executor) {
+        let executed = here.state.seq;
+        let frame = here.state.control.frames.running_mut();
+        let again = frame.and_then(|frame| {
+            let start = frame.passage.as_mut()?.again(executed)?;
+            frame.next = start;
+            frame.seeking = None;
+            Some(())
+        });
+        if again.is_none() {
+            here.note_return();
+            self.come_back_from_call(here);
+        } else {
+            // Its loops begin anew.
+            let depth = here.state.control.frames.depth();
+            here.state.track.loops.retain(|known| known.depth < depth);
+        }
+    }
+
+    /// Leaves programs down to the one that is returned to.
+    pub(crate) fn go_back(&mut self, here: &mut Executor, to: &Destination) {
+        while here
+            .state
+            .control
+            .frames
+            .running()
+            .is_some_and(|frame| frame.level > to.level)
+        {
+            self.leave_for_elsewhere(here);
+        }
+        if let Some(frame) = here.state.control.frames.running_mut() {
+            frame.waiting.clear();
+            if let Some(entry) = to.entry {
+                frame.next = entry;
+                frame.seeking = None;
+            }
+        }
+    }
 
     /// Executes the step that a block requested. `Break` when the program ends.
-    pub(crate) fn follow(&mut self, step: ControlStep) -> ControlFlow<EndedBy> {
+    pub(crate) fn follow(
+        &mut self,
+        here: &mut Executor,
+        step: ControlStep,
+    ) -> ControlFlow<EndedBy> {
         match step {
             // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
             ControlStep::Begin => {}
             ControlStep::Jump(entry) => {
-                if let Some(endless) = self.endless_loop() {
-                    self.scratch.over.push(endless);
-                    self.scratch.endless = true;
+                if let Some(endless) = here.endless_loop() {
+                    here.scratch.over.push(endless);
+                    here.scratch.endless = true;
                     return ControlFlow::Break(EndedBy::Budget);
                 }
-                if let Some(frame) = self.state.control.frames.running_mut() {
+                if let Some(frame) = here.state.control.frames.running_mut() {
                     frame.next = entry;
                 }
             }
@@ -180,30 +181,39 @@ impl Interpreter {
                 let Some(first) = (!requests.is_empty()).then(|| requests.remove(0)) else {
                     return ControlFlow::Continue(());
                 };
-                if let Some(frame) = self.state.control.frames.running_mut() {
+                if let Some(frame) = here.state.control.frames.running_mut() {
                     requests.reverse();
                     frame.waiting = requests;
                 }
-                return self.call(first);
+                return self.call(here, first);
             }
-            ControlStep::Return => match self.state.control.frames.running() {
-                Some(frame) if frame.level > 0 => self.end_of_pass(),
+            ControlStep::Return => match here.state.control.frames.running() {
+                Some(frame) if frame.level > 0 => self.end_of_pass(here),
                 _ => {
                     // A subprogram run by itself ends as it should; one that holds M30 is a main program. For a program
                     // read line by line, this is decided when the rest of its lines is available.
-                    if self.holds_end_after() == Some(false) {
-                        self.state.last = None;
+                    if here.holds_end_after() == Some(false) {
+                        here.state.last = None;
                     }
                     return ControlFlow::Break(EndedBy::EndOfFile);
                 }
             },
-            ControlStep::ReturnTo(destination) => self.go_back(&destination),
+            ControlStep::ReturnTo(destination) => self.go_back(here, &destination),
             ControlStep::End(by) => return ControlFlow::Break(by),
             ControlStep::Covered => {
-                self.scratch.covered = true;
+                here.scratch.covered = true;
                 return ControlFlow::Break(EndedBy::EndOfFile);
             }
         }
         ControlFlow::Continue(())
+    }
+}
+
+impl Interpreter {
+    /// The called files that were executed to their end.
+    pub fn returned_files(&self) -> impl Iterator<Item = &Arc<str>> {
+        let units = self.here.programs.units().iter().skip(1);
+        let returned = units.filter(|unit| unit.returned);
+        returned.map(|unit| unit.index.source.name())
     }
 }

@@ -1,7 +1,7 @@
 //! The work of following several ways, in units (R9.91).
 
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::ways::set::WaySet;
 
 /// Units of a block on one of several ways, with the row that shows it.
@@ -16,7 +16,7 @@ const LEVEL: u64 = 100;
 /// Units of a pair of answers: ways that meet are compared with each other until none can be left out.
 const PAIR: u64 = 20;
 
-impl Interpreter {
+impl Executor {
     /// Counts the work of copying a state, or of comparing it with another one.
     pub(crate) fn charge_copies(&self, control: &ControlState, reach: &WaySet) {
         let levels = LEVEL.saturating_mul(control.frames.depth() as u64);

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::interpreter::run::call_effects::{CallEffect, CalledAt, context};
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::loop_heads::Arrival;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::Path;
 use crate::interpreter::run::stack::CallStack;
 use crate::interpreter::run::step::{ControlStep, Request};
@@ -14,30 +15,30 @@ use crate::interpreter::values::cause::Unknown;
 /// Share of the budget of ways that is used before calls are no longer followed one by one: a quarter.
 const SHARE: u64 = 4;
 
-impl Interpreter {
+impl OtherPaths {
     /// Calls a program. Its blocks are executed, unless they were in every state that this one can be; `Break` where
     /// it is known never to come back.
-    pub(super) fn call(&mut self, request: Request) -> ControlFlow<EndedBy> {
+    pub(super) fn call(&mut self, here: &mut Executor, request: Request) -> ControlFlow<EndedBy> {
         let is_whole = request.passage.is_none();
-        self.push_call(request);
-        if is_whole && self.state.work.ways() > self.options.limits.ways / SHARE {
-            return self.call_on_ways();
+        here.push_call(request);
+        if is_whole && here.state.work.ways() > here.options.limits.ways / SHARE {
+            return self.call_on_ways(here);
         }
         ControlFlow::Continue(())
     }
 
     #[cold]
-    fn call_on_ways(&mut self) -> ControlFlow<EndedBy> {
-        let track = &self.state.track;
-        let Some(called) = self.called().filter(|_| track.searching.is_none()) else {
+    fn call_on_ways(&mut self, here: &mut Executor) -> ControlFlow<EndedBy> {
+        let track = &here.state.track;
+        let Some(called) = here.called().filter(|_| track.searching.is_none()) else {
             return ControlFlow::Continue(());
         };
-        let way = self.entry_of_call();
-        let context = context(&self.state.control.frames, called.0);
-        let waiting = &self.state.waiting;
-        let Some(effect) = self.state.call_effects.get_mut(called) else {
+        let way = here.entry_of_call();
+        let context = context(&here.state.control.frames, called.0);
+        let waiting = &self.waiting;
+        let Some(effect) = self.call_effects.get_mut(called) else {
             let effect = CallEffect::of(way, context);
-            self.state.call_effects.insert(called, effect);
+            self.call_effects.insert(called, effect);
             return ControlFlow::Continue(());
         };
         if waiting
@@ -48,33 +49,64 @@ impl Interpreter {
         }
         match effect.take_in(way, &Unknown::Ways) {
             Arrival::Covered => {
-                let after = effect.after(&self.state.track.reach);
-                self.go_on_after_call(after)
+                let after = effect.after(&here.state.track.reach);
+                self.go_on_after_call(here, after)
             }
             Arrival::Grown => {
                 effect.context = context;
                 let entry = effect.entry().clone();
-                let callers = self.state.control.frames.without_running();
-                self.take_state(entry, callers);
+                let callers = here.state.control.frames.without_running();
+                here.take_state(entry, callers);
                 ControlFlow::Continue(())
             }
         }
     }
 
     /// The effect of a call is known: the run continues after it.
-    fn go_on_after_call(&mut self, after: Option<Path>) -> ControlFlow<EndedBy> {
+    fn go_on_after_call(
+        &mut self,
+        here: &mut Executor,
+        after: Option<Path>,
+    ) -> ControlFlow<EndedBy> {
         let Some(after) = after else {
-            return self.follow(ControlStep::Covered);
+            return self.follow(here, ControlStep::Covered);
         };
-        let callers = self.state.control.frames.without_running();
+        let callers = here.state.control.frames.without_running();
         let depth = callers.depth();
-        self.state.track.reach.clone_from(&after.track.reach);
-        self.take_state(after, callers);
-        self.state.track.readings.clear();
-        self.state.track.change_level(depth);
+        here.state.track.reach.clone_from(&after.track.reach);
+        here.take_state(after, callers);
+        here.state.track.readings.clear();
+        here.state.track.change_level(depth);
         ControlFlow::Continue(())
     }
 
+    /// The running program comes back to the one that called it.
+    pub(super) fn come_back_from_call(&mut self, here: &mut Executor) {
+        let called = here.called().filter(|_| !self.call_effects.is_empty());
+        here.leave();
+        let Some(called) = called else {
+            return;
+        };
+        let mut way = here.entry_of_call();
+        way.control.frames.clear();
+        let context = context(&here.state.control.frames, called.0);
+        if let Some(effect) = self.call_effects.get_mut(called)
+            && effect.context == context
+        {
+            effect.come_back(way, &Unknown::Ways);
+        }
+    }
+
+    /// The running program is left for another place than the block after its call.
+    pub(super) fn leave_for_elsewhere(&mut self, here: &mut Executor) {
+        if let Some(called) = here.called() {
+            self.call_effects.remove(called);
+        }
+        here.leave();
+    }
+}
+
+impl Executor {
     /// Continues in a state, whose programs are called by others.
     fn take_state(&mut self, state: Path, mut callers: CallStack) {
         let Path {
@@ -103,33 +135,6 @@ impl Interpreter {
         let mut entry = self.state.arriving();
         entry.control.frames = entry.control.frames.running_alone();
         entry
-    }
-
-    /// The running program comes back to the one that called it.
-    pub(super) fn come_back_from_call(&mut self) {
-        let called = self
-            .called()
-            .filter(|_| !self.state.call_effects.is_empty());
-        self.leave();
-        let Some(called) = called else {
-            return;
-        };
-        let mut way = self.entry_of_call();
-        way.control.frames.clear();
-        let context = context(&self.state.control.frames, called.0);
-        if let Some(effect) = self.state.call_effects.get_mut(called)
-            && effect.context == context
-        {
-            effect.come_back(way, &Unknown::Ways);
-        }
-    }
-
-    /// The running program is left for another place than the block after its call.
-    pub(super) fn leave_for_elsewhere(&mut self) {
-        if let Some(called) = self.called() {
-            self.state.call_effects.remove(called);
-        }
-        self.leave();
     }
 }
 

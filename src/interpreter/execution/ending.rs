@@ -12,6 +12,7 @@ use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
 use crate::interpreter::run::path::Last;
@@ -35,12 +36,12 @@ pub(crate) enum ProgramStop {
 impl Interpreter {
     /// Whether faults of the main program keep it from running.
     pub(crate) fn is_refused(&self) -> bool {
-        !self.programs.refused().is_empty() && self.options.stop == StopPolicy::FirstError
+        !self.here.programs.refused().is_empty() && self.here.options.stop == StopPolicy::FirstError
     }
 
     /// Ends a program that does not run.
     pub(crate) fn refuse(&mut self, observer: &mut dyn Observer) -> RunOutcome {
-        let refused = self.programs.refused();
+        let refused = self.here.programs.refused();
         self.ended(ended_by(&refused.said), &refused, observer)
     }
 
@@ -49,17 +50,106 @@ impl Interpreter {
         let RunOutcome::Ended(by) = outcome else {
             return outcome;
         };
-        let mut notes = self.programs.refused();
-        notes.extend(self.scratch.over.drain(..));
-        if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
-            notes.extend(self.state.missing_end());
+        let mut notes = self.here.programs.refused();
+        notes.extend(self.here.scratch.over.drain(..));
+        if by == EndedBy::EndOfFile && !self.here.state.control.frames.is_empty() {
+            notes.extend(self.here.state.missing_end());
         }
-        if self.options.stop == StopPolicy::CheckAll {
-            self.check_all_unexecuted(&mut notes);
+        if self.here.options.stop == StopPolicy::CheckAll {
+            self.here.check_all_unexecuted(&mut notes);
         }
         self.ended(by, &notes, observer)
     }
 
+    pub(crate) fn ended(
+        &mut self,
+        by: EndedBy,
+        notes: &Collected,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        let mut notes = Cow::Borrowed(notes);
+        if let Some(open) = self.here.state.control.open_description()
+            && matches!(by, EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
+        {
+            notes.to_mut().push(open);
+        }
+        let beside = self.beside_blocks(by);
+        if !beside.is_empty() {
+            notes.to_mut().append(&beside);
+        }
+        let ended = if self.here.state.ended.is_empty() {
+            if by == EndedBy::Error {
+                self.here.reset_friction();
+            }
+            let State { track, control, .. } = &mut self.here.state;
+            track.assumed.undo(&mut control.memory);
+            MetWays {
+                by,
+                ends: Vec::new(),
+                stopped: None,
+            }
+        } else {
+            self.others.meet_ended(&mut self.here, by)
+        };
+        let by = ended.by;
+        self.here.let_plc_act();
+        notes.to_mut().extend(self.others.joined.drain(..));
+        notes
+            .to_mut()
+            .extend(self.here.scratch.of_some_ways.drain(..));
+        notes.to_mut().extend(self.here.missed_search());
+        let at = self.here.scratch.end.take();
+        let mut ends = self.here.own_end(by, at.as_ref());
+        if !ended.ends.is_empty() {
+            ends.splice(..1.min(ends.len()), ended.ends);
+        }
+        // R2.84: only a reset ends a loop without an end.
+        if self.here.scratch.endless {
+            self.here.reset_friction();
+        }
+        let mut changes = std::mem::take(&mut self.here.scratch.changes);
+        changes.extend(self.here.state.control.compensation.program_end());
+        if !changes.is_empty() {
+            self.here.version += 1;
+        }
+        for change in &changes {
+            let kinds = KindSet::of(change.kind);
+            self.here.state.control.history.close(change.axis, kinds);
+        }
+        self.here.state.control.frames.clear();
+        self.here.end_exchange(match by {
+            EndedBy::Error => ProgramStop::Reset,
+            _ if self.here.scratch.endless => ProgramStop::Reset,
+            _ => ProgramStop::End,
+        });
+        self.here.state.control.couplings.end_following();
+        // The program ends on all ways.
+        self.here.state.track.reach = WaySet::always();
+        self.here.version += u64::from(self.here.state.control.history.is_open());
+        self.here.show_ways();
+        // Whether or not the observer wants more events, the program has ended.
+        let _ = observer.event(Event::Ended(Ended {
+            seq: self.here.state.seq,
+            by,
+            endless: std::mem::take(&mut self.here.scratch.endless),
+            at: at.as_ref().map(|end| &end.place),
+            ends: &ends,
+            found: self.here.state.found_states(),
+            stopped: ended.stopped.as_ref(),
+            failed: self.here.state.track.failed.as_deref(),
+            changes: &changes,
+            diagnostics: &notes.said,
+            unsaid: &notes.unsaid,
+            compensation: &self.here.state.control.compensation,
+            possible: &self.here.shown.possible,
+            occurred: &self.here.state.occurred,
+            version: self.here.version,
+        }));
+        RunOutcome::Ended(by)
+    }
+}
+
+impl Executor {
     /// P-ERR-21500 to 21502: the text ends while the control skips it for a false `$IF` without `$ENDIF` (R2.103).
     /// Returns whether the run stops there.
     #[cold]
@@ -92,91 +182,6 @@ impl Interpreter {
         }
         self.fail(AfterError::Reset, &at);
         false
-    }
-
-    pub(crate) fn ended(
-        &mut self,
-        by: EndedBy,
-        notes: &Collected,
-        observer: &mut dyn Observer,
-    ) -> RunOutcome {
-        let mut notes = Cow::Borrowed(notes);
-        if let Some(open) = self.state.control.open_description()
-            && matches!(by, EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
-        {
-            notes.to_mut().push(open);
-        }
-        let beside = self.beside_blocks(by);
-        if !beside.is_empty() {
-            notes.to_mut().append(&beside);
-        }
-        let ended = if self.state.ended.is_empty() {
-            if by == EndedBy::Error {
-                self.reset_friction();
-            }
-            let State { track, control, .. } = &mut self.state;
-            track.assumed.undo(&mut control.memory);
-            MetWays {
-                by,
-                ends: Vec::new(),
-                stopped: None,
-            }
-        } else {
-            self.meet_ended(by)
-        };
-        let by = ended.by;
-        self.let_plc_act();
-        notes.to_mut().extend(self.joined.drain(..));
-        notes.to_mut().extend(self.scratch.of_some_ways.drain(..));
-        notes.to_mut().extend(self.missed_search());
-        let at = self.scratch.end.take();
-        let mut ends = self.own_end(by, at.as_ref());
-        if !ended.ends.is_empty() {
-            ends.splice(..1.min(ends.len()), ended.ends);
-        }
-        // R2.84: only a reset ends a loop without an end.
-        if self.scratch.endless {
-            self.reset_friction();
-        }
-        let mut changes = std::mem::take(&mut self.scratch.changes);
-        changes.extend(self.state.control.compensation.program_end());
-        if !changes.is_empty() {
-            self.version += 1;
-        }
-        for change in &changes {
-            let kinds = KindSet::of(change.kind);
-            self.state.control.history.close(change.axis, kinds);
-        }
-        self.state.control.frames.clear();
-        self.end_exchange(match by {
-            EndedBy::Error => ProgramStop::Reset,
-            _ if self.scratch.endless => ProgramStop::Reset,
-            _ => ProgramStop::End,
-        });
-        self.state.control.couplings.end_following();
-        // The program ends on all ways.
-        self.state.track.reach = WaySet::always();
-        self.version += u64::from(self.state.control.history.is_open());
-        self.show_ways();
-        // Whether or not the observer wants more events, the program has ended.
-        let _ = observer.event(Event::Ended(Ended {
-            seq: self.state.seq,
-            by,
-            endless: std::mem::take(&mut self.scratch.endless),
-            at: at.as_ref().map(|end| &end.place),
-            ends: &ends,
-            found: self.state.found_states(),
-            stopped: ended.stopped.as_ref(),
-            failed: self.state.track.failed.as_deref(),
-            changes: &changes,
-            diagnostics: &notes.said,
-            unsaid: &notes.unsaid,
-            compensation: &self.state.control.compensation,
-            possible: &self.shown.possible,
-            occurred: &self.state.occurred,
-            version: self.version,
-        }));
-        RunOutcome::Ended(by)
     }
 
     /// Couplings and exchanged axes end with the program or by a reset, unless the channel list says otherwise (R2.105).

@@ -14,9 +14,11 @@ use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{Loop, Mark};
 use crate::interpreter::run::path::{Path, RunTrack};
+use crate::interpreter::run::stack::CallStack;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::cause::Unknown;
@@ -31,38 +33,46 @@ const LONGEST_PERIOD: u64 = 8;
 /// The weight of values beyond which nothing is compared.
 const MAX_WEIGHT: usize = 10_000;
 
-impl Interpreter {
+impl OtherPaths {
     /// Returns the next step where a block jumps back.
     pub(crate) fn come_round(
         &mut self,
+        here: &mut Executor,
         target: EntryIndex,
         finder: &mut dyn Finder,
     ) -> ControlStep {
-        let repeats = self.note_pass(target);
-        let is_left = self.state.is_left_meanwhile();
+        let repeats = here.note_pass(target);
+        let is_left = self.left_meanwhile(&here.state).next().is_some();
         // The program may wait for what the PLC writes (R2.99).
-        if self.state.control.memory.holds_any() {
+        if here.state.control.memory.holds_any() {
             if repeats {
-                self.let_plc_act();
-                self.state.forget_passes();
+                here.let_plc_act();
+                here.state.forget_passes();
             } else if is_left {
-                let names = self.state.names_of_exits();
-                self.let_plc_write(|name| names.contains(name));
+                let names = self.names_of_exits(&here.state);
+                here.let_plc_write(|name| names.contains(name));
             }
         }
-        if is_left || self.is_joined_at(target) {
-            return self.follow_loop(target, Repeats::Known, finder);
+        if is_left || self.is_joined_at(here, target) {
+            return self.follow_loop(here, target, Repeats::Known, finder);
         }
-        self.state.drop_heads_in_known_loop();
+        self.drop_heads_in_known_loop(&here.state);
         ControlStep::Jump(target)
     }
 
     /// Returns the next step where a way that only the machine decides leads back.
-    pub(crate) fn come_back(&mut self, target: EntryIndex, finder: &mut dyn Finder) -> ControlStep {
-        let _ = self.note_pass(target);
-        self.follow_loop(target, Repeats::Unknown, finder)
+    pub(crate) fn come_back(
+        &mut self,
+        here: &mut Executor,
+        target: EntryIndex,
+        finder: &mut dyn Finder,
+    ) -> ControlStep {
+        let _ = here.note_pass(target);
+        self.follow_loop(here, target, Repeats::Unknown, finder)
     }
+}
 
+impl Executor {
     /// Counts a pass of a loop. Returns whether it begins in the state of an earlier one.
     fn note_pass(&mut self, target: EntryIndex) -> bool {
         self.count_pass(target).is_some() && self.state.repeats()
@@ -128,10 +138,14 @@ impl Interpreter {
     }
 }
 
-impl State {
+impl OtherPaths {
     /// Makes counters unknown where other ways have left a loop that is not run to its end.
-    pub(super) fn lose_counters(&mut self, counters: &[Location], since: u64) {
-        let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
+    pub(super) fn lose_counters(
+        &mut self,
+        state: &mut State,
+        (counters, since): (&[Location], u64),
+    ) {
+        let ended = state.ended.iter_mut().map(|ended| &mut ended.path);
         for path in self.waiting.iter_mut().chain(ended) {
             if path.parted >= since {
                 for counter in counters {
@@ -144,54 +158,42 @@ impl State {
 
     /// The innermost loop begins a new pass: what is kept of loops in it is of the last one, unless only the machine
     /// ends it.
-    fn drop_heads_in_known_loop(&mut self) {
-        let Some(known) = self
-            .track
-            .loops
-            .last()
-            .filter(|_| !self.loop_heads.is_empty())
-        else {
+    fn drop_heads_in_known_loop(&mut self, state: &State) {
+        let last = state.track.loops.last();
+        let Some(known) = last.filter(|_| !self.loop_heads.is_empty()) else {
             return;
         };
-        if !self.track.open_loops.contains(&known.place()) {
-            let blocks = known.head..=known.from;
-            self.drop_heads(&blocks);
+        if !state.track.open_loops.contains(&known.place()) {
+            self.drop_heads(&state.control.frames, &(known.head..=known.from));
         }
     }
 
-    pub(super) fn drop_heads(&mut self, blocks: &RangeInclusive<EntryIndex>) {
+    pub(super) fn drop_heads(&mut self, frames: &CallStack, blocks: &RangeInclusive<EntryIndex>) {
         if !self.loop_heads.is_empty() {
-            self.loop_heads.drop_within(&self.control.frames, blocks);
+            self.loop_heads.drop_within(frames, blocks);
         }
-    }
-
-    /// Whether other ways have left the innermost loop.
-    fn is_left_meanwhile(&self) -> bool {
-        self.left_meanwhile().next().is_some()
     }
 
     /// The other ways that have left the innermost loop.
-    fn left_meanwhile(&self) -> impl Iterator<Item = &Path> {
-        let since = self
-            .track
-            .loops
-            .last()
-            .map_or(u64::MAX, |known| known.since);
-        let ended = self.ended.iter().map(|ended| &ended.path);
+    fn left_meanwhile<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a Path> {
+        let last = state.track.loops.last();
+        let since = last.map_or(u64::MAX, |known| known.since);
+        let ended = state.ended.iter().map(|ended| &ended.path);
         let others = self.waiting.iter().chain(ended);
         others.filter(move |path| path.parted >= since)
     }
 
     /// The variables that must change on ways that have left the innermost loop.
-    fn names_of_exits(&self) -> Vec<VariableName> {
-        let conditions = self
-            .left_meanwhile()
-            .flat_map(|path| path.track.reach.conditions());
-        let conditions = conditions.filter_map(|it| self.conditions.get(it as usize));
+    fn names_of_exits(&self, state: &State) -> Vec<VariableName> {
+        let left = self.left_meanwhile(state);
+        let conditions = left.flat_map(|path| path.track.reach.conditions());
+        let conditions = conditions.filter_map(|it| state.conditions.get(it as usize));
         let kept = conditions.filter_map(|condition| condition.kept.as_ref());
         kept.flat_map(|kept| kept.names.iter().cloned()).collect()
     }
+}
 
+impl State {
     /// The innermost loop begins anew: the passes so far prove nothing.
     fn forget_passes(&mut self) {
         if let Some(known) = self.track.loops.last_mut() {

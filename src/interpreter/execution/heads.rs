@@ -4,8 +4,9 @@ use std::ops::RangeInclusive;
 
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::loop_heads::{Arrival, LoopHead, head_place, place_at};
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::Path;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
@@ -37,47 +38,50 @@ enum Around {
     Joined,
 }
 
-impl Interpreter {
+impl OtherPaths {
     /// Follows a loop that is left on other ways until a pass begins in the same state as earlier ones.
     #[cold]
     pub(super) fn follow_loop(
         &mut self,
+        here: &mut Executor,
         target: EntryIndex,
         repeats: Repeats,
         finder: &mut dyn Finder,
     ) -> ControlStep {
-        let Some(mut known) = self.state.track.loops.pop() else {
+        let Some(mut known) = here.state.track.loops.pop() else {
             return ControlStep::Jump(target);
         };
         if let Some(counters) = known.endless.take() {
-            self.state.lose_counters(&counters, known.since);
+            self.lose_counters(&mut here.state, (&counters, known.since));
         }
-        let index = self.programs.index(known.unit);
+        let index = here.programs.index(known.unit);
         let counts = index.links(known.head).opener == known.head && target == known.head + 1;
         let most = match repeats {
             Repeats::Unknown => 0,
-            Repeats::Known if self.state.track.open_loops.contains(&known.place()) => 0,
+            Repeats::Known if here.state.track.open_loops.contains(&known.place()) => 0,
             Repeats::Known if counts => MOST_COUNTED_PASSES,
             Repeats::Known => MOST_FOLLOWED_PASSES,
         };
         if known.passes > most + MOST_JOINED_PASSES {
-            self.state.track.loops.push(known);
-            return ControlStep::Jump(self.havoc_loop(&Unknown::Passes, finder));
+            here.state.track.loops.push(known);
+            let after = here.havoc_loop(&Unknown::Passes, finder);
+            self.let_leave(here);
+            return ControlStep::Jump(after);
         }
-        let now = self.at_head(target);
+        let now = here.at_head(target);
         let blocks = known.head..=known.from;
         let last = known.last.take();
         if known.passes <= most {
             if last.is_some_and(|last| last.covers(&now, &Unknown::Passes)) {
                 return ControlStep::Covered;
             }
-            self.state.drop_heads(&blocks);
+            self.drop_heads(&here.state.control.frames, &blocks);
             known.last = Some(Box::new(now));
-            self.state.track.loops.push(known);
+            here.state.track.loops.push(known);
             return ControlStep::Jump(target);
         }
-        self.state.track.loops.push(known);
-        match self.reach_head(target, (last.map(|last| *last), now), &blocks) {
+        here.state.track.loops.push(known);
+        match self.reach_head(here, target, (last.map(|last| *last), now), &blocks) {
             Arrival::Covered => ControlStep::Covered,
             Arrival::Grown => ControlStep::Jump(target),
         }
@@ -86,13 +90,14 @@ impl Interpreter {
     /// A pass of a loop that is joined begins.
     fn reach_head(
         &mut self,
+        here: &mut Executor,
         target: EntryIndex,
         (last, now): (Option<Path>, Path),
         blocks: &RangeInclusive<EntryIndex>,
     ) -> Arrival {
-        let frames = &self.state.control.frames;
+        let frames = &here.state.control.frames;
         let place = head_place(frames, target);
-        let heads = &mut self.state.loop_heads;
+        let heads = &mut self.loop_heads;
         if !heads.has(&place) {
             let is_first = last.is_none();
             let head = LoopHead {
@@ -100,25 +105,25 @@ impl Interpreter {
                 state: last.unwrap_or_else(|| now.clone()),
             };
             heads.insert(place.clone(), head);
-            if self.around(*blocks.start()) == Around::Nothing {
-                let frames = &self.state.control.frames;
-                self.state.loop_heads.drop_without(frames, blocks);
+            if self.around(here, *blocks.start()) == Around::Nothing {
+                let frames = &here.state.control.frames;
+                self.loop_heads.drop_without(frames, blocks);
             }
             if is_first {
                 return Arrival::Grown;
             }
         }
-        let Some((arrival, state)) = self.state.loop_heads.arrive(&place, now) else {
+        let Some((arrival, state)) = self.loop_heads.arrive(&place, now) else {
             return Arrival::Grown;
         };
         if arrival == Arrival::Grown {
             let Path { control, track, .. } = state.clone();
-            self.state.control = control;
-            self.state.track.reach = track.reach;
-            self.state.track.assumed = track.assumed;
-            self.state.track.asked = track.asked;
-            self.state.track.failed = track.failed;
-            self.version += 1;
+            here.state.control = control;
+            here.state.track.reach = track.reach;
+            here.state.track.assumed = track.assumed;
+            here.state.track.asked = track.asked;
+            here.state.track.failed = track.failed;
+            here.version += 1;
         }
         arrival
     }
@@ -126,46 +131,44 @@ impl Interpreter {
     /// Returns whether the run enters a loop at a block with nothing that earlier passes of a loop around it did not
     /// enter it with.
     #[cold]
-    pub(super) fn enters_covered(&mut self, block: EntryIndex) -> bool {
-        let frames = &self.state.control.frames;
+    pub(super) fn enters_covered(&mut self, here: &mut Executor, block: EntryIndex) -> bool {
+        let frames = &here.state.control.frames;
         let (depth, unit) = (frames.depth(), frames.running().map(|frame| frame.unit));
-        let mut repeated = self.state.track.loops.iter();
+        let mut repeated = here.state.track.loops.iter();
         if repeated.any(|it| it.depth == depth && Some(it.unit) == unit && it.target == block) {
             return false;
         }
-        let Some(head) = self.state.loop_heads.get(&head_place(frames, block)) else {
+        let Some(head) = self.loop_heads.get(&head_place(frames, block)) else {
             return false;
         };
         let blocks = head.blocks.clone();
-        if self.around(*blocks.start()) != Around::Joined {
-            self.state.drop_heads(&blocks);
+        if self.around(here, *blocks.start()) != Around::Joined {
+            self.drop_heads(&here.state.control.frames, &blocks);
             return false;
         }
-        let now = self.at_head(block);
-        self.reach_head(block, (None, now), &blocks) == Arrival::Covered
+        let now = here.at_head(block);
+        self.reach_head(here, block, (None, now), &blocks) == Arrival::Covered
     }
 
     /// How the innermost loop around another one is repeated, in the running program or in those that call it.
-    fn around(&self, opener: EntryIndex) -> Around {
-        let State {
-            control,
-            track,
-            loop_heads,
-            ..
-        } = &self.state;
+    fn around(&self, here: &Executor, opener: EntryIndex) -> Around {
+        let State { control, track, .. } = &here.state;
         let mut inner = Some(opener);
         for depth in (1..=control.frames.depth()).rev() {
             let Some(frame) = control.frames.iter().nth(depth - 1) else {
                 continue;
             };
             let block = inner.take().unwrap_or(frame.next.saturating_sub(1));
-            let structured = self.programs.index(frame.unit).loop_around(block);
+            let structured = here.programs.index(frame.unit).loop_around(block);
             let mut repeated = track.loops.iter().rev();
             let repeated = repeated
                 .find(|it| it.depth == depth && it.head < block && block <= it.from)
                 .filter(|it| structured.is_none_or(|opener| it.head > opener));
             let is_joined = match (repeated, structured) {
-                (Some(known), _) => loop_heads.has(&place_at(&control.frames, depth, known.target)),
+                (Some(known), _) => {
+                    self.loop_heads
+                        .has(&place_at(&control.frames, depth, known.target))
+                }
                 (None, Some(opener)) => track.open_loops.contains(&(depth, frame.unit, opener)),
                 (None, None) => continue,
             };
@@ -179,11 +182,13 @@ impl Interpreter {
     }
 
     /// Whether the loop whose passes begin with a block is joined there.
-    pub(super) fn is_joined_at(&self, target: EntryIndex) -> bool {
-        let heads = &self.state.loop_heads;
-        !heads.is_empty() && heads.has(&head_place(&self.state.control.frames, target))
+    pub(super) fn is_joined_at(&self, here: &Executor, target: EntryIndex) -> bool {
+        let heads = &self.loop_heads;
+        !heads.is_empty() && heads.has(&head_place(&here.state.control.frames, target))
     }
+}
 
+impl Executor {
     /// The state with which a pass begins.
     fn at_head(&mut self, target: EntryIndex) -> Path {
         if let Some(frame) = self.state.control.frames.running_mut() {

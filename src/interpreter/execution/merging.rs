@@ -4,75 +4,76 @@ use crate::comp::AxisIndex;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::run::block_scratch::OwnEnd;
 use crate::interpreter::run::event::{EndedBy, ProgramEnd, StoppedState};
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{EndedPath, Last, Passed};
 use crate::interpreter::run::state::State;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::ways::possible_state::shown;
 use crate::interpreter::ways::set::WaySet;
 
-impl Interpreter {
+impl OtherPaths {
     /// Ends a way. Returns the end of the run if no other way continues.
     #[cold]
-    pub(crate) fn end_path(&mut self, by: EndedBy) -> Option<EndedBy> {
-        let is_covered = std::mem::take(&mut self.scratch.covered);
-        let is_alone = self.state.waiting.is_empty() && self.state.ended.is_empty();
+    pub(crate) fn end_path(&mut self, here: &mut Executor, by: EndedBy) -> Option<EndedBy> {
+        let is_covered = std::mem::take(&mut here.scratch.covered);
+        let is_alone = self.waiting.is_empty() && here.state.ended.is_empty();
         let waits_for_lines = by == EndedBy::EndOfFile
-            && self.state.control.frames.depth() == 1
-            && self.programs.index(0).entries.is_empty();
+            && here.state.control.frames.depth() == 1
+            && here.programs.index(0).entries.is_empty();
         if is_alone || (waits_for_lines && !is_covered) {
             return Some(by);
         }
-        if by == EndedBy::Budget && !self.scratch.endless && !is_covered {
+        if by == EndedBy::Budget && !here.scratch.endless && !is_covered {
             // The effects of the other ways are not known.
-            self.state.waiting.clear();
-            self.state.ended.clear();
-            self.havoc_all(&Unknown::Ways);
+            self.waiting.clear();
+            here.state.ended.clear();
+            here.havoc_all(&Unknown::Ways);
             return Some(by);
         }
-        let never_ends = std::mem::take(&mut self.scratch.endless);
+        let never_ends = std::mem::take(&mut here.scratch.endless);
         if never_ends {
-            self.reset_after_stop();
-            let said = self.scratch.over.last();
-            self.scratch.end = said.map(|said| OwnEnd {
+            here.reset_after_stop();
+            let said = here.scratch.over.last();
+            here.scratch.end = said.map(|said| OwnEnd {
                 place: said.place.clone(),
                 is_passed_into: false,
             });
         }
         if !is_covered {
-            if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
-                let missing = self.state.missing_end().map(|mut missing| {
-                    self.state.limit_to_reach(&mut missing, None);
+            if by == EndedBy::EndOfFile && !here.state.control.frames.is_empty() {
+                let missing = here.state.missing_end().map(|mut missing| {
+                    here.state.limit_to_reach(&mut missing, None);
                     missing
                 });
-                self.scratch.over.extend(missing);
+                here.scratch.over.extend(missing);
             }
-            let ended = self.ended_path(by);
-            self.state.ended.push(ended);
+            let ended = here.ended_path(by);
+            here.state.ended.push(ended);
         }
-        if self.enter_first() {
-            self.scratch.havoc_last_motion();
+        if self.enter_first(here) {
+            here.scratch.havoc_last_motion();
             return None;
         }
-        let last = self.state.ended.pop()?;
-        self.scratch.end = last.at.map(|(place, passed)| OwnEnd {
+        let last = here.state.ended.pop()?;
+        here.scratch.end = last.at.map(|(place, passed)| OwnEnd {
             place,
             is_passed_into: passed == Passed::Into,
         });
-        self.state.last = last.last;
-        self.enter_path(last.path);
+        here.state.last = last.last;
+        here.enter_path(last.path);
         Some(last.by)
     }
 
     /// The ways through the program meet at its end. Where the run has gone on after errors, one that an error has
     /// ended counts only if no other went on, and the states at the errors are apart (R9.20).
     #[cold]
-    pub(crate) fn meet_ended(&mut self, by: EndedBy) -> MetWays {
-        if !std::mem::take(&mut self.scratch.covered) {
-            let own = self.ended_path(by);
-            self.state.ended.push(own);
+    pub(crate) fn meet_ended(&mut self, here: &mut Executor, by: EndedBy) -> MetWays {
+        if !std::mem::take(&mut here.scratch.covered) {
+            let own = here.ended_path(by);
+            here.state.ended.push(own);
         }
-        let ended = std::mem::take(&mut self.state.ended).into_iter().rev();
+        let ended = std::mem::take(&mut here.state.ended).into_iter().rev();
         let (failed, own): (Vec<_>, Vec<_>) =
             ended.partition(|end| end.path.track.failed.is_some());
         let is_stop = |end: &EndedPath| matches!(end.by, EndedBy::Error | EndedBy::Budget);
@@ -86,8 +87,8 @@ impl Interpreter {
             all.append(&mut stopped);
             Vec::new()
         };
-        let ends = self.state.ends_of(&all);
-        let stopped = self.state.stopped(&apart);
+        let ends = here.state.ends_of(&all);
+        let stopped = here.state.stopped(&apart);
         let mut ways = all.into_iter();
         let Some(EndedPath {
             path, by, at, last, ..
@@ -96,16 +97,16 @@ impl Interpreter {
             return MetWays { by, ends, stopped };
         };
         let is_stop = matches!(by, EndedBy::Error | EndedBy::Budget);
-        self.scratch.endless = by == EndedBy::Budget;
+        here.scratch.endless = by == EndedBy::Budget;
         let at = at.filter(|_| !is_stop);
-        self.scratch.end = at.map(|(place, passed)| OwnEnd {
+        here.scratch.end = at.map(|(place, passed)| OwnEnd {
             place,
             is_passed_into: passed == Passed::Into,
         });
-        self.state.last = last;
-        self.enter_path(path);
+        here.state.last = last;
+        here.enter_path(path);
         for other in ways {
-            self.join_path(other.path);
+            self.join_path(here, other.path);
         }
         MetWays { by, ends, stopped }
     }

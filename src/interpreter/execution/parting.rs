@@ -4,105 +4,114 @@ use crate::comp::KindSet;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::options::Branches;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{BranchSide, Path};
 use crate::interpreter::run::shadow::Meeting;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::ControlStep;
 
-impl Interpreter {
+impl OtherPaths {
     /// The ways part after the block that asked.
     #[cold]
-    pub(crate) fn take_sides(&mut self, step: Option<&ControlStep>, finder: &mut dyn Finder) {
-        let sides = std::mem::take(&mut self.sides);
-        let meeting = self.meeting(&sides);
-        let base = self.state.leave_path();
-        self.let_wait(sides, meeting, &base, step, finder);
-        if self.state.waiting.is_empty() {
+    pub(crate) fn take_sides(
+        &mut self,
+        here: &mut Executor,
+        step: Option<&ControlStep>,
+        finder: &mut dyn Finder,
+    ) {
+        let sides = std::mem::take(&mut here.sides);
+        let meeting = here.meeting(&sides);
+        let base = here.state.leave_path();
+        self.let_wait(here, sides, meeting, &base, step, finder);
+        if self.waiting.is_empty() {
             // No answer is possible: the ways were merged too far to tell. The run can only continue.
-            self.enter_path(base);
+            here.enter_path(base);
         } else {
-            self.enter_first();
+            self.enter_first(here);
         }
     }
 
     /// The ways that jump part from the one on which the block itself leads elsewhere, which goes on.
     #[cold]
-    pub(crate) fn take_jumps(&mut self, finder: &mut dyn Finder) {
-        let sides = std::mem::take(&mut self.sides);
-        let meeting = self.meeting(&sides);
-        let next = self.state.control.frames.running().map(|it| it.next);
+    pub(crate) fn take_jumps(&mut self, here: &mut Executor, finder: &mut dyn Finder) {
+        let sides = std::mem::take(&mut here.sides);
+        let meeting = here.meeting(&sides);
+        let next = here.state.control.frames.running().map(|it| it.next);
         let (own, jumps): (Vec<_>, Vec<_>) =
             sides.into_iter().partition(|side| Some(side.to) == next);
-        let mut base = self.state.leave_path();
-        self.let_wait(jumps, meeting, &base, None, finder);
+        let mut base = here.state.leave_path();
+        self.let_wait(here, jumps, meeting, &base, None, finder);
         if let Some(own) = own.first() {
             let ways = base.track.reach.and(&own.ways);
             if !ways.is_never() {
                 base.track.reach = ways;
             }
         }
-        self.enter_path(base);
-        let ways = self.state.track.reach.clone();
-        self.state.go_on_with(ways);
-    }
-
-    /// Whether a user has chosen that the block jumps.
-    pub(crate) fn is_jump_chosen(&self) -> bool {
-        let next = self.state.control.frames.running().map(|it| it.next);
-        self.options.branches == Branches::OneFollowed
-            && matches!(self.sides.as_slice(), [only] if Some(only.to) != next)
+        here.enter_path(base);
+        let ways = here.state.track.reach.clone();
+        here.state.go_on_with(ways);
     }
 
     /// Sides of a question wait at their blocks.
     fn let_wait(
         &mut self,
+        here: &mut Executor,
         sides: Vec<BranchSide>,
         meeting: Option<Meeting>,
         base: &Path,
         step: Option<&ControlStep>,
         finder: &mut dyn Finder,
     ) {
-        let here = base.control.frames.running().map_or(0, |it| it.next);
+        let next = base.control.frames.running().map_or(0, |it| it.next);
         let mut open: Vec<Path> = Vec::new();
         // The answer of a user is the one way that is followed.
-        let is_chosen = self.options.branches == Branches::OneFollowed && meeting.is_none();
+        let is_chosen = here.options.branches == Branches::OneFollowed && meeting.is_none();
         for side in sides {
             let ways = base.track.reach.and(&side.ways);
             if ways.is_never() {
                 continue;
             }
-            self.charge_copies(&base.control, &base.track.reach);
-            self.enter_path(base.clone());
-            self.state.track.reach = ways;
-            let (to, is_back) = (side.to, side.to < here);
-            self.state.apply_side(side);
+            here.charge_copies(&base.control, &base.track.reach);
+            here.enter_path(base.clone());
+            here.state.track.reach = ways;
+            let (to, is_back) = (side.to, side.to < next);
+            here.state.apply_side(side);
             if let Some(meeting) = meeting.filter(|meeting| meeting.entry != to) {
-                self.state.track.shadow.until.get_or_insert(meeting);
+                here.state.track.shadow.until.get_or_insert(meeting);
             }
             // Ways that lead back join at the loop's head, as other ways do.
             let goes_on = if is_back && !is_chosen {
-                self.come_back(to, finder)
+                self.come_back(here, to, finder)
             } else {
                 ControlStep::Jump(to)
             };
             if let ControlStep::Jump(to) = goes_on {
-                self.state.control.set_next(to);
+                here.state.control.set_next(to);
                 // A program that the block calls runs on each way.
                 if let Some(call @ ControlStep::Call(_)) = step
-                    && self.follow(call.clone()).is_break()
+                    && self.follow(here, call.clone()).is_break()
                 {
-                    self.scratch.covered = false;
+                    here.scratch.covered = false;
                     continue;
                 }
-                open.push(self.state.leave_path());
+                open.push(here.state.leave_path());
             }
         }
-        self.version += 1;
+        here.version += 1;
         for path in open {
-            self.state.waiting.push(path);
+            self.waiting.push(path);
         }
+    }
+}
+
+impl Executor {
+    /// Whether a user has chosen that the block jumps.
+    pub(crate) fn is_jump_chosen(&self) -> bool {
+        let next = self.state.control.frames.running().map(|it| it.next);
+        self.options.branches == Branches::OneFollowed
+            && matches!(self.sides.as_slice(), [only] if Some(only.to) != next)
     }
 
     /// The block at which the sides of a question meet again, where one way is followed and the others are its shadows.

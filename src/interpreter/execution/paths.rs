@@ -12,7 +12,8 @@ use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::Path;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::waiting_paths::FirstWaiting;
@@ -24,7 +25,7 @@ use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::ways::words::{limit_to, of_axes};
 use crate::language::Group;
 
-impl Interpreter {
+impl Executor {
     /// Continues with a way.
     pub(crate) fn enter_path(&mut self, path: Path) {
         let Path {
@@ -36,93 +37,83 @@ impl Interpreter {
         self.state.watching = watches(&self.state.track);
         self.version += 1;
     }
+}
 
+impl OtherPaths {
     /// Continues with the way that is first in the text. Returns whether there is one.
-    pub(crate) fn enter_first(&mut self) -> bool {
-        let first = self.state.waiting.take_first();
-        first.map(|path| self.enter_path(path)).is_some()
+    pub(crate) fn enter_first(&mut self, here: &mut Executor) -> bool {
+        let first = self.waiting.take_first();
+        first.map(|path| here.enter_path(path)).is_some()
     }
 
     /// Continues with the way that is first in the text, joined with those at the same block. Returns
     /// whether there are any.
     #[cold]
-    pub(crate) fn choose_path(&mut self) -> bool {
+    pub(crate) fn choose_path(&mut self, here: &mut Executor) -> bool {
         let mut joined = false;
         loop {
-            let first = self.state.waiting.first_from(&self.state.control.frames);
+            let first = self.waiting.first_from(&here.state.control.frames);
             if first == FirstWaiting::After {
                 return joined;
             }
-            let Some(other) = self.state.waiting.take_first() else {
+            let Some(other) = self.waiting.take_first() else {
                 return joined;
             };
             if first == FirstWaiting::Here {
-                self.join_path(other);
+                self.join_path(here, other);
                 joined = true;
             } else {
-                let mine = self.state.leave_path();
-                self.enter_path(other);
-                self.scratch.havoc_last_motion();
-                self.state.waiting.push(mine);
+                let mine = here.state.leave_path();
+                here.enter_path(other);
+                here.scratch.havoc_last_motion();
+                self.waiting.push(mine);
             }
         }
     }
 
     /// Joins another way that reaches the block that is executed next.
-    pub(crate) fn join_path(&mut self, mut other: Path) {
-        let mut mine = self.state.leave_path();
-        let parted = Self::what_parts(&mine, &other);
-        let condition = parted.and_then(|number| self.state.conditions.get(number as usize));
+    pub(crate) fn join_path(&mut self, here: &mut Executor, mut other: Path) {
+        let mut mine = here.state.leave_path();
+        let parted = what_parts(&mine, &other);
+        let condition = parted.and_then(|number| here.state.conditions.get(number as usize));
         let cause = condition.map_or_else(|| Unknown::Ways, |found| found.cause.clone());
         mine.undo_differing(&mut other);
         let before = [mine.control.clone(), other.control.clone()];
         for path in [&mine, &other] {
-            self.charge_copies(&path.control, &path.track.reach);
+            here.charge_copies(&path.control, &path.track.reach);
         }
         let both_count = mine.track.failed.is_some() == other.track.failed.is_some();
         let differing = mine.join(other, &cause);
-        self.state.work.charge_reading(ITEM * differing);
-        self.enter_path(mine);
-        self.scratch.havoc_last_motion();
+        here.state.work.charge_reading(ITEM * differing);
+        here.enter_path(mine);
+        here.scratch.havoc_last_motion();
         if both_count {
-            self.tell_join(&before, parted);
+            self.tell_join(here, &before, parted);
         }
-        if self.state.waiting.is_empty() {
-            self.state.track.shadow.moves_alone = false;
+        if self.waiting.is_empty() {
+            here.state.track.shadow.moves_alone = false;
         }
-    }
-
-    /// The condition that separates two ways.
-    fn what_parts(mine: &Path, other: &Path) -> Option<u32> {
-        let (mine, theirs) = (&mine.track.reach, &other.track.reach);
-        let both: Vec<u32> = mine.conditions().chain(theirs.conditions()).collect();
-        let deciding = both.iter().copied().filter(|number| {
-            let answers = |ways: &WaySet| {
-                ways.ways().iter().try_fold(0, |sides, way| {
-                    let found = way.iter().find(|answer| answer.condition == *number);
-                    found.map(|answer| sides | answer.sides)
-                })
-            };
-            let pair = answers(mine).zip(answers(theirs));
-            pair.is_some_and(|(mine, theirs)| mine & theirs == 0)
-        });
-        deciding.max().or_else(|| both.iter().copied().max())
     }
 
     /// Reports, once for each condition, what differs where two ways join (FC901).
-    pub(crate) fn tell_join(&mut self, sides: &[ControlState; 2], parted: Option<u32>) {
+    pub(crate) fn tell_join(
+        &mut self,
+        here: &mut Executor,
+        sides: &[ControlState; 2],
+        parted: Option<u32>,
+    ) {
         let Some(condition) = parted.and_then(|number| {
-            let found = self.state.conditions.get(number as usize);
+            let found = here.state.conditions.get(number as usize);
             found.cloned()
         }) else {
             return;
         };
         let place = condition.place.clone();
-        let mut kinds = self.state.control.differing_kinds(sides);
+        let mut kinds = here.state.control.differing_kinds(sides);
         for (kind, axes) in &mut kinds {
             axes.retain(|axis| {
                 let key = (&place.file, place.first_line, kind, axis.get());
-                self.state.is_new_word(&format!("{key:?}"))
+                here.state.is_new_word(&format!("{key:?}"))
             });
         }
         kinds.retain(|_, axes| !axes.is_empty());
@@ -131,14 +122,14 @@ impl Interpreter {
         for (kind, axes) in &kinds {
             let names: Vec<&str> = axes
                 .iter()
-                .map(|axis| self.machine.axis(*axis).name.as_str())
+                .map(|axis| here.machine.axis(*axis).name.as_str())
                 .collect();
             keys.extend(names.iter().map(|axis| format!("{kind} {axis}")));
             shown.push(of_axes(*kind, &names));
         }
         let [mine, theirs] = sides;
         let variables = mine.memory.differing_variables(&theirs.memory);
-        let has_moved = self.options.takes_motions() && self.state.track.has_undecided_motion();
+        let has_moved = here.options.takes_motions() && here.state.track.has_undecided_motion();
         let others = [
             (has_moved, "the motions on the way here"),
             (mine.couplings != theirs.couplings, "the axis couplings"),
@@ -159,10 +150,10 @@ impl Interpreter {
             .collect();
         keys.extend(named.iter().cloned());
         let cause = &condition.cause;
-        self.state.mentioned.enter(cause, || place.clone());
-        let is_new = !keys.is_empty() && self.state.mentioned.is_new(cause, keys, &place);
+        here.state.mentioned.enter(cause, || place.clone());
+        let is_new = !keys.is_empty() && here.state.mentioned.is_new(cause, keys, &place);
         let mut said = about(&condition, &outcome_in_words(&shown, &named));
-        self.state.limit_to_reach(&mut said, parted);
+        here.state.limit_to_reach(&mut said, parted);
         // Whether an error ends the program is said at its block.
         if is_new && condition.kind != ConditionKind::Stop {
             self.joined.push(said);
@@ -276,4 +267,21 @@ fn about(condition: &Condition, outcome: &str) -> Diagnostic {
     };
     let message = format!("{asks}: after it {outcome}");
     Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(cause.advice())
+}
+
+/// The condition that separates two ways.
+fn what_parts(mine: &Path, other: &Path) -> Option<u32> {
+    let (mine, theirs) = (&mine.track.reach, &other.track.reach);
+    let both: Vec<u32> = mine.conditions().chain(theirs.conditions()).collect();
+    let deciding = both.iter().copied().filter(|number| {
+        let answers = |ways: &WaySet| {
+            ways.ways().iter().try_fold(0, |sides, way| {
+                let found = way.iter().find(|answer| answer.condition == *number);
+                found.map(|answer| sides | answer.sides)
+            })
+        };
+        let pair = answers(mine).zip(answers(theirs));
+        pair.is_some_and(|(mine, theirs)| mine & theirs == 0)
+    });
+    deciding.max().or_else(|| both.iter().copied().max())
 }

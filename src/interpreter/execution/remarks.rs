@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Code, Collected};
 use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::syntax::{LineFault, LostRemarks, Remark, allow};
@@ -15,8 +16,8 @@ impl Interpreter {
     /// files, or up to where each was reached where the rest is not checked.
     pub(crate) fn beside_blocks(&mut self, by: EndedBy) -> Collected {
         let mut said = std::mem::take(&mut self.lost);
-        for (number, unit) in self.programs.units().iter().enumerate() {
-            let until = self.reached_line(number, unit, by);
+        for (number, unit) in self.here.programs.units().iter().enumerate() {
+            let until = self.here.reached_line(number, unit, by);
             let openings = &unit.index.openings;
             match (number, until) {
                 (0, u32::MAX) => said.append(openings),
@@ -31,6 +32,13 @@ impl Interpreter {
         said
     }
 
+    /// Keeps the messages about lines that are not kept.
+    pub(crate) fn note_lost(&mut self, file: &Arc<str>, lost: &LostRemarks) {
+        gather(file, lost, u32::MAX, &mut self.lost);
+    }
+}
+
+impl Executor {
     /// The last line of a file that was reached, or more than all lines where the rest is checked, too.
     fn reached_line(&self, number: usize, unit: &SourceUnit, by: EndedBy) -> u32 {
         if self.options.stop == StopPolicy::CheckAll {
@@ -43,11 +51,6 @@ impl Interpreter {
         let last = unit.high.checked_sub(1);
         let last = last.and_then(|last| unit.index.entries.get(last as usize));
         last.map_or(0, |last| last.line)
-    }
-
-    /// Keeps the messages about lines that are not kept.
-    pub(crate) fn note_lost(&mut self, file: &Arc<str>, lost: &LostRemarks) {
-        gather(file, lost, u32::MAX, &mut self.lost);
     }
 }
 

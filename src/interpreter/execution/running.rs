@@ -7,6 +7,7 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::event::{EndedBy, Event, Joined, Observer};
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::RunOutcome;
 use crate::interpreter::run::state::State;
@@ -27,75 +28,78 @@ impl Interpreter {
                 ControlFlow::Continue(None) => continue,
                 ControlFlow::Break(by) => return RunOutcome::Ended(by),
             };
-            let is_repeated = self.programs.was_read(unit, next);
-            let parsed = self.programs.parsed(unit, next);
-            if let Some(frame) = self.state.control.frames.running_mut() {
+            let is_repeated = self.here.programs.was_read(unit, next);
+            let parsed = self.here.programs.parsed(unit, next);
+            if let Some(frame) = self.here.state.control.frames.running_mut() {
                 frame.next = next + 1;
             }
-            if self.is_skipped(&parsed.block) {
-                self.seek_beyond(unit, next);
+            if self.here.is_skipped(&parsed.block) {
+                self.here.seek_beyond(unit, next);
                 continue;
             }
-            if let Some(level) = self.undecided_level(&parsed.block)
-                && self.part_by_skip(level, &parsed)
+            if let Some(level) = self.here.undecided_level(&parsed.block)
+                && self.here.part_by_skip(level, &parsed)
             {
-                let flow = if self.offered.is_empty() {
+                let flow = if self.here.offered.is_empty() {
                     ControlFlow::Continue(())
                 } else {
                     let shown = ShownBlockLines::default();
-                    let level = self.state.control.frames.level();
-                    self.offer_skip(&BlockContext::of_parsed(&parsed, level, &shown), observer)
+                    let level = self.here.state.control.frames.level();
+                    self.here
+                        .offer_skip(&BlockContext::of_parsed(&parsed, level, &shown), observer)
                 };
-                if let Some(frame) = self.state.control.frames.running_mut() {
+                if let Some(frame) = self.here.state.control.frames.running_mut() {
                     frame.next = next;
                 }
-                self.take_sides(None, finder);
+                self.others.take_sides(&mut self.here, None, finder);
                 if flow.is_break() {
                     return RunOutcome::Paused;
                 }
                 continue;
             }
             let called_from = self
+                .here
                 .state
                 .control
                 .frames
                 .running_mut()
                 .and_then(|frame| frame.called_from.take());
-            let level = self.state.control.frames.level();
+            let level = self.here.state.control.frames.level();
             let shown = ShownBlockLines::default();
             let at =
                 BlockContext::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
-            if let Some(over) = self.over_budget(&at) {
-                let over = self.with_loop(over, unit, next);
-                self.scratch.over.push(over);
-                match self.end_path(EndedBy::Budget) {
+            if let Some(over) = self.here.over_budget(&at) {
+                let over = self.here.with_loop(over, unit, next);
+                self.here.scratch.over.push(over);
+                match self.others.end_path(&mut self.here, EndedBy::Budget) {
                     Some(by) => return RunOutcome::Ended(by),
                     None => continue,
                 }
             }
-            let depth = self.state.control.frames.depth();
-            let spent = self.state.work.spent();
-            let is_on_ways = !self.state.waiting.is_empty();
+            let depth = self.here.state.control.frames.depth();
+            let spent = self.here.state.work.spent();
+            let is_on_ways = !self.others.waiting.is_empty();
             let flow = self.execute(&at, finder, observer);
             if is_repeated {
-                self.state
+                self.here
+                    .state
                     .work
-                    .repeat(parsed.weight, self.scratch.said, spent);
+                    .repeat(parsed.weight, self.here.scratch.said, spent);
             } else {
-                self.state.work.grant_ways();
+                self.here.state.work.grant_ways();
             }
             if is_on_ways {
-                self.charge_block(parsed.weight);
+                self.here.charge_block(parsed.weight);
             }
-            if let Some(frame) = self.state.control.frames.at_depth_mut(depth) {
+            if let Some(frame) = self.here.state.control.frames.at_depth_mut(depth) {
                 frame.called_from = called_from;
             }
             let step = match flow {
                 ControlFlow::Continue(()) => None,
                 ControlFlow::Break(NextBlock::Step(step)) => Some(step),
                 ControlFlow::Break(NextBlock::Paused) => {
-                    let step = self.state.parked.take();
-                    self.state.parked = self.part_and_step(step, finder);
+                    let step = self.here.state.parked.take();
+                    self.here.state.parked = self.part_and_step(step, finder);
                     return RunOutcome::Paused;
                 }
             };
@@ -112,31 +116,31 @@ impl Interpreter {
     /// ends.
     #[inline]
     fn due_block(&mut self) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
-        let Some(frame) = self.state.control.frames.running() else {
-            let ending = self.state.control.ending.take();
+        let Some(frame) = self.here.state.control.frames.running() else {
+            let ending = self.here.state.control.ending.take();
             return self.go_on_elsewhere(ending.unwrap_or(EndedBy::EndOfFile));
         };
         let (unit, section, next) = (frame.unit, frame.section, frame.next);
         let (passage, level) = (frame.passage, frame.level);
         if !frame.waiting.is_empty() {
-            return match self.call_waiting() {
+            return match self.others.call_waiting(&mut self.here) {
                 ControlFlow::Continue(()) => ControlFlow::Continue(None),
                 ControlFlow::Break(by) => self.go_on_elsewhere(by),
             };
         }
-        let is_past = next >= self.programs.section(ProgramId { unit, section }).end;
-        if is_past && frame.seeking.is_some() && self.ends_in_open_if() {
+        let is_past = next >= self.here.programs.section(ProgramId { unit, section }).end;
+        if is_past && frame.seeking.is_some() && self.here.ends_in_open_if() {
             return self.go_on_elsewhere(EndedBy::Error);
         }
         if is_past || passage.is_some_and(|passage| next > passage.last) {
             if level == 0 {
                 return self.go_on_elsewhere(EndedBy::EndOfFile);
             }
-            self.end_of_pass();
+            self.others.end_of_pass(&mut self.here);
             return ControlFlow::Continue(None);
         }
-        if !self.state.loop_heads.is_empty() && self.enters_covered(next) {
-            self.scratch.covered = true;
+        if !self.others.loop_heads.is_empty() && self.others.enters_covered(&mut self.here, next) {
+            self.here.scratch.covered = true;
             return self.go_on_elsewhere(EndedBy::EndOfFile);
         }
         ControlFlow::Continue(Some((unit, next)))
@@ -147,7 +151,7 @@ impl Interpreter {
         &mut self,
         by: EndedBy,
     ) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
-        match self.end_path(by) {
+        match self.others.end_path(&mut self.here, by) {
             Some(by) => ControlFlow::Break(by),
             None => ControlFlow::Continue(None),
         }
@@ -156,55 +160,86 @@ impl Interpreter {
     /// Continues on the way whose block comes first in the text; past their budget, all ways are joined.
     #[inline]
     fn choose_way(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) {
-        if !self.state.waiting.is_empty() && self.choose_path() {
+        if !self.others.waiting.is_empty() && self.others.choose_path(&mut self.here) {
             self.tell_joined(observer);
         }
-        if self.state.waiting.len() > MAX_OPEN {
-            self.join_waiting();
+        if self.others.waiting.len() > MAX_OPEN {
+            self.others.join_waiting(&mut self.here);
         }
-        if self.is_past_ways() {
-            self.widen(finder);
+        if self.others.is_past_ways(&mut self.here) {
+            self.others.widen(&mut self.here, finder);
             self.tell_joined(observer);
         }
-        let State {
-            track,
-            control,
-            waiting,
-            ..
-        } = &mut self.state;
-        track.follow_again(&control.frames, waiting.is_empty());
+        let is_alone = self.others.waiting.is_empty();
+        self.here.is_alone = is_alone;
+        let State { track, control, .. } = &mut self.here.state;
+        track.follow_again(&control.frames, is_alone);
     }
 
     /// Executes a step. Returns the end of the run if it is the last one of the last way.
     pub(crate) fn follow_to_end(&mut self, step: ControlStep) -> Option<EndedBy> {
-        let ControlFlow::Break(by) = self.follow(step) else {
+        let ControlFlow::Break(by) = self.others.follow(&mut self.here, step) else {
             return None;
         };
-        self.end_path(by)
+        self.others.end_path(&mut self.here, by)
     }
 
     /// Announces that ways meet.
     #[cold]
     fn tell_joined(&mut self, observer: &mut dyn Observer) {
-        let Some(frame) = self.state.control.frames.running() else {
+        let Some(frame) = self.here.state.control.frames.running() else {
             return;
         };
-        if self.state.track.is_shadow() {
+        if self.here.state.track.is_shadow() {
             return;
         }
-        let place = self.programs.index(frame.unit).block_place(frame.next);
-        self.show_ways();
+        let place = self.here.programs.index(frame.unit).block_place(frame.next);
+        self.here.show_ways();
         // A run stops at blocks: a request to stop takes effect at the next one.
         let _ = observer.event(Event::Joined(Joined {
-            seq: self.state.seq,
+            seq: self.here.state.seq,
             place: &place,
-            compensation: &self.state.control.compensation,
-            possible: &self.shown.possible,
-            occurred: &self.state.occurred,
-            version: self.version,
+            compensation: &self.here.state.control.compensation,
+            possible: &self.here.shown.possible,
+            occurred: &self.here.state.occurred,
+            version: self.here.version,
         }));
     }
 
+    /// Parts the run after a block that asked. Returns the remaining step, which is that of the way on which no jump is
+    /// taken.
+    fn part_and_step(
+        &mut self,
+        step: Option<ControlStep>,
+        finder: &mut dyn Finder,
+    ) -> Option<ControlStep> {
+        if self.here.sides.is_empty() {
+            return step;
+        }
+        match step {
+            None | Some(ControlStep::Call(_)) => {
+                self.others
+                    .take_sides(&mut self.here, step.as_ref(), finder);
+                None
+            }
+            Some(ControlStep::Covered) => {
+                // An error ends the block on all ways.
+                self.here.sides.clear();
+                step
+            }
+            _ if self.here.is_jump_chosen() => {
+                self.others.take_sides(&mut self.here, None, finder);
+                None
+            }
+            step => {
+                self.others.take_jumps(&mut self.here, finder);
+                step
+            }
+        }
+    }
+}
+
+impl Executor {
     /// Looks for a branch beyond the part of a control block at an entry, which is skipped.
     fn seek_beyond(&mut self, unit: usize, entry: EntryIndex) {
         let links = self.programs.index(unit).links(entry);
@@ -215,37 +250,6 @@ impl Interpreter {
                 frame.seeking = None;
             } else {
                 frame.next = links.next;
-            }
-        }
-    }
-
-    /// Parts the run after a block that asked. Returns the remaining step, which is that of the way on which no jump is
-    /// taken.
-    fn part_and_step(
-        &mut self,
-        step: Option<ControlStep>,
-        finder: &mut dyn Finder,
-    ) -> Option<ControlStep> {
-        if self.sides.is_empty() {
-            return step;
-        }
-        match step {
-            None | Some(ControlStep::Call(_)) => {
-                self.take_sides(step.as_ref(), finder);
-                None
-            }
-            Some(ControlStep::Covered) => {
-                // An error ends the block on all ways.
-                self.sides.clear();
-                step
-            }
-            _ if self.is_jump_chosen() => {
-                self.take_sides(None, finder);
-                None
-            }
-            step => {
-                self.take_jumps(finder);
-                step
             }
         }
     }

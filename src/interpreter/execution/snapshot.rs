@@ -11,6 +11,7 @@ use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Options, SourceMode, StopPolicy};
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::state::State;
 use crate::machine::Machine;
 use crate::text::SourceFile;
@@ -27,6 +28,7 @@ pub struct Snapshot {
     /// The blocks of each file that were executed, where the others are checked at the end.
     executed: Vec<Vec<EntryIndex>>,
     state: State,
+    others: OtherPaths,
     /// The fingerprint of everything else.
     seal: Option<Fingerprint>,
 }
@@ -67,7 +69,7 @@ pub enum ResumeError {
 
 impl Snapshot {
     /// The number of the format that is written and read.
-    pub const SCHEMA: u32 = 15;
+    pub const SCHEMA: u32 = 16;
 
     /// The number of the format that the snapshot has.
     pub fn schema(&self) -> u32 {
@@ -87,7 +89,13 @@ impl Snapshot {
     }
 
     fn seal_of_content(&self) -> Option<Fingerprint> {
-        Fingerprint::of_data(&(self.schema, &self.files, &self.executed, &self.state))
+        Fingerprint::of_data(&(
+            self.schema,
+            &self.files,
+            &self.executed,
+            &self.state,
+            &self.others,
+        ))
     }
 
     fn is_as_saved(&self) -> bool {
@@ -117,9 +125,10 @@ impl Interpreter {
         };
         let snapshot = Snapshot {
             schema: Snapshot::SCHEMA,
-            files: self.programs.units().iter().map(file).collect(),
-            executed: match self.options.stop {
+            files: self.here.programs.units().iter().map(file).collect(),
+            executed: match self.here.options.stop {
                 StopPolicy::CheckAll => self
+                    .here
                     .programs
                     .units()
                     .iter()
@@ -127,7 +136,8 @@ impl Interpreter {
                     .collect(),
                 StopPolicy::FirstError | StopPolicy::KeepGoing => Vec::new(),
             },
-            state: self.state.clone(),
+            state: self.here.state.clone(),
+            others: self.others.clone(),
             seal: None,
         };
         Some(snapshot.sealed_anew())
@@ -162,7 +172,7 @@ impl Interpreter {
         {
             return Err(ResumeError::OtherMachine);
         }
-        let mut resumed = Self::with_state(machine, options, snapshot.state);
+        let mut resumed = Self::with_state(machine, options, (snapshot.state, snapshot.others));
         for file in snapshot.files {
             let Some(text) = source(&file.name) else {
                 return Err(ResumeError::MissingFile(file.name));
@@ -171,11 +181,13 @@ impl Interpreter {
                 return Err(ResumeError::OtherText(file.name));
             }
             resumed
+                .here
                 .programs
                 .hold(Index::new(text, options.limits.nesting));
         }
         Trust::of(&resumed).check().map_err(ResumeError::Damaged)?;
         resumed
+            .here
             .programs
             .mark_executed(&snapshot.executed)
             .map_err(ResumeError::Damaged)?;

@@ -13,6 +13,7 @@ use crate::interpreter::run::channel_axes::ChannelAxes;
 use crate::interpreter::run::control::OptionalSection;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::{EndedBy, Event, Observer};
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::mentioned::MentionedUnknowns;
 use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
@@ -44,15 +45,15 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        let index = Index::new(source, self.options.limits.nesting);
+        let index = Index::new(source, self.here.options.limits.nesting);
         let name = index
             .main
             .and_then(|main| index.sections[main].name.clone());
-        self.programs.clear();
-        self.awaited = None;
-        self.programs.hold(index);
+        self.here.programs.clear();
+        self.here.awaited = None;
+        self.here.programs.hold(index);
         if self.announce(name.as_deref(), observer).is_break() {
-            self.state.parked = Some(ControlStep::Begin);
+            self.here.state.parked = Some(ControlStep::Begin);
             return RunOutcome::Paused;
         }
         self.begin(finder, observer)
@@ -67,13 +68,15 @@ impl Interpreter {
         if self.is_refused() {
             return self.refuse(observer);
         }
-        self.lost.extend(self.programs.index(0).no_block());
-        match self.programs.index(0).main {
-            Some(section) => self.enter(0, section),
-            None => self.lost.extend(self.programs.index(0).no_main_program()),
+        self.lost.extend(self.here.programs.index(0).no_block());
+        match self.here.programs.index(0).main {
+            Some(section) => self.here.enter(0, section),
+            None => self
+                .lost
+                .extend(self.here.programs.index(0).no_main_program()),
         }
-        let main = Arc::clone(self.programs.index(0).source.name());
-        if let Err(missing) = self.start_program(&main, finder) {
+        let main = Arc::clone(self.here.programs.index(0).source.name());
+        if let Err(missing) = self.here.start_program(&main, finder) {
             return self.ended(EndedBy::Error, &one(*missing), observer);
         }
         let outcome = self.run(finder, observer);
@@ -86,8 +89,8 @@ impl Interpreter {
         if self.source_mode == SourceMode::LineByLine {
             return RunOutcome::Stopped;
         }
-        self.offered.clear();
-        let outcome = match self.state.parked.take() {
+        self.here.offered.clear();
+        let outcome = match self.here.state.parked.take() {
             Some(ControlStep::Begin) => {
                 return self.begin(finder, observer);
             }
@@ -102,44 +105,51 @@ impl Interpreter {
 
     /// Prepares the state for a program start.
     pub(crate) fn start(&mut self) {
-        self.state.control.modal = self.state.control.modal.next_program(&self.machine.channel);
-        self.state
+        self.here.state.control.modal = self
+            .here
+            .state
+            .control
+            .modal
+            .next_program(&self.here.machine.channel);
+        self.here
+            .state
             .control
             .memory
-            .start_program(self.machine.parameters);
-        self.state.control.history.begin_program();
-        self.state.control.frames.clear();
-        self.state.seq = 0;
-        self.state.control.cycles = ModalCycles::default();
-        self.state.watching = false;
-        self.state.control.refused.clear();
-        self.state.once.clear();
-        self.state.control.ending = None;
-        self.state.last = None;
-        self.state.parked = None;
-        self.state.control.named.clear();
-        self.state.control.optional = OptionalSection::Outside;
-        let channel = &self.machine.channel;
+            .start_program(self.here.machine.parameters);
+        self.here.state.control.history.begin_program();
+        self.here.state.control.frames.clear();
+        self.here.state.seq = 0;
+        self.here.state.control.cycles = ModalCycles::default();
+        self.here.state.watching = false;
+        self.here.state.control.refused.clear();
+        self.here.state.once.clear();
+        self.here.state.control.ending = None;
+        self.here.state.last = None;
+        self.here.state.parked = None;
+        self.here.state.control.named.clear();
+        self.here.state.control.optional = OptionalSection::Outside;
+        let channel = &self.here.machine.channel;
         let keeps_axes = [ChannelSwitch::KeepAxes, ChannelSwitch::KeepAxesAfterReset];
         if !keeps_axes.into_iter().any(|it| channel.has(it)) {
-            self.state.control.channel_axes = ChannelAxes::default();
+            self.here.state.control.channel_axes = ChannelAxes::default();
         }
-        self.define_listed_couplings();
-        self.state.control.described = None;
-        self.state.track = RunTrack::default();
-        self.begin_search();
-        self.state.work.begin_ways();
-        self.state.widened = 0;
-        self.state.waiting.clear();
-        self.state.loop_heads.clear();
-        self.state.call_effects.clear();
-        self.state.ended.clear();
-        self.sides.clear();
-        self.joined.clear();
-        self.joined_withheld.clear();
-        self.state.mentioned = MentionedUnknowns::default();
-        self.programs.clear();
-        self.scratch.changes.clear();
+        self.here.define_listed_couplings();
+        self.here.state.control.described = None;
+        self.here.state.track = RunTrack::default();
+        self.here.begin_search();
+        self.here.state.work.begin_ways();
+        self.others.widened = 0;
+        self.others.waiting.clear();
+        self.others.loop_heads.clear();
+        self.others.call_effects.clear();
+        self.here.state.ended.clear();
+        self.here.state.asked.clear();
+        self.here.sides.clear();
+        self.others.joined.clear();
+        self.others.joined_withheld.clear();
+        self.here.state.mentioned = MentionedUnknowns::default();
+        self.here.programs.clear();
+        self.here.scratch.changes.clear();
         self.lost = Collected::default();
     }
 
@@ -148,16 +158,18 @@ impl Interpreter {
         name: Option<&str>,
         observer: &mut dyn Observer,
     ) -> ControlFlow<()> {
-        self.show_ways();
+        self.here.show_ways();
         observer.event(Event::Started {
             name,
-            possible: &self.shown.possible,
-            compensation: &self.state.control.compensation,
-            occurred: &self.state.occurred,
-            version: self.version,
+            possible: &self.here.shown.possible,
+            compensation: &self.here.state.control.compensation,
+            occurred: &self.here.state.occurred,
+            version: self.here.version,
         })
     }
+}
 
+impl Executor {
     /// Calls the configured program that runs before every main program (R2.15).
     pub(crate) fn start_program(
         &mut self,

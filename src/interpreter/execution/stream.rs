@@ -16,6 +16,7 @@ use crate::interpreter::programs::index::{
 };
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::event::{EndedBy, Observer};
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
 use crate::interpreter::run::step::{ControlStep, NextBlock};
@@ -71,8 +72,8 @@ impl Interpreter {
     ) -> RunOutcome {
         self.start();
         self.source_mode = SourceMode::LineByLine;
-        let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
-        self.programs.hold(none);
+        let none = Index::new(SourceFile::new("", ""), self.here.options.limits.nesting);
+        self.here.programs.hold(none);
         match self.run_lines(file, lines, finder, observer) {
             RunOutcome::Paused => RunOutcome::Stopped,
             outcome => outcome,
@@ -90,8 +91,8 @@ impl Interpreter {
         if let Some(what) = no_program(lines.ahead()) {
             return self.refuse_file(&file, what, observer);
         }
-        let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
-        let mut block = std::mem::take(&mut self.scratch.block);
+        let mut reader = BlockReader::new(lines, 1, self.here.options.fast_path);
+        let mut block = std::mem::take(&mut self.here.scratch.block);
         let mut stage = ProgramStage::Before;
         let mut notes = Collected::default();
         let mut never_begun = None;
@@ -100,7 +101,7 @@ impl Interpreter {
                 notes.extend(never_begun.take().map(never_run));
             }
             // Both ways of a block that may be skipped are followed, with what comes after them (R14.1).
-            if self.needs_text(&raw, &block) {
+            if self.here.needs_text(&raw, &block) {
                 let rest = self.take_rest(opening(&raw), file, &mut reader);
                 return self.go_on_with(rest, StreamProgress { stage, notes }, finder, observer);
             }
@@ -123,7 +124,7 @@ impl Interpreter {
                     }
                 }
                 // Another program of the file: never executed, as where the text is whole.
-                if self.options.stop != StopPolicy::CheckAll {
+                if self.here.options.stop != StopPolicy::CheckAll {
                     break;
                 }
                 never_begun = (!local).then(|| raw.place(&file, name));
@@ -133,8 +134,8 @@ impl Interpreter {
             match stage {
                 ProgramStage::Running => {}
                 ProgramStage::Beyond(_) => {
-                    if !self.is_skipped(&block) {
-                        self.check_unexecuted(&file, &raw, &block, &mut notes);
+                    if !self.here.is_skipped(&block) {
+                        self.here.check_unexecuted(&file, &raw, &block, &mut notes);
                     }
                     continue;
                 }
@@ -145,15 +146,15 @@ impl Interpreter {
                     stage = ProgramStage::Running;
                 }
             }
-            if self.is_on_the_way(&block) {
+            if self.here.is_on_the_way(&block) {
                 continue;
             }
             let shown = ShownBlockLines::default();
             let at = BlockContext::of_raw(&file, &raw, &block, &shown);
-            if let Some(over) = self.over_budget(&at) {
+            if let Some(over) = self.here.over_budget(&at) {
                 return self.ended(EndedBy::Budget, &one(over), observer);
             }
-            if self.is_skipped(&block) {
+            if self.here.is_skipped(&block) {
                 continue;
             }
             let step = match self.execute(&at, finder, observer) {
@@ -162,7 +163,7 @@ impl Interpreter {
                 ControlFlow::Break(NextBlock::Paused) => return RunOutcome::Paused,
             };
             let returns = matches!(step, ControlStep::Return);
-            match self.follow(step) {
+            match self.others.follow(&mut self.here, step) {
                 ControlFlow::Continue(()) => {
                     if let Some(outcome) = self.run_called(finder, observer) {
                         return outcome;
@@ -176,7 +177,7 @@ impl Interpreter {
                         let progress = StreamProgress { stage, notes };
                         return self.returned(rest, progress, finder, observer);
                     }
-                    if self.options.stop != StopPolicy::CheckAll {
+                    if self.here.options.stop != StopPolicy::CheckAll {
                         break;
                     }
                 }
@@ -186,7 +187,7 @@ impl Interpreter {
             self.lost.push(no_block(&file));
         }
         self.note_lost(&file, reader.lost_remarks());
-        self.scratch.block = block;
+        self.here.scratch.block = block;
         self.after_lines(&file, &StreamProgress { stage, notes }, finder, observer)
     }
 
@@ -204,13 +205,6 @@ impl Interpreter {
                 self.ended(EndedBy::Error, &said, observer)
             }
         }
-    }
-
-    /// Whether a block can be executed only with the text after it.
-    fn needs_text(&self, raw: &RawBlock<'_>, block: &Block) -> bool {
-        self.undecided_level(block).is_some()
-            || (!raw.plain && needs_rest(raw, block))
-            || self.may_begin_without_feed(block)
     }
 
     /// All lines were read: a program without any block begins and ends here.
@@ -246,24 +240,6 @@ impl Interpreter {
         }
     }
 
-    /// Whether a block is passed over on the way to the one that M17 returned to.
-    fn is_on_the_way(&mut self, block: &Block) -> bool {
-        let Some(awaited) = &self.awaited else {
-            return false;
-        };
-        let number = block.number.map(|number| number.value);
-        let is_it = match (&awaited.label, number) {
-            (LabelName::Number(wanted), Some(Operand::Number(number))) => {
-                rounded(number) == Some(*wanted)
-            }
-            _ => false,
-        };
-        if is_it {
-            self.awaited = None;
-        }
-        !is_it
-    }
-
     /// Enters the program that was announced and runs the one that comes before each; an outcome
     /// when that is the end.
     fn begin_lines(
@@ -272,8 +248,8 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> Option<RunOutcome> {
-        self.enter(0, 0);
-        match self.start_program(file, finder) {
+        self.here.enter(0, 0);
+        match self.here.start_program(file, finder) {
             Ok(()) => self.run_called(finder, observer),
             Err(missing) => Some(self.ended(EndedBy::Error, &one(*missing), observer)),
         }
@@ -285,7 +261,7 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> Option<RunOutcome> {
-        let frame = self.state.control.frames.running();
+        let frame = self.here.state.control.frames.running();
         if frame.is_none_or(|frame| frame.level == 0) {
             return None;
         }
@@ -293,7 +269,7 @@ impl Interpreter {
             RunOutcome::Ended(EndedBy::EndOfFile) => None,
             RunOutcome::Ended(by) => {
                 let mut notes = Collected::default();
-                notes.extend(self.scratch.over.drain(..));
+                notes.extend(self.here.scratch.over.drain(..));
                 Some(self.ended(by, &notes, observer))
             }
             stopped @ (RunOutcome::Paused | RunOutcome::Stopped) => Some(stopped),
@@ -313,18 +289,20 @@ impl Interpreter {
             return self.whole(rest, finder, observer);
         }
         // The blocks so far come before the first one of the index, and so does the frame.
-        let mut index = Index::new(rest, self.options.limits.nesting);
+        let mut index = Index::new(rest, self.here.options.limits.nesting);
         index.main = Some(0);
-        self.programs.hold_first(index);
+        self.here.programs.hold_first(index);
         match stage {
             ProgramStage::Before | ProgramStage::Announced => self.begin(finder, observer),
             ProgramStage::Running if self.is_refused() => self.refuse(observer),
             ProgramStage::Running => {
-                if let Some(awaited) = self.awaited.take() {
-                    let found =
-                        self.programs
-                            .block_of(ProgramId::FIRST, &awaited.label, &self.state.work);
-                    match (found, self.state.control.frames.running_mut()) {
+                if let Some(awaited) = self.here.awaited.take() {
+                    let found = self.here.programs.block_of(
+                        ProgramId::FIRST,
+                        &awaited.label,
+                        &self.here.state.work,
+                    );
+                    match (found, self.here.state.control.frames.running_mut()) {
                         (Some(entry), Some(frame)) => frame.next = entry,
                         _ => return self.ended(EndedBy::Error, &one(awaited.missing), observer),
                     }
@@ -361,10 +339,10 @@ impl Interpreter {
         let own = lines.take_while(|line| !line.trim_start().starts_with('%'));
         let own: usize = own.map(str::len).sum();
         if !holds_program_end(&rest.text()[..own]) {
-            self.state.last = None;
+            self.here.state.last = None;
         }
-        progress.notes.extend(self.state.missing_end());
-        if self.options.stop == StopPolicy::CheckAll {
+        progress.notes.extend(self.here.state.missing_end());
+        if self.here.options.stop == StopPolicy::CheckAll {
             self.go_on_with(rest, progress, finder, observer)
         } else {
             self.end_of_lines(progress.stage, &progress.notes, observer)
@@ -378,19 +356,46 @@ impl Interpreter {
         notes: &Collected,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        if let Some(awaited) = self.awaited.take() {
+        if let Some(awaited) = self.here.awaited.take() {
             return self.ended(EndedBy::Error, &one(awaited.missing), observer);
         }
-        let mut said = self.programs.refused();
+        let mut said = self.here.programs.refused();
         let by = if let ProgramStage::Beyond(Some(by)) = stage {
             by
         } else {
-            said.extend(self.state.missing_end());
+            said.extend(self.here.state.missing_end());
             EndedBy::EndOfFile
         };
         said.append(notes);
-        self.check_all_unexecuted(&mut said);
+        self.here.check_all_unexecuted(&mut said);
         self.ended(by, &said, observer)
+    }
+}
+
+impl Executor {
+    /// Whether a block can be executed only with the text after it.
+    fn needs_text(&self, raw: &RawBlock<'_>, block: &Block) -> bool {
+        self.undecided_level(block).is_some()
+            || (!raw.plain && needs_rest(raw, block))
+            || self.may_begin_without_feed(block)
+    }
+
+    /// Whether a block is passed over on the way to the one that M17 returned to.
+    fn is_on_the_way(&mut self, block: &Block) -> bool {
+        let Some(awaited) = &self.awaited else {
+            return false;
+        };
+        let number = block.number.map(|number| number.value);
+        let is_it = match (&awaited.label, number) {
+            (LabelName::Number(wanted), Some(Operand::Number(number))) => {
+                rounded(number) == Some(*wanted)
+            }
+            _ => false,
+        };
+        if is_it {
+            self.awaited = None;
+        }
+        !is_it
     }
 }
 

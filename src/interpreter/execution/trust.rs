@@ -6,6 +6,7 @@ use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{Loop, RunTrack};
 use crate::interpreter::run::search::EarlierStates;
 use crate::interpreter::run::stack::CallFrame;
@@ -29,15 +30,17 @@ pub(crate) struct Trust<'a> {
     machine: &'a Machine,
     programs: &'a ProgramStore,
     state: &'a State,
+    others: &'a OtherPaths,
 }
 
 impl<'a> Trust<'a> {
     /// The state of a run, before anything is done with it.
     pub(crate) fn of(run: &'a Interpreter) -> Self {
         Self {
-            machine: &run.machine,
-            programs: &run.programs,
-            state: &run.state,
+            machine: &run.here.machine,
+            programs: &run.here.programs,
+            state: &run.here.state,
+            others: &run.others,
         }
     }
 
@@ -55,8 +58,8 @@ impl<'a> Trust<'a> {
         self.check_parked()?;
         self.check_path(&state.control, &state.track)?;
         let ended = state.ended.iter().map(|ended| &ended.path);
-        let kept = state.loop_heads.states().chain(state.call_effects.states());
-        for path in state.waiting.iter().chain(kept).chain(ended) {
+        let kept = self.others.kept();
+        for path in self.others.waiting.iter().chain(kept).chain(ended) {
             self.check_path(&path.control, &path.track)?;
         }
         let begins = !self.programs.units().is_empty()

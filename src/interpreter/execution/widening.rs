@@ -11,7 +11,8 @@ use std::ops::Range;
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{Last, Path};
 use crate::interpreter::unknown::branching::MAX_OPEN;
 use crate::interpreter::values::cause::Unknown;
@@ -19,55 +20,55 @@ use crate::interpreter::values::cause::Unknown;
 /// Most values that the advice names.
 const MAX_NAMED: usize = 3;
 
-impl Interpreter {
+impl OtherPaths {
     /// Whether following the ways of the program takes more work than its budget.
     #[inline]
-    pub(crate) fn is_past_ways(&self) -> bool {
-        let is_past = self.state.work.ways() > self.options.limits.ways
-            && self.state.work.ways() > self.ways_bound() / 4 * (4 + self.state.widened);
-        is_past || self.state.waiting.len() > MAX_OPEN
+    pub(crate) fn is_past_ways(&self, here: &Executor) -> bool {
+        let is_past = here.state.work.ways() > here.options.limits.ways
+            && here.state.work.ways() > here.ways_bound() / 4 * (4 + self.widened);
+        is_past || self.waiting.len() > MAX_OPEN
     }
 
     /// Joins the ways that wait at the same block.
     #[cold]
-    pub(crate) fn join_waiting(&mut self) {
-        let mine = self.state.leave_path();
-        let mut ways = self.state.waiting.take_all().into_iter().peekable();
+    pub(crate) fn join_waiting(&mut self, here: &mut Executor) {
+        let mine = here.state.leave_path();
+        let mut ways = self.waiting.take_all().into_iter().peekable();
         while let Some(way) = ways.next() {
-            self.enter_path(way);
+            here.enter_path(way);
             let is_here = |it: &Path| {
-                let frames = &self.state.control.frames;
+                let frames = &here.state.control.frames;
                 it.control.frames.comes_before(frames).is_none()
             };
-            let here: Vec<Path> = std::iter::from_fn(|| ways.next_if(is_here)).collect();
-            for other in here {
-                self.join_path(other);
+            let others: Vec<Path> = std::iter::from_fn(|| ways.next_if(is_here)).collect();
+            for other in others {
+                self.join_path(here, other);
             }
-            let joined = self.state.leave_path();
-            self.state.waiting.push(joined);
+            let joined = here.state.leave_path();
+            self.waiting.push(joined);
         }
-        self.enter_path(mine);
+        here.enter_path(mine);
     }
 
     /// Takes all ways to the end of the outermost control block that any of them is in, and reports what is unknown
     /// from there on (FC908).
     #[cold]
-    pub(crate) fn widen(&mut self, finder: &mut dyn Finder) {
-        self.state.widened += 1;
+    pub(crate) fn widen(&mut self, here: &mut Executor, finder: &mut dyn Finder) {
+        self.widened += 1;
         let cause = Unknown::Ways;
         let mut left = BTreeSet::new();
-        let mut ways = self.state.waiting.take_all();
-        ways.insert(0, self.state.leave_path());
+        let mut ways = self.waiting.take_all();
+        ways.insert(0, here.state.leave_path());
         for way in &mut ways {
-            self.enter_path(way.clone());
-            while self.state.control.frames.depth() > 1 {
-                let program = self.state.control.frames.program();
+            here.enter_path(way.clone());
+            while here.state.control.frames.depth() > 1 {
+                let program = here.state.control.frames.program();
                 left.extend(program.map(|it| (it.unit, it.section)));
-                self.leave();
+                here.leave();
             }
-            *way = self.state.leave_path();
+            *way = here.state.leave_path();
         }
-        let passed = self.passed_by_all(&ways);
+        let passed = here.passed_by_all(&ways);
         let mut ways = ways.into_iter().map(|way| way.at(passed.end));
         let Some(mut joined) = ways.next() else {
             return;
@@ -76,28 +77,31 @@ impl Interpreter {
             joined.join(way, &cause);
         }
         joined.track.loops.clear();
-        self.state.loop_heads.clear();
-        self.state.call_effects.clear();
+        self.loop_heads.clear();
+        self.call_effects.clear();
         joined.track.open_loops.clear();
         joined.track.marked = None;
         joined.track.labels = None;
-        self.enter_path(joined);
-        self.scratch.havoc_last_motion();
+        here.enter_path(joined);
+        here.scratch.havoc_last_motion();
         for (unit, section) in left {
-            let section = self.programs.section(ProgramId { unit, section });
+            let section = here.programs.section(ProgramId { unit, section });
             let blocks = section.start..section.end;
-            self.perhaps_execute(unit, blocks, &cause, finder);
+            here.perhaps_execute(unit, blocks, &cause, finder);
         }
-        let after = self.pass_over_blocks(passed.clone(), &cause, finder);
-        if let Some(frame) = self.state.control.frames.running_mut() {
+        let after = here.pass_over_blocks(passed.clone(), &cause, finder);
+        self.let_leave(here);
+        if let Some(frame) = here.state.control.frames.running_mut() {
             frame.next = after;
         }
         let passed = passed.start..after;
-        self.version += 1;
-        let said = self.too_many_ways(&passed);
+        here.version += 1;
+        let said = here.too_many_ways(&passed);
         self.joined.extend(said);
     }
+}
 
+impl Executor {
     /// The blocks of the main program that ways may execute up to the end of the control blocks that they are in.
     fn passed_by_all(&self, ways: &[Path]) -> Range<EntryIndex> {
         let frames = ways.iter().filter_map(|way| way.control.frames.running());

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::event::{Aside, Note, Outcome};
 use super::lone_part::LonePart;
+use super::path::Path;
 use super::search::EarlierStates;
 use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::Diagnostic;
@@ -90,6 +91,8 @@ pub(crate) struct BlockScratch {
     pub(crate) of_some_ways: Vec<Diagnostic>,
     /// The blocks that it passes over, which only the machine may execute.
     pub(crate) passed: Vec<PassedBlocks>,
+    /// The paths on which the run may go on elsewhere than after them.
+    pub(crate) left: Vec<Path>,
     /// Number of messages on the last block.
     pub(crate) said: u64,
     /// Number of messages on the block that are left out, and the place of the first of them.

@@ -1,11 +1,11 @@
 //! Whether a jump may go to a block, so that the block before it need not come first.
 
 use super::block_context::BlockContext;
-use super::interpreter::Interpreter;
+use super::executor::Executor;
 use crate::interpreter::programs::index::LabelName;
 use crate::syntax::ast::{Item, Operand};
 
-impl Interpreter {
+impl Executor {
     /// Whether a jump of the running program may go to the block: it names the number or the label of the block, or
     /// computes its target.
     pub(crate) fn may_be_jumped_to(&self, at: &BlockContext<'_>) -> bool {

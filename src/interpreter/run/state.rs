@@ -5,47 +5,41 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::call_effects::CallEffects;
 use super::control::ControlState;
-use super::loop_heads::LoopHeads;
 use super::mentioned::MentionedUnknowns;
-use super::path::{EndedPath, Last, Path, RunTrack};
+use super::path::{AskedCondition, EndedPath, Last, Path, RunTrack};
 use super::step::ControlStep;
-use super::waiting_paths::WaitingPaths;
+use crate::comp::Compensation;
+use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
 use crate::interpreter::ways::found_states::FoundStates;
 use crate::interpreter::ways::question::Condition;
 use crate::interpreter::ways::set::WaySet;
+use crate::machine::{Axis, AxisSet, Machine, Origin};
 use crate::readings::QuestionSet;
 
 /// Number of different words of a program that are reported once.
 const MAX_ONCE: usize = 1000;
 
-/// Everything that a run depends on.
+/// The path that is executed, with what all paths of the run have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct State {
     /// State of the control.
     pub(crate) control: ControlState,
     /// The way to it.
     pub(crate) track: RunTrack,
-    /// The other ways that are still executed.
-    pub(crate) waiting: WaitingPaths,
-    /// The loops that are joined at their heads.
-    pub(crate) loop_heads: LoopHeads,
-    /// The effects of programs that were called on other ways.
-    pub(crate) call_effects: CallEffects,
     /// The ways that have ended.
     pub(crate) ended: Vec<EndedPath>,
     /// The conditions that ways name, by their numbers.
     pub(crate) conditions: Vec<Condition>,
+    /// Those of the program that read no value, and so have one answer on all ways.
+    pub(crate) asked: Vec<AskedCondition>,
     /// Executed blocks of the program.
     pub(crate) seq: u64,
     /// Executed blocks of the session.
     pub(crate) blocks: u64,
     pub(crate) work: WorkBudget,
-    /// How often the program has used up its budget of ways.
-    pub(crate) widened: u64,
     /// Words and commands that were passed over.
     pub(crate) opaque: BTreeMap<String, u64>,
     /// The words of the program that were reported, once each (R2.94).
@@ -66,14 +60,36 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// The states of the control on all ways.
+    /// The state before the first program.
+    pub(super) fn at_start(machine: &Machine, compensation: Compensation) -> Self {
+        let configured = machine.axis_set == AxisSet::Configured;
+        let occurred = |axis: &Axis| configured || axis.frict_comp_origin != Origin::Default;
+        let modal = Modal::at_start(machine.axes.len(), &machine.channel);
+        Self {
+            control: ControlState::new(compensation, modal),
+            track: RunTrack::default(),
+            ended: Vec::new(),
+            conditions: Vec::new(),
+            asked: Vec::new(),
+            seq: 0,
+            blocks: 0,
+            work: WorkBudget::default(),
+            opaque: BTreeMap::new(),
+            once: BTreeSet::new(),
+            occurred: machine.axes.iter().map(occurred).collect(),
+            watching: false,
+            reads: RefCell::default(),
+            last: None,
+            parked: None,
+            mentioned: MentionedUnknowns::default(),
+            rests_on: QuestionSet::default(),
+        }
+    }
+
+    /// The states of the control here and where paths have ended.
     pub(crate) fn controls_mut(&mut self) -> impl Iterator<Item = &mut ControlState> {
-        let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
-        let kept = self.loop_heads.states_mut();
-        let kept = kept.chain(self.call_effects.states_mut());
-        let others = self.waiting.iter_mut().chain(kept).chain(ended);
-        let others = others.map(|path| &mut path.control);
-        std::iter::once(&mut self.control).chain(others)
+        let ended = self.ended.iter_mut().map(|ended| &mut ended.path.control);
+        std::iter::once(&mut self.control).chain(ended)
     }
 
     /// The states that the program found, where it is now.

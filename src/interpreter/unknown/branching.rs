@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{AskedCondition, BranchSide};
@@ -120,15 +121,17 @@ impl Interpreter {
     /// The answers to the condition in the last executed block, where only the machine knows which holds and none
     /// was chosen ([`Branches::OneFollowed`]).
     pub fn offered(&self) -> &[WayCondition] {
-        &self.offered
+        &self.here.offered
     }
 
     /// The next such condition has one of the answers that are [`offered`](Self::offered), by its place
     /// among them; after a second call, so has the one after it.
     pub fn choose(&mut self, place: usize) {
-        self.chosen.push_back(place);
+        self.here.chosen.push_back(place);
     }
+}
 
+impl Executor {
     /// The run parts at a question: one way for each answer. A further question of a block is asked where the answers to
     /// those before it let the run go on. Returns whether it parts; it does not where one way is followed that the
     /// program itself decides, unless the PLC interferes.
@@ -279,10 +282,10 @@ impl Interpreter {
             if let Some(asked) = asked.find(|asked| asked.meaning == *key) {
                 return asked.condition;
             }
-            if let Some(asked) = self.state.asked_elsewhere(key) {
-                let condition = asked.condition;
-                self.state.track.asked.push(asked);
-                return condition;
+            let mut asked = self.state.asked.iter();
+            if let Some(asked) = asked.find(|asked| *asked.meaning == **key) {
+                self.state.track.asked.push(asked.clone());
+                return asked.condition;
             }
         }
         let condition = self.state.ask_anew(Condition::new(
@@ -298,7 +301,11 @@ impl Interpreter {
             if track.asked.len() >= MAX_ASKED {
                 track.asked.remove(0);
             }
-            track.asked.push(AskedCondition { condition, meaning });
+            let asked = AskedCondition { condition, meaning };
+            if asked.reads_nothing() {
+                self.state.asked.push(asked.clone());
+            }
+            track.asked.push(asked);
         } else {
             self.compare(condition, (question.kind, question.reads), answers);
         }
@@ -308,13 +315,8 @@ impl Interpreter {
     /// Notes the answer that what the program set gives. Other ways may name the same condition as it was asked
     /// before.
     fn keep_answer(&mut self, condition: u32, kept: Option<&KeptAnswer>) {
-        let State {
-            conditions,
-            waiting,
-            ended,
-            ..
-        } = &mut self.state;
-        let is_alone = waiting.is_empty() && ended.is_empty();
+        let is_alone = self.is_alone && self.state.ended.is_empty();
+        let conditions = &mut self.state.conditions;
         if let Some(known) = conditions.get_mut(condition as usize) {
             let is_it = known.time == 0 || is_alone || known.kept.as_ref() == kept;
             known.kept = kept.filter(|_| is_it).cloned();
@@ -337,7 +339,6 @@ impl Interpreter {
         let State {
             track,
             conditions,
-            waiting,
             ended,
             ..
         } = &mut self.state;
@@ -350,7 +351,7 @@ impl Interpreter {
             track.readings.wait_for(asking);
         }
         // Other ways may name the same condition as it was asked before.
-        let is_alone = known.time == 1 || (waiting.is_empty() && ended.is_empty());
+        let is_alone = known.time == 1 || (self.is_alone && ended.is_empty());
         if let Some(asking) = asking.filter(|_| is_alone && is_compared(kind)) {
             let reading = RememberedCondition::of((condition, known.time), asking, answers);
             known.clashes = track.readings.ask(reading);
@@ -399,15 +400,6 @@ impl State {
             let other = conditions.get(it as usize);
             other.is_some_and(|other| other.is_like(condition))
         })
-    }
-
-    /// A question that reads no value, and so has one answer on all ways, as another way asked it.
-    fn asked_elsewhere(&self, meaning: &ConditionMeaning) -> Option<AskedCondition> {
-        let ended = self.ended.iter().map(|ended| &ended.path);
-        let paths = self.waiting.iter().chain(ended);
-        let mut asked = paths.flat_map(|path| &path.track.asked);
-        let found = asked.find(|asked| asked.reads_nothing() && *asked.meaning == *meaning);
-        found.cloned()
     }
 
     /// The number of a condition of which no way knows the answer yet.

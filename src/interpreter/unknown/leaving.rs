@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::branching::answers;
 use crate::comp::{AxisIndex, Kind, KindSet, Membership};
 use crate::interpreter::run::block_scratch::LeftOpen;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::history::Split;
@@ -14,7 +14,7 @@ use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
 use crate::text::Place;
 
-impl Interpreter {
+impl Executor {
     /// Each configured kind of each axis is selected after the call, or is not.
     #[cold]
     pub(crate) fn leave_open(&mut self, left: &LeftOpen) {

@@ -18,13 +18,13 @@ use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlock
 use crate::interpreter::run::block_scratch::{OwnEnd, PassedBlocks};
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Path;
 use crate::interpreter::run::shadow::Meeting;
 use crate::interpreter::run::stack::CallStack;
-use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::expression::unquoted;
@@ -98,7 +98,7 @@ impl PossibleEffects {
 
 /// Reads blocks for their possible effects.
 struct EffectReader<'a> {
-    run: &'a Interpreter,
+    run: &'a Executor,
     effects: PossibleEffects,
     /// The block that is read.
     place: (usize, EntryIndex),
@@ -442,7 +442,7 @@ impl EffectReader<'_> {
     }
 }
 
-impl Interpreter {
+impl Executor {
     /// Passes over the control block being executed, which cannot be followed.
     pub(crate) fn pass_over_part(&mut self, cause: Unknown, span: Span, at: &BlockContext<'_>) {
         let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
@@ -517,36 +517,6 @@ impl Interpreter {
         }
     }
 
-    /// Passes over calls of programs that call themselves as deep as only the machine knows: two of their levels are
-    /// executed.
-    #[cold]
-    pub(crate) fn without_open_recursion(
-        &mut self,
-        calls: Vec<Request>,
-        at: &BlockContext<'_>,
-        finder: &mut dyn Finder,
-    ) -> Vec<Request> {
-        let (open, calls): (Vec<_>, Vec<_>) = calls
-            .into_iter()
-            .partition(|call| self.state.is_open_recursion(call.found));
-        for call in open {
-            let reach = self.state.track.reach.conditions().max();
-            let asked = reach.and_then(|it| self.state.conditions.get(it as usize));
-            let cause = asked.map_or(Unknown::Ways, |asked| asked.cause.clone());
-            let section = self.programs.section(call.found);
-            let blocks = section.start..section.end;
-            self.perhaps_execute(call.found.unit, blocks, &cause, finder);
-            let message = format!(
-                "how deep this program calls itself depends on {}; the call is passed over, and whatever it could \
-                 change is unknown",
-                cause.seen_from(at.file)
-            );
-            let fault = Fault::new(Code::Fc902, Span::new(0, at.text.trim_end().len()), message);
-            self.tell_once(&cause, "recursion", fault.with_help(cause.advice()), at);
-        }
-        calls
-    }
-
     /// Passes over blocks of the running program, and over those to which they may lead. Returns the block after them.
     pub(crate) fn pass_over_blocks(
         &mut self,
@@ -580,7 +550,7 @@ impl Interpreter {
                 entry: after,
             });
         }
-        self.state.waiting.push(way.at(exit));
+        self.scratch.left.push(way.at(exit));
     }
 
     /// Blocks with all of each control block that they touch, and the blocks after them to which they jump or return.
@@ -837,16 +807,48 @@ impl Interpreter {
     }
 }
 
-impl State {
+impl OtherPaths {
+    /// Passes over calls of programs that call themselves as deep as only the machine knows: two of their levels are
+    /// executed.
+    #[cold]
+    pub(crate) fn without_open_recursion(
+        &mut self,
+        here: &mut Executor,
+        calls: Vec<Request>,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        let (open, calls): (Vec<_>, Vec<_>) = calls
+            .into_iter()
+            .partition(|call| self.is_open_recursion(&here.state.control.frames, call.found));
+        for call in open {
+            let reach = here.state.track.reach.conditions().max();
+            let asked = reach.and_then(|it| here.state.conditions.get(it as usize));
+            let cause = asked.map_or(Unknown::Ways, |asked| asked.cause.clone());
+            let section = here.programs.section(call.found);
+            let blocks = section.start..section.end;
+            here.perhaps_execute(call.found.unit, blocks, &cause, finder);
+            let message = format!(
+                "how deep this program calls itself depends on {}; the call is passed over, and whatever it could \
+                 change is unknown",
+                cause.seen_from(at.file)
+            );
+            let fault = Fault::new(Code::Fc902, Span::new(0, at.text.trim_end().len()), message);
+            here.tell_once(&cause, "recursion", fault.with_help(cause.advice()), at);
+        }
+        calls
+    }
+}
+
+impl OtherPaths {
     /// Whether a program calls itself once more on ways of which others wait in two of its calls.
-    fn is_open_recursion(&self, called: ProgramId) -> bool {
-        let depth = self.control.frames.depth();
+    fn is_open_recursion(&self, running: &CallStack, called: ProgramId) -> bool {
+        let depth = running.depth();
         let waits =
             |frames: &CallStack| frames.depth() <= depth && frames.program() == Some(called);
-        let mut waiting = self.waiting.iter();
-        self.control.frames.is_running(called)
+        let waiting = self.waiting.iter();
+        running.is_running(called)
             && waiting
-                .by_ref()
                 .filter(|path| waits(&path.control.frames))
                 .nth(1)
                 .is_some()

@@ -6,7 +6,7 @@ use super::branching::answers;
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::search::EarlierStates;
 use crate::interpreter::values::cause::Unknown;
@@ -16,9 +16,9 @@ use crate::interpreter::ways::set::WaySet;
 use crate::readings::{Alternative, Question};
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// Returns whether the block at which the program is to be started was not reached yet.
-    pub fn is_searching(&self) -> bool {
+    pub(crate) fn is_searching(&self) -> bool {
         self.state.track.searching.is_some()
     }
 

@@ -7,7 +7,7 @@ use crate::comp::{AxisIndex, Kind};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::path::{EndedPath, Passed};
 use crate::interpreter::run::stopping::{FailedAt, stops};
@@ -17,7 +17,7 @@ use crate::interpreter::ways::set::WaySet;
 use crate::readings::Question;
 use crate::text::Span;
 
-impl Interpreter {
+impl Executor {
     /// An error ends some of the ways that lead to the block: they end the program here. With
     /// [`StopPolicy::KeepGoing`] nothing does, as if the failing command were not there (R9.20).
     #[cold]

@@ -4,7 +4,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::hash_parts::declared_name;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::names::Sure;
@@ -254,7 +254,7 @@ impl Executor {
     }
 }
 
-impl State {
+impl RunState {
     /// Something is declared or deleted.
     fn write_anything(&mut self) {
         let (control, track) = (&mut self.control, &mut self.track);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::executor::Executor;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::externals::{HeldValues, SetAt};
 use crate::interpreter::values::location::Location;
@@ -99,7 +99,7 @@ impl Executor {
     /// The PLC acts by design: every value that the program shares with it may be another one.
     #[inline]
     pub(crate) fn let_plc_act(&mut self) {
-        let State { control, track, .. } = &self.state;
+        let RunState { control, track, .. } = &self.state;
         if control.memory.holds_any() || !track.assumed.is_empty() {
             self.let_plc_write(|_| true);
             self.state.control.memory.end_initialisation();
@@ -109,7 +109,7 @@ impl Executor {
     /// The PLC may write variables.
     #[cold]
     pub(crate) fn let_plc_write(&mut self, is_it: impl Fn(&VariableName) -> bool) {
-        let State { control, track, .. } = &mut self.state;
+        let RunState { control, track, .. } = &mut self.state;
         track.assumed.undo_external(&is_it, &mut control.memory);
         let changed = control.memory.let_change(is_it);
         let is_changed = |target: &Location| matches!(target, Location::Variable(name) if changed.contains(name));

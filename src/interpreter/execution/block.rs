@@ -14,7 +14,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::{Last, RunTrack};
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::step::{ControlStep, NextBlock, Request};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::values::cause::Unknown;
@@ -456,7 +456,7 @@ impl Interpreter {
     }
 }
 
-impl State {
+impl RunState {
     /// Remembers the block for FC310; it is not known beforehand whether M30 follows.
     fn remember_last(&mut self, at: &BlockContext<'_>) {
         if at.level > 0 {

@@ -16,7 +16,7 @@ use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
 use crate::interpreter::run::path::Last;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
 use crate::interpreter::ways::set::WaySet;
 use crate::lists::ChannelSwitch;
@@ -81,7 +81,7 @@ impl Interpreter {
             if by == EndedBy::Error {
                 self.here.reset_friction();
             }
-            let State { track, control, .. } = &mut self.here.state;
+            let RunState { track, control, .. } = &mut self.here.state;
             track.assumed.undo(&mut control.memory);
             MetWays {
                 by,

@@ -19,7 +19,7 @@ use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{Loop, Mark};
 use crate::interpreter::run::path::{Path, RunTrack};
 use crate::interpreter::run::stack::CallStack;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
@@ -142,7 +142,7 @@ impl OtherPaths {
     /// Makes counters unknown where other ways have left a loop that is not run to its end.
     pub(super) fn lose_counters(
         &mut self,
-        state: &mut State,
+        state: &mut RunState,
         (counters, since): (&[Location], u64),
     ) {
         let ended = state.ended.iter_mut().map(|ended| &mut ended.path);
@@ -158,7 +158,7 @@ impl OtherPaths {
 
     /// The innermost loop begins a new pass: what is kept of loops in it is of the last one, unless only the machine
     /// ends it.
-    fn drop_heads_in_known_loop(&mut self, state: &State) {
+    fn drop_heads_in_known_loop(&mut self, state: &RunState) {
         let last = state.track.loops.last();
         let Some(known) = last.filter(|_| !self.loop_heads.is_empty()) else {
             return;
@@ -175,7 +175,7 @@ impl OtherPaths {
     }
 
     /// The other ways that have left the innermost loop.
-    fn left_meanwhile<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a Path> {
+    fn left_meanwhile<'a>(&'a self, state: &'a RunState) -> impl Iterator<Item = &'a Path> {
         let last = state.track.loops.last();
         let since = last.map_or(u64::MAX, |known| known.since);
         let ended = state.ended.iter().map(|ended| &ended.path);
@@ -184,7 +184,7 @@ impl OtherPaths {
     }
 
     /// The variables that must change on ways that have left the innermost loop.
-    fn names_of_exits(&self, state: &State) -> Vec<VariableName> {
+    fn names_of_exits(&self, state: &RunState) -> Vec<VariableName> {
         let left = self.left_meanwhile(state);
         let conditions = left.flat_map(|path| path.track.reach.conditions());
         let conditions = conditions.filter_map(|it| state.conditions.get(it as usize));
@@ -193,7 +193,7 @@ impl OtherPaths {
     }
 }
 
-impl State {
+impl RunState {
     /// The innermost loop begins anew: the passes so far prove nothing.
     fn forget_passes(&mut self) {
         if let Some(known) = self.track.loops.last_mut() {
@@ -263,7 +263,7 @@ impl ProgramStore {
 
 /// Returns the differences from the present state if they are counters; `None` where anything else
 /// differs.
-fn counters(mark: &Mark, state: &State) -> Option<Vec<Location>> {
+fn counters(mark: &Mark, state: &RunState) -> Option<Vec<Location>> {
     if mark.occurred != state.occurred {
         return None;
     }

@@ -8,7 +8,7 @@ use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::loop_heads::{Arrival, LoopHead, head_place, place_at};
 use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::Path;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::cause::Unknown;
 
@@ -152,7 +152,7 @@ impl OtherPaths {
 
     /// How the innermost loop around another one is repeated, in the running program or in those that call it.
     fn around(&self, here: &Executor, opener: EntryIndex) -> Around {
-        let State { control, track, .. } = &here.state;
+        let RunState { control, track, .. } = &here.state;
         let mut inner = Some(opener);
         for depth in (1..=control.frames.depth()).rev() {
             let Some(frame) = control.frames.iter().nth(depth - 1) else {

@@ -7,7 +7,7 @@ use crate::interpreter::run::event::{EndedBy, ProgramEnd, StoppedState};
 use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{EndedPath, Last, Passed};
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::ways::possible_state::shown;
 use crate::interpreter::ways::set::WaySet;
@@ -121,7 +121,7 @@ pub(crate) struct MetWays {
     pub(crate) stopped: Option<StoppedState>,
 }
 
-impl State {
+impl RunState {
     /// The places where ways end, each once.
     fn ends_of(&self, ended: &[EndedPath]) -> Vec<ProgramEnd> {
         let mut ends: Vec<ProgramEnd> = Vec::new();
@@ -173,7 +173,7 @@ impl State {
     }
 }
 
-impl State {
+impl RunState {
     /// FC310 at the last executed block; a program without any block is reported as such (R18.6).
     pub(crate) fn missing_end(&self) -> Option<Diagnostic> {
         let place = self.last.as_ref()?.place();

@@ -9,7 +9,7 @@ use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{BranchSide, Path};
 use crate::interpreter::run::shadow::Meeting;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::step::ControlStep;
 
 impl OtherPaths {
@@ -137,7 +137,7 @@ impl Executor {
     }
 }
 
-impl State {
+impl RunState {
     fn apply_side(&mut self, side: BranchSide) {
         let control = &mut self.control;
         if let Some(frame) = control.frames.running_mut() {

@@ -15,7 +15,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::Path;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::waiting_paths::FirstWaiting;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
@@ -163,7 +163,7 @@ impl OtherPaths {
     }
 }
 
-impl State {
+impl RunState {
     /// A condition that is asked on some ways only is reported as such, whatever its own answer.
     pub(crate) fn limit_to_reach(&self, said: &mut Diagnostic, condition: Option<u32>) {
         let mut reach = self.track.reach.clone();

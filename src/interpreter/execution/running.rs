@@ -10,7 +10,7 @@ use crate::interpreter::run::event::{EndedBy, Event, Joined, Observer};
 use crate::interpreter::run::executor::Executor;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::RunOutcome;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::step::{ControlStep, NextBlock};
 use crate::interpreter::unknown::branching::MAX_OPEN;
 
@@ -172,7 +172,7 @@ impl Interpreter {
         }
         let is_alone = self.others.waiting.is_empty();
         self.here.is_alone = is_alone;
-        let State { track, control, .. } = &mut self.here.state;
+        let RunState { track, control, .. } = &mut self.here.state;
         track.follow_again(&control.frames, is_alone);
     }
 

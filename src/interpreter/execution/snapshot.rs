@@ -12,7 +12,7 @@ use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Options, SourceMode, StopPolicy};
 use crate::interpreter::run::other_paths::OtherPaths;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::machine::Machine;
 use crate::text::SourceFile;
 
@@ -27,7 +27,7 @@ pub struct Snapshot {
     files: Vec<RunFile>,
     /// The blocks of each file that were executed, where the others are checked at the end.
     executed: Vec<Vec<EntryIndex>>,
-    state: State,
+    state: RunState,
     others: OtherPaths,
     /// The fingerprint of everything else.
     seal: Option<Fingerprint>,

@@ -10,7 +10,7 @@ use crate::interpreter::run::other_paths::OtherPaths;
 use crate::interpreter::run::path::{Loop, RunTrack};
 use crate::interpreter::run::search::EarlierStates;
 use crate::interpreter::run::stack::CallFrame;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::ways::history::History;
 use crate::machine::Machine;
@@ -29,7 +29,7 @@ type Validity = Result<(), &'static str>;
 pub(crate) struct Trust<'a> {
     machine: &'a Machine,
     programs: &'a ProgramStore,
-    state: &'a State,
+    state: &'a RunState,
     others: &'a OtherPaths,
 }
 

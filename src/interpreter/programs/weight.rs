@@ -14,7 +14,7 @@ const WORD: usize = 30;
 const NODE: usize = 10;
 
 /// A command, a statement, an assignment, a call.
-const ITEM: usize = 300;
+const COMMAND: usize = 300;
 
 /// A character of a `#` command, whose words are looked at each time.
 const HASH_BYTE: usize = 60;
@@ -33,8 +33,8 @@ pub(crate) fn weight(block: &Block, text: &str) -> u64 {
     let items = block.items.iter().map(|item| match item {
         Item::Word(_) => WORD,
         Item::MacroUse(_) => MACRO,
-        Item::Hash(hash) => ITEM + HASH_BYTE * hash.span.range().len(),
-        _ => ITEM,
+        Item::Hash(hash) => COMMAND + HASH_BYTE * hash.span.range().len(),
+        _ => COMMAND,
     });
     let words = WORD * block.words.len() + NODE * block.nodes.len();
     let remark = if text.contains(MARK) { REMARK } else { 0 };

@@ -9,7 +9,7 @@ use super::block_scratch::BlockScratch;
 use super::channel_axes::AxisNameMeaning;
 use super::options::Options;
 use super::path::BranchSide;
-use super::state::State;
+use super::state::RunState;
 use super::step::AwaitedBlock;
 use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::programs::index::EntryIndex;
@@ -47,7 +47,7 @@ pub(crate) struct Executor {
     pub(crate) offered: Vec<WayCondition>,
     /// The places of the chosen answers to the next such conditions.
     pub(crate) chosen: VecDeque<usize>,
-    pub(crate) state: State,
+    pub(crate) state: RunState,
     /// The use of variables that outlive programs, if requested.
     pub(crate) used: Option<RefCell<VariableUse>>,
     pub(crate) version: u64,
@@ -104,7 +104,7 @@ impl Executor {
         machine: Arc<Machine>,
         options: Options,
         externals: Arc<ExternalNames>,
-        state: State,
+        state: RunState,
     ) -> Self {
         Self {
             names: AxisNames::of(&machine),
@@ -136,7 +136,7 @@ impl Executor {
 
     #[inline(never)]
     fn show_ways_anew(&mut self) {
-        let State {
+        let RunState {
             control,
             track,
             conditions,
@@ -296,7 +296,7 @@ impl Executor {
     }
 }
 
-impl State {
+impl RunState {
     /// Whether the current way executes the blocks with a skip mark around this one.
     fn is_on_marked_way(&self) -> bool {
         let frames = &self.control.frames;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::executor::Executor;
 use super::options::{Options, SourceMode};
 use super::other_paths::OtherPaths;
-use super::state::State;
+use super::state::RunState;
 use crate::comp::{AxisIndex, Compensation};
 use crate::diagnostic::Collected;
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
@@ -65,7 +65,7 @@ impl Interpreter {
         options: Options,
     ) -> Self {
         let machine = machine.into();
-        let state = State::at_start(&machine, compensation);
+        let state = RunState::at_start(&machine, compensation);
         let mut interpreter = Self::with_state(machine, options, (state, OtherPaths::default()));
         interpreter.here.define_machine_macros();
         interpreter
@@ -74,7 +74,7 @@ impl Interpreter {
     pub(crate) fn with_state(
         machine: Arc<Machine>,
         options: Options,
-        (mut state, mut others): (State, OtherPaths),
+        (mut state, mut others): (RunState, OtherPaths),
     ) -> Self {
         let externals = Arc::new(ExternalNames::new(&machine.stable, &machine.own));
         for control in state.controls_mut().chain(others.controls_mut()) {

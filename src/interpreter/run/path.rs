@@ -12,7 +12,7 @@ use super::loop_heads::Arrival;
 use super::search::EarlierStates;
 use super::shadow::Shadow;
 use super::stack::{CallFrame, CallStack, Seeking};
-use super::state::State;
+use super::state::RunState;
 use super::stopping::FailedAt;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
@@ -364,7 +364,7 @@ impl Path {
     }
 }
 
-impl State {
+impl RunState {
     /// An error ends a way. Ways that it ends at one block, in passes of a loop, are kept as one.
     pub(crate) fn end_way(&mut self, way: EndedPath) {
         let mut ended = self.ended.iter_mut().rev();

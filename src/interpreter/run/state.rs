@@ -24,8 +24,8 @@ const MAX_ONCE: usize = 1000;
 
 /// The path that is executed, with what all paths of the run have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct State {
-    /// State of the control.
+pub(crate) struct RunState {
+    /// RunState of the control.
     pub(crate) control: ControlState,
     /// The way to it.
     pub(crate) track: RunTrack,
@@ -59,7 +59,7 @@ pub(crate) struct State {
     pub(crate) rests_on: QuestionSet,
 }
 
-impl State {
+impl RunState {
     /// The state before the first program.
     pub(super) fn at_start(machine: &Machine, compensation: Compensation) -> Self {
         let configured = machine.axis_set == AxisSet::Configured;

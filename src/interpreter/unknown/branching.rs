@@ -10,7 +10,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{AskedCondition, BranchSide};
 use crate::interpreter::run::stack::Seeking;
-use crate::interpreter::run::state::State;
+use crate::interpreter::run::state::RunState;
 use crate::interpreter::values::cause::Unknown;
 use crate::interpreter::values::location::Location;
 use crate::interpreter::values::plain::{Asking, ConditionMeaning, Writer};
@@ -336,7 +336,7 @@ impl Executor {
         let asking = asking.as_ref();
         let asking = asking.filter(|asking| !asking.meaning.reads.iter().any(is_own));
         let is_again = self.state.is_asked_again(place);
-        let State {
+        let RunState {
             track,
             conditions,
             ended,
@@ -381,7 +381,7 @@ impl Executor {
     }
 }
 
-impl State {
+impl RunState {
     /// Whether ways may name a further condition.
     pub(crate) fn can_ask(&self) -> bool {
         self.conditions.len() + 1 < MAX_CONDITIONS
@@ -389,7 +389,7 @@ impl State {
 
     /// Whether the condition was asked before at the same place, and its value not written since.
     fn is_asked_again(&self, place: usize) -> bool {
-        let State {
+        let RunState {
             track, conditions, ..
         } = self;
         let Some(condition) = conditions.get(place) else {

@@ -9,47 +9,41 @@
     reason = "faults travel boxed in results; what makes one boxes it"
 )]
 
-mod blocks;
-mod coordinates;
-mod effects;
-mod execution;
+mod block;
+mod control;
+mod coupling;
+mod drive;
+mod events;
+mod executor;
+mod motion;
+mod options;
 mod programs;
-mod run;
-mod unknown;
+mod stack;
 mod values;
 mod ways;
+mod words;
 
-pub use coordinates::arc::{ArcShape, SAME_PLACE};
-pub use coordinates::axis_words::AxisWord;
-pub use coordinates::contouring::{Contouring, Joining};
-pub use coordinates::g_functions::GFunctions;
-pub use coordinates::modal::{AxisPosition, Modal, PositionFrame};
-pub use coordinates::motion::{
-    Arc as CircularArc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, ToolSide, Travel,
-    Turn,
-};
-pub use coordinates::moving::MovedAxis;
-pub use coordinates::pace::ProgrammedFeed;
-pub use execution::snapshot::{ResumeError, Snapshot};
-pub use programs::call_sites::{CallSite, call_sites, holds_program_end};
-pub use programs::finder::{Finder, NoFiles, NoProgram};
-pub use run::event::{
+pub use drive::host::Interpreter;
+pub use drive::snapshot::{ResumeError, Snapshot};
+pub use events::{
     Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
 };
-pub use run::interpreter::Interpreter;
-pub use run::limits::Limits;
-pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
-pub use run::search::{NoSearchedBlock, SearchedBlock};
-pub use values::carried::{ArrayShape, Carried};
-pub use values::cause::{ChangedVariable, MissingProgram, Unknown, UnknownText};
-pub use values::found::FoundVariables;
-pub(crate) use values::found::VariableUse;
+pub use motion::contouring::{Contouring, Joining};
+pub use motion::form::{
+    Arc as CircularArc, ArcShape, AxisWord, BlockEnd, Centre, Motion, Motions, MovedAxis, PathFeed,
+    PathForm, SAME_PLACE, ToolSide, Travel, Turn,
+};
+pub use motion::modal::{AxisPosition, GFunctions, Modal, PositionFrame};
+pub use motion::pace::ProgrammedFeed;
+pub use options::{Branches, Limits, Options, RunOutcome, StopPolicy};
+pub use programs::calls::{CallSite, Finder, NoFiles, NoProgram, call_sites, holds_program_end};
+pub(crate) use values::handover::VariableUse;
+pub use values::handover::{ArrayShape, Carried, FoundVariables};
+pub use values::location::{ChangedVariable, MissingProgram, Unknown, UnknownText};
 pub use values::value::Value;
-pub(crate) use ways::block_site::BlockSite;
-pub use ways::carried::CarriedWays;
-pub(crate) use ways::found_states::{FoundOn, FoundStates, UntouchedOn};
-pub(crate) use ways::history::{KindEffect, Split};
-pub use ways::possible_state::{PossibleState, PossibleStates};
+pub(crate) use ways::history::{BlockSite, FoundOn, FoundStates, KindEffect, Split, UntouchedOn};
+pub use ways::path::{NoSearchedBlock, SearchedBlock};
+pub use ways::possible_state::{CarriedWays, PossibleState, PossibleStates};
 pub(crate) use ways::set::WayAnswer;
 pub use ways::words::{BlockCondition, WayChange, WayCondition};
 pub(crate) use ways::words::{limit_to, ways_in_words};

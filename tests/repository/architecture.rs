@@ -138,43 +138,21 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
-const FOLDERS: [(&str, &str, &[&str]); 24] = [
+const FOLDERS: [(&str, &str, &[&str]); 22] = [
+    ("interpreter", "", &["motion", "programs", "values", "ways"]),
     (
         "interpreter",
-        "blocks",
-        &[
-            "coordinates",
-            "effects",
-            "programs",
-            "run",
-            "unknown",
-            "values",
-            "ways",
-        ],
-    ),
-    (
-        "interpreter",
-        "effects",
-        &["coordinates", "programs", "run", "values", "ways"],
-    ),
-    (
-        "interpreter",
-        "execution",
-        &["programs", "run", "unknown", "values", "ways"],
+        "drive",
+        &["programs", "values", "ways", "words"],
     ),
     ("interpreter", "programs", &["values"]),
-    (
-        "interpreter",
-        "run",
-        &["coordinates", "programs", "values", "ways"],
-    ),
-    (
-        "interpreter",
-        "unknown",
-        &["programs", "run", "values", "ways"],
-    ),
     ("interpreter", "values", &["ways"]),
-    ("interpreter", "ways", &["values"]),
+    ("interpreter", "ways", &["programs", "values"]),
+    (
+        "interpreter",
+        "words",
+        &["motion", "programs", "values", "ways"],
+    ),
     ("syntax", "", &["ast", "lower"]),
     ("syntax", "lower", &["ast"]),
     ("circle", "fitted", &["recorded", "tune"]),

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
-use super::index::{
+use crate::diagnostic::{Advice, Budget, Code, Collected};
+use crate::interpreter::programs::index::{
     EntryIndex, Index, IndexEntry, JumpTargets, LabelName, Links, ProgramSection, not_a_program,
 };
-use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::syntax::{

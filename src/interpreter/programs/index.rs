@@ -75,7 +75,7 @@ impl LabelName {
     }
 
     /// The label that a jump names; `None` where it computes it.
-    pub(super) fn of(target: &BlockReference, text: &str) -> Option<Self> {
+    pub(crate) fn of(target: &BlockReference, text: &str) -> Option<Self> {
         match target {
             BlockReference::Number(Operand::Number(number)) => Some(Self::numbered(*number)),
             BlockReference::Label(name) => Some(Self::Text(name.of(text).to_owned())),
@@ -132,7 +132,7 @@ pub(crate) struct JumpTargets {
 
 impl JumpTargets {
     /// Takes the target of a jump.
-    pub(super) fn take(&mut self, target: &BlockReference, text: &str) {
+    pub(crate) fn take(&mut self, target: &BlockReference, text: &str) {
         match LabelName::of(target, text) {
             Some(name) => _ = self.named.insert(name),
             None => self.are_computed = true,

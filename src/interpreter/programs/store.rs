@@ -1,16 +1,18 @@
-//! The files of a run: loaded when they are first needed, looked up by their caller.
+//! The files of a run: loaded when they are first needed, looked up by their caller, with the blocks that are kept parsed and
+//! the work of executing one again (R9.91). A unit is about a nanosecond of a processor of this decade.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use super::finder::{Finder, NoProgram};
-use super::index::{EntryIndex, Index, LabelName, ProgramId, ProgramSection};
-use super::unit::{Parsed, SourceUnit};
-use super::wanted::WantedCall;
 use crate::diagnostic::{Advice, Code, nearest};
+use crate::interpreter::programs::calls::{Finder, NoProgram, WantedCall};
+use crate::interpreter::programs::index::{
+    EntryIndex, Index, LabelName, ProgramId, ProgramSection,
+};
 use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
-use crate::syntax::ast::CallScope;
-use crate::syntax::{Fault, no_program};
+use crate::syntax::allow::MARK;
+use crate::syntax::ast::{Block, CallScope, Item};
+use crate::syntax::{Comments, Fault, Remark, Stretch, no_program};
 use crate::text::{Place, SourceFile};
 
 /// Limit of the names that a run compares with those of calls that find nothing.
@@ -313,4 +315,104 @@ fn on_machine_only(name: &str) -> String {
     format!(
         "to pass over a program that only the machine has, set `external = [\"{last}\"]` in `[machine]`"
     )
+}
+
+/// A file of the run.
+#[derive(Clone)]
+pub(crate) struct SourceUnit {
+    pub(crate) index: Arc<Index>,
+    /// Blocks that were executed more than once, parsed.
+    pub(crate) kept: Vec<Option<Arc<Parsed>>>,
+    /// Blocks below this one were executed before.
+    pub(crate) high: EntryIndex,
+    /// Executed blocks, where they are requested.
+    pub(crate) executed: Vec<bool>,
+    /// Whether a call of the file came back from its end (R17.2).
+    pub(crate) returned: bool,
+}
+
+impl SourceUnit {
+    pub(crate) fn new(index: Index) -> Self {
+        Self {
+            kept: Vec::new(),
+            high: 0,
+            executed: vec![false; index.entries.len()],
+            returned: false,
+            index: Arc::new(index),
+        }
+    }
+
+    pub(crate) fn parse(&self, entry: EntryIndex) -> Parsed {
+        let mut block = Block::default();
+        let mut text = String::new();
+        let mut comments = Comments::Possible;
+        let mut remark = None;
+        if let Some(mut reader) = self.index.reader(entry)
+            && let Some(raw) = reader.next(&mut block)
+        {
+            debug_assert_eq!(raw.stretch, Stretch::Block);
+            raw.text.clone_into(&mut text);
+            comments = raw.comments;
+            remark = raw.remark.cloned();
+        }
+        Parsed {
+            weight: weight(&block, &text),
+            block,
+            file: Arc::clone(self.index.source.name()),
+            line: self.index.entries[entry as usize].line,
+            text,
+            comments,
+            remark: remark.or_else(|| self.index.remark(entry)),
+        }
+    }
+}
+
+/// A parsed block with its text and its place.
+pub(crate) struct Parsed {
+    pub(crate) block: Block,
+    /// Work of executing it again.
+    pub(crate) weight: u64,
+    pub(crate) file: Arc<str>,
+    pub(crate) line: u32,
+    pub(crate) text: String,
+    pub(crate) comments: Comments,
+    pub(crate) remark: Option<Remark>,
+}
+
+/// A block, whatever it contains.
+const BLOCK: usize = 100;
+
+/// A word with a number.
+const WORD: usize = 30;
+
+/// An operand or an operator.
+const NODE: usize = 10;
+
+/// A command, a statement, an assignment, a call.
+const COMMAND: usize = 300;
+
+/// A character of a `#` command, whose words are looked at each time.
+const HASH_BYTE: usize = 60;
+
+/// A macro, whose code is parsed each time.
+const MACRO: usize = 4000;
+
+/// A comment that is addressed to this tool.
+const REMARK: usize = 1000;
+
+/// Characters of the text, which is looked through for such comments, that make a unit.
+const BYTES: usize = 16;
+
+/// Units of repeated work that a block with its text needs.
+pub(crate) fn weight(block: &Block, text: &str) -> u64 {
+    let items = block.items.iter().map(|item| match item {
+        Item::Word(_) => WORD,
+        Item::MacroUse(_) => MACRO,
+        Item::Hash(hash) => COMMAND + HASH_BYTE * hash.span.range().len(),
+        _ => COMMAND,
+    });
+    let words = WORD * block.words.len() + NODE * block.nodes.len();
+    let remark = if text.contains(MARK) { REMARK } else { 0 };
+    let units = BLOCK + words + items.sum::<usize>() + text.len() / BYTES + remark;
+    u64::try_from(units).unwrap_or(u64::MAX)
 }

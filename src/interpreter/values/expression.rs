@@ -6,17 +6,15 @@
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
-use super::cause::Unknown;
-use super::externals::HeldValues;
-use super::found::VariableUse;
-use super::functions::{binary, call, fault, numeric, wrong_type};
-use super::location::{Denoted, Location};
-use super::memory::Memory;
-use super::names::Misuse;
-use super::reads::Reads;
-use super::value::{Slot, Value, rounded};
-use super::work_budget::{ITEM, WorkBudget};
 use crate::diagnostic::{Advice, Budget, Code};
+use crate::interpreter::values::externals::HeldValues;
+use crate::interpreter::values::functions::{binary, call, fault, numeric, wrong_type};
+use crate::interpreter::values::handover::VariableUse;
+use crate::interpreter::values::location::{Denoted, Location, Reads, Unknown};
+use crate::interpreter::values::memory::Memory;
+use crate::interpreter::values::names::Misuse;
+use crate::interpreter::values::value::{Slot, Value, rounded};
+use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
 use crate::readings::Alternative;
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
 use crate::syntax::{
@@ -25,7 +23,7 @@ use crate::syntax::{
 use crate::text::Span;
 
 /// Number of macros that one block may expand, whatever their depth: each may use others several times.
-pub(crate) const MAX_EXPANSIONS: u32 = 4096;
+const MAX_EXPANSIONS: u32 = 4096;
 
 /// Sources of an expression: the memory of the run and the variables of the machine.
 #[derive(Clone, Copy)]

@@ -1,8 +1,8 @@
 //! Operators and functions of the language (R2.30, R2.31, R2.35).
 
-use super::cause::Unknown;
-use super::value::{Slot, Value, is_true, rounded};
 use crate::diagnostic::Code;
+use crate::interpreter::values::location::Unknown;
+use crate::interpreter::values::value::{Slot, Value, is_true, rounded};
 use crate::readings::Alternative;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BinaryOperator, Function};

@@ -1,21 +1,20 @@
-//! Parameters, variables and macros of a run.
+//! Parameters, variables and macros of a run. Copies share their values until one of them changes.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::cause::Unknown;
-use super::externals::{ExternalVariables, HeldVariable};
-use super::found::FoundVariables;
-use super::location::Location;
-use super::names::{
+use crate::interpreter::values::externals::{ExternalVariables, HeldVariable};
+use crate::interpreter::values::handover::FoundVariables;
+use crate::interpreter::values::location::{Location, Unknown};
+use crate::interpreter::values::names::{
     Array, Declared, Misuse, NamedVariable, Sure, VariableNames, Weight, compare, join_value,
     weight,
 };
-use super::parameter_values::ParameterValues;
-use super::persistent::PersistentMap;
-use super::value::Value;
-use super::value_type::ValueType;
+use crate::interpreter::values::persistent::PersistentMap;
+use crate::interpreter::values::value::{Value, ValueType};
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 use crate::syntax::{VariableFamily, VariableName};
@@ -23,25 +22,25 @@ use crate::syntax::{VariableFamily, VariableName};
 /// Everything a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Memory {
-    pub(super) parameters: ParameterValues,
+    pub(crate) parameters: ParameterValues,
     /// Set when an unknown parameter was written: the value that decides which.
-    pub(super) lost: Option<Unknown>,
+    pub(crate) lost: Option<Unknown>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
-    pub(super) variables: VariableNames,
+    pub(crate) variables: VariableNames,
     /// Values given by the user for parameters and variables that no program wrote.
-    pub(super) given: PersistentMap<VariableName, Value>,
+    pub(crate) given: PersistentMap<VariableName, Value>,
     /// Set when any of those that programs write may have been written: the text that caused it.
     unknown_names: Option<Unknown>,
     /// The locations that outlive programs, may exist, and were not certainly written since.
-    pub(super) found: BTreeSet<Location>,
+    pub(crate) found: BTreeSet<Location>,
     /// Whether a `V.S.` variable that no known program writes may still exist.
     may_find: bool,
     /// `V.E.` variables that the PLC writes, too (R2.99).
-    pub(super) externals: ExternalVariables,
+    pub(crate) externals: ExternalVariables,
     /// `V.L.` of each call level.
     locals: Vec<VariableNames>,
     /// The code of each macro, or the cause why it is unknown.
-    pub(super) macros: PersistentMap<String, Value>,
+    pub(crate) macros: PersistentMap<String, Value>,
     macro_version: MacroVersion,
     /// The weight of macros.
     weight: Weight,
@@ -402,7 +401,7 @@ impl Memory {
     }
 
     /// Some P parameter was written, but it is not known which: none is known any more.
-    pub(crate) fn havoc_parameters(&mut self, cause: &Unknown) {
+    fn havoc_parameters(&mut self, cause: &Unknown) {
         self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
     }
@@ -555,7 +554,7 @@ impl Memory {
     }
 
     /// Whether the macros of another memory are the same.
-    pub(crate) fn has_macros_of(&self, other: &Self) -> bool {
+    fn has_macros_of(&self, other: &Self) -> bool {
         self.macros == other.macros
     }
 
@@ -574,7 +573,7 @@ impl Memory {
         self.hold_macro(name.trim(), Value::Text(unescaped(code).into()));
     }
 
-    pub(super) fn hold_macro(&mut self, name: &str, code: Value) {
+    pub(crate) fn hold_macro(&mut self, name: &str, code: Value) {
         self.macro_version.rise();
         self.weight.add(weight(name.len(), &code));
         if let Some(before) = self.macros.insert(name.to_owned(), code) {
@@ -654,12 +653,134 @@ impl Memory {
 }
 
 /// The code of a macro as it is used.
-pub(crate) fn unescaped(code: &str) -> String {
+fn unescaped(code: &str) -> String {
     code.replace("\\\"", "\"")
 }
 
 /// Whether a program start leaves a variable or array.
-pub(super) fn is_kept(array: &str, parameters: Parameters) -> bool {
+pub(crate) fn is_kept(array: &str, parameters: Parameters) -> bool {
     let family = VariableFamily::of(array);
     !family.is_of_run() || (parameters == Parameters::Kept && family == VariableFamily::Parameter)
+}
+
+/// Parameters below this number are found without a search.
+const DIRECT: u32 = 1024;
+
+/// Parameters that are copied together.
+const PAGE: usize = 16;
+
+type Page = [Option<Value>; PAGE];
+
+/// The values of P parameters. Copies share the pages in which nothing was written since.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct ParameterValues {
+    pages: Vec<Shared<Page>>,
+    further: PersistentMap<u32, Value>,
+    /// Weight of the texts among the further ones.
+    texts: Weight,
+}
+
+impl ParameterValues {
+    pub(crate) fn get(&self, index: u32) -> Option<&Value> {
+        if index >= DIRECT {
+            return self.further.get(&index);
+        }
+        let (page, place) = page_of(index);
+        self.pages.get(page)?[place].as_ref()
+    }
+
+    pub(crate) fn set(&mut self, index: u32, value: Value) {
+        if index >= DIRECT {
+            self.texts.add(weight(0, &value) - 1);
+            if let Some(before) = self.further.insert(index, value) {
+                self.texts.take(weight(0, &before) - 1);
+            }
+            return;
+        }
+        let (page, place) = page_of(index);
+        if self.pages.len() <= page {
+            self.pages.resize_with(page + 1, Shared::default);
+        }
+        self.pages[page][place] = Some(value);
+    }
+
+    pub(crate) fn remove(&mut self, index: u32) {
+        if let Some(before) = self.further.remove(&index) {
+            self.texts.take(weight(0, &before) - 1);
+        }
+        let (page, place) = page_of(index);
+        if let Some(page) = self.pages.get_mut(page) {
+            page[place] = None;
+        }
+    }
+
+    /// The parameters that have a value, in the order of their numbers.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, &Value)> {
+        let direct = (0..).zip(self.pages.iter().flat_map(|page| page.iter()));
+        let direct = direct.filter_map(|(index, value)| Some((index, value.as_ref()?)));
+        let further = self.further.iter().map(|(index, value)| (*index, value));
+        direct.chain(further)
+    }
+
+    /// The numbers whose values differ in another set, or that only one of the two has.
+    pub(crate) fn differing(&self, other: &Self) -> Vec<u32> {
+        let none = Shared::default();
+        let mut found = Vec::new();
+        for number in 0..self.pages.len().max(other.pages.len()) {
+            let [mine, theirs] = [self, other].map(|it| it.pages.get(number).unwrap_or(&none));
+            if mine.is_copy_of(theirs) {
+                continue;
+            }
+            let indices = (0..DIRECT).skip(number * PAGE);
+            let pairs = indices.zip(mine.iter().zip(theirs.iter()));
+            let differing = pairs.filter(|(_, (mine, theirs))| mine != theirs);
+            found.extend(differing.map(|(index, _)| index));
+        }
+        found.extend(self.further.differing(&other.further));
+        found
+    }
+
+    pub(crate) fn weight(&self) -> usize {
+        let count = self.pages.len() * PAGE + self.further.len();
+        count.saturating_add(self.texts.0)
+    }
+}
+
+fn page_of(index: u32) -> (usize, usize) {
+    let index = index as usize;
+    (index / PAGE, index % PAGE)
+}
+
+/// A value that copies share until one of them changes.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Shared<T>(Arc<T>);
+
+impl<T> Shared<T> {
+    /// Whether two are copies of each other, neither of which has changed since.
+    fn is_copy_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl<T: PartialEq> PartialEq for Shared<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_copy_of(other) || self.0 == other.0
+    }
+}
+
+impl<T> Deref for Shared<T> {
+    type Target = T;
+
+    #[inline]
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<T: Clone> DerefMut for Shared<T> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut T {
+        Arc::make_mut(&mut self.0)
+    }
 }

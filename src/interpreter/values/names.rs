@@ -4,12 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::carried::{ArrayShape, Carried};
-use super::cause::Unknown;
-use super::location::Location;
-use super::persistent::PersistentMap;
-use super::value::Value;
-use super::value_type::ValueType;
+use crate::interpreter::values::handover::{ArrayShape, Carried};
+use crate::interpreter::values::location::{Location, Unknown};
+use crate::interpreter::values::persistent::PersistentMap;
+use crate::interpreter::values::value::{Value, ValueType};
 use crate::syntax::{Subscripts, VariableName};
 
 /// Number of bytes of a text or a name that count as one more value in the budget of values
@@ -198,7 +196,7 @@ impl NamedVariable {
         values.map(|value| weight(name.len(), value)).sum()
     }
 
-    pub(crate) fn elements_weight(&self) -> usize {
+    fn elements_weight(&self) -> usize {
         let weight = |(key, value): (&Subscripts, &Value)| weight(key.len(), value);
         self.elements.iter().map(weight).sum()
     }
@@ -277,7 +275,7 @@ impl VariableNames {
         variable.declared = Some(declared);
     }
 
-    pub(crate) fn drop_elements(&mut self, name: &str) {
+    fn drop_elements(&mut self, name: &str) {
         if let Some(variable) = self.names.get_mut(name) {
             self.weight.take(variable.elements_weight());
             variable.elements.clear();

@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::cause::Unknown;
-use super::externals::ExternalNames;
-use super::location::Location;
-use super::value::{Value, rounded};
+use crate::interpreter::values::externals::ExternalNames;
+use crate::interpreter::values::location::{Location, Unknown};
+use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owner};
 use crate::syntax::{Subscript, VariableFamily, VariableName};
 use crate::text::Span;

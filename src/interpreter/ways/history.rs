@@ -17,10 +17,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::block_site::BlockSite;
-use super::set::{WayAnswer, WaySet};
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership, Selection};
 use crate::interpreter::values::rows;
+use crate::interpreter::ways::possible_state::{PossibleStates, states_of, ways_of};
+use crate::interpreter::ways::question::Condition;
+use crate::interpreter::ways::set::{WayAnswer, WaySet};
+use crate::interpreter::ways::words::{WayCondition, if_ways};
+use crate::text::Place;
 
 /// Number of blocks of one effect kept for a kind where ways meet; of more, the later lines are kept.
 const MAX_KEPT: usize = 16;
@@ -363,7 +366,7 @@ impl History {
     }
 
     /// The ways on which a kind is as the program found it, as they are; `None` for all that lead to the block.
-    pub(crate) fn found_ways(&self, axis: AxisIndex, kind: Kind) -> Option<&WaySet> {
+    fn found_ways(&self, axis: AxisIndex, kind: Kind) -> Option<&WaySet> {
         self.0.get(&(axis, kind))?.found.as_ref()
     }
 
@@ -510,5 +513,135 @@ impl History {
             change(Arc::make_mut(kind));
             **kind != KindHistory::default()
         });
+    }
+}
+
+/// Words of an executed block that switched a kind, may have switched it, or moved an axis.
+#[derive(Debug, Clone, Eq, Serialize, Deserialize)]
+pub(crate) struct BlockSite {
+    /// The executed block.
+    pub(crate) seq: u64,
+    pub(crate) place: Place,
+}
+
+impl PartialEq for BlockSite {
+    /// A block that a loop repeats counts as equal.
+    fn eq(&self, other: &Self) -> bool {
+        self.place == other.place
+    }
+}
+
+impl BlockSite {
+    /// Returns the block as named by a message in a file: `line 4`, or `sub.nc:4`.
+    pub(crate) fn seen_from(&self, file: &str) -> String {
+        let (place, line) = (&self.place, self.place.start().line);
+        if *place.file == *file {
+            format!("line {line}")
+        } else {
+            format!("{}:{line}", place.file)
+        }
+    }
+}
+
+/// The ways to a block on which the state is the one that the program found.
+#[derive(Debug, Clone)]
+pub(crate) enum UntouchedOn {
+    /// On all of them.
+    Always,
+    /// On none.
+    Never,
+    /// On some, in words: `if V.E.A == 2 (line 12)`.
+    If(String),
+}
+
+/// The ways on which a state is the one that the program found.
+#[derive(Debug, Clone)]
+pub(crate) struct FoundOn(WaySet);
+
+impl FoundOn {
+    /// Returns whether it is all ways that lead to a block.
+    pub(crate) fn is_all_of(&self, found: FoundStates<'_>) -> bool {
+        self.0 == *found.reach
+    }
+
+    /// Returns whether it is every way of the program.
+    pub(crate) fn is_always(&self) -> bool {
+        self.0.is_always()
+    }
+
+    /// Adds the ways of another motion.
+    pub(crate) fn or(&mut self, other: &Self) {
+        self.0.or(&other.0);
+    }
+}
+
+/// Kinds that a program has not yet switched at a block.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FoundStates<'a> {
+    pub(crate) history: &'a History,
+    pub(crate) reach: &'a WaySet,
+    pub(crate) conditions: &'a [Condition],
+}
+
+impl FoundStates<'_> {
+    /// The possible states of a kind, with some of the ways to each.
+    pub(crate) fn states_of(
+        self,
+        kind: (&Compensation, AxisKind),
+        split: &Split,
+    ) -> PossibleStates {
+        states_of(kind, split, (self.reach, self.conditions))
+    }
+
+    /// Whether a kind of an axis may still be in the state that the program found.
+    pub(crate) fn has(self, axis: AxisIndex, kind: Kind) -> bool {
+        let ways = self.history.found_ways(axis, kind);
+        ways.is_none_or(|ways| !ways.is_apart_from(self.reach))
+    }
+
+    /// Whether it is on all ways, except where a value changes that the program set.
+    pub(crate) fn is_always(self, axis: AxisIndex, kind: Kind) -> bool {
+        let ways = self.history.found_ways(axis, kind);
+        self.are_all(self.reach) && ways.is_none_or(|ways| self.are_all(ways))
+    }
+
+    fn are_all(self, ways: &WaySet) -> bool {
+        ways.is_always() || !ways.is_never() && ways_of(ways, self.conditions).is_empty()
+    }
+
+    /// All ways that lead to the block.
+    pub(crate) fn on_all(self) -> FoundOn {
+        FoundOn(self.reach.clone())
+    }
+
+    /// The ways on which a kind of an axis still is in that state.
+    pub(crate) fn on(self, axis: AxisIndex, kind: Kind) -> FoundOn {
+        FoundOn(self.history.found((axis, kind), self.reach))
+    }
+
+    /// Ways as lists of conditions that hold together; none where they are all.
+    pub(crate) fn ways_of(self, on: &FoundOn) -> Vec<Vec<WayCondition>> {
+        if on.0.is_always() {
+            return Vec::new();
+        }
+        ways_of(&on.0, self.conditions)
+    }
+
+    /// The ways on which a kind of an axis still is in that state, each a list of conditions that hold
+    /// together; none where it is on all of them, or on no way.
+    pub(crate) fn ways(self, axis: AxisIndex, kind: Kind) -> Vec<Vec<WayCondition>> {
+        self.ways_of(&self.on(axis, kind))
+    }
+
+    /// The ways on which a kind of an axis still is in that state, as seen from a file.
+    pub(crate) fn of(self, axis: AxisIndex, kind: Kind, file: &str) -> UntouchedOn {
+        let ways = self.history.found((axis, kind), self.reach);
+        if ways.is_never() {
+            UntouchedOn::Never
+        } else if self.are_all(&ways) {
+            UntouchedOn::Always
+        } else {
+            UntouchedOn::If(if_ways(&ways_of(&ways, self.conditions), file))
+        }
     }
 }

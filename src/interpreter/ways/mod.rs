@@ -16,7 +16,7 @@
 //! **What happens at an unknown `$IF`?** At N20 the run parts: one way goes on at N30 with the answer `V.E.MATERIAL == 2`,
 //! the other one waits at N40 with the opposite answer. A question is a place in the text with the value that decides
 //! ([`question`]); asked again, it may have another answer. An answer that contradicts an earlier one holds only if the
-//! value changes in between ([`clash`]).
+//! value changes in between ([`question`]).
 //!
 //! **What is printed where ways meet?** At N40 both ways are at the same block of the same call: they are joined. A value
 //! that differs becomes unknown. The compensation of X keeps both states, each with the set of answers that lead to it
@@ -38,14 +38,12 @@
 //! executed up to the block where the sides of the question meet, and raise no event. What no way can execute, such as
 //! the passes of a loop beyond its budget, is passed over: its text is read, and what it names is unknown.
 //!
-//! This room has the sets, questions and words. What a way consists of is in `run`, with the ways that wait, the heads
-//! of loops and the effects of calls; where ways part, meet and end is in `execution`.
+//! What a way consists of is in [`path`], those that wait, the heads of loops and the effects of calls are in
+//! [`others`]. Where ways part, meet and end is in the `drive`.
 
-pub(super) mod block_site;
-pub(super) mod carried;
-pub(super) mod clash;
-pub(super) mod found_states;
 pub(super) mod history;
+pub(super) mod others;
+pub(super) mod path;
 pub(super) mod possible_state;
 pub(super) mod question;
 pub(super) mod set;

@@ -1,0 +1,734 @@
+//! The loop: it takes the path that is due, executes its block, and follows the step after it.
+
+use std::ops::ControlFlow;
+
+use crate::comp::{KindSet, State as CompState};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::block::{
+    AfterError, BlockContext, BlockOutcome, OwnEnd, ShownBlockLines, ended_by, stops,
+};
+use crate::interpreter::control::OptionalSection;
+use crate::interpreter::drive::host::Interpreter;
+use crate::interpreter::events::{EndedBy, Event, Executed, Joined, Observer};
+use crate::interpreter::executor::{Executor, RunState};
+use crate::interpreter::options::{RunOutcome, StopPolicy};
+use crate::interpreter::programs::calls::Finder;
+use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::stack::{ControlStep, NextBlock, Request};
+use crate::interpreter::values::location::Unknown;
+use crate::interpreter::ways::history::{BlockSite, KindEffect};
+use crate::interpreter::ways::path::{Last, RunTrack};
+use crate::interpreter::ways::words::limit_to;
+use crate::interpreter::words::questions::MAX_OPEN;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Block, Item};
+use crate::text::Span;
+
+impl Interpreter {
+    /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
+    pub(crate) fn run(
+        &mut self,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        loop {
+            self.choose_way(finder, observer);
+            let (unit, next) = match self.due_block() {
+                ControlFlow::Continue(Some(due)) => due,
+                ControlFlow::Continue(None) => continue,
+                ControlFlow::Break(by) => return RunOutcome::Ended(by),
+            };
+            let is_repeated = self.here.programs.was_read(unit, next);
+            let parsed = self.here.programs.parsed(unit, next);
+            if let Some(frame) = self.here.state.control.frames.running_mut() {
+                frame.next = next + 1;
+            }
+            if self.here.is_skipped(&parsed.block) {
+                self.here.seek_beyond(unit, next);
+                continue;
+            }
+            if let Some(level) = self.here.undecided_level(&parsed.block)
+                && self.here.part_by_skip(level, &parsed)
+            {
+                let flow = if self.here.offered.is_empty() {
+                    ControlFlow::Continue(())
+                } else {
+                    let shown = ShownBlockLines::default();
+                    let level = self.here.state.control.frames.level();
+                    self.here
+                        .offer_skip(&BlockContext::of_parsed(&parsed, level, &shown), observer)
+                };
+                if let Some(frame) = self.here.state.control.frames.running_mut() {
+                    frame.next = next;
+                }
+                self.others.take_sides(&mut self.here, None, finder);
+                if flow.is_break() {
+                    return RunOutcome::Paused;
+                }
+                continue;
+            }
+            let called_from = self
+                .here
+                .state
+                .control
+                .frames
+                .running_mut()
+                .and_then(|frame| frame.called_from.take());
+            let level = self.here.state.control.frames.level();
+            let shown = ShownBlockLines::default();
+            let at =
+                BlockContext::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
+            if let Some(over) = self.here.over_budget(&at) {
+                let over = self.here.with_loop(over, unit, next);
+                self.here.scratch.over.push(over);
+                match self.others.end_path(&mut self.here, EndedBy::Budget) {
+                    Some(by) => return RunOutcome::Ended(by),
+                    None => continue,
+                }
+            }
+            let depth = self.here.state.control.frames.depth();
+            let spent = self.here.state.work.spent();
+            let is_on_ways = !self.others.waiting.is_empty();
+            let flow = self.execute(&at, finder, observer);
+            if is_repeated {
+                self.here
+                    .state
+                    .work
+                    .repeat(parsed.weight, self.here.scratch.said, spent);
+            } else {
+                self.here.state.work.grant_ways();
+            }
+            if is_on_ways {
+                self.here.charge_block(parsed.weight);
+            }
+            if let Some(frame) = self.here.state.control.frames.at_depth_mut(depth) {
+                frame.called_from = called_from;
+            }
+            let step = match flow {
+                ControlFlow::Continue(()) => None,
+                ControlFlow::Break(NextBlock::Step(step)) => Some(step),
+                ControlFlow::Break(NextBlock::Paused) => {
+                    let step = self.here.state.parked.take();
+                    self.here.state.parked = self.part_and_step(step, finder);
+                    return RunOutcome::Paused;
+                }
+            };
+            let Some(step) = self.part_and_step(step, finder) else {
+                continue;
+            };
+            if let Some(by) = self.follow_to_end(step) {
+                return RunOutcome::Ended(by);
+            }
+        }
+    }
+
+    /// The next block of the running program. `None` where the run first goes on elsewhere, `Break` where the last way
+    /// ends.
+    #[inline]
+    fn due_block(&mut self) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
+        let Some(frame) = self.here.state.control.frames.running() else {
+            let ending = self.here.state.control.ending.take();
+            return self.go_on_elsewhere(ending.unwrap_or(EndedBy::EndOfFile));
+        };
+        let (unit, section, next) = (frame.unit, frame.section, frame.next);
+        let (passage, level) = (frame.passage, frame.level);
+        if !frame.waiting.is_empty() {
+            return match self.others.call_waiting(&mut self.here) {
+                ControlFlow::Continue(()) => ControlFlow::Continue(None),
+                ControlFlow::Break(by) => self.go_on_elsewhere(by),
+            };
+        }
+        let is_past = next >= self.here.programs.section(ProgramId { unit, section }).end;
+        if is_past && frame.seeking.is_some() && self.here.ends_in_open_if() {
+            return self.go_on_elsewhere(EndedBy::Error);
+        }
+        if is_past || passage.is_some_and(|passage| next > passage.last) {
+            if level == 0 {
+                return self.go_on_elsewhere(EndedBy::EndOfFile);
+            }
+            self.others.end_of_pass(&mut self.here);
+            return ControlFlow::Continue(None);
+        }
+        if !self.others.loop_heads.is_empty() && self.others.enters_covered(&mut self.here, next) {
+            self.here.scratch.covered = true;
+            return self.go_on_elsewhere(EndedBy::EndOfFile);
+        }
+        ControlFlow::Continue(Some((unit, next)))
+    }
+
+    /// Ends the way. Another one goes on if there is one.
+    fn go_on_elsewhere(
+        &mut self,
+        by: EndedBy,
+    ) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
+        match self.others.end_path(&mut self.here, by) {
+            Some(by) => ControlFlow::Break(by),
+            None => ControlFlow::Continue(None),
+        }
+    }
+
+    /// Continues on the way whose block comes first in the text; past their budget, all ways are joined.
+    #[inline]
+    fn choose_way(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) {
+        if !self.others.waiting.is_empty() && self.others.choose_path(&mut self.here) {
+            self.tell_joined(observer);
+        }
+        if self.others.waiting.len() > MAX_OPEN {
+            self.others.join_waiting(&mut self.here);
+        }
+        if self.others.is_past_ways(&mut self.here) {
+            self.others.widen(&mut self.here, finder);
+            self.tell_joined(observer);
+        }
+        let is_alone = self.others.waiting.is_empty();
+        self.here.is_alone = is_alone;
+        let RunState { track, control, .. } = &mut self.here.state;
+        track.follow_again(&control.frames, is_alone);
+    }
+
+    /// Executes a step. Returns the end of the run if it is the last one of the last way.
+    pub(crate) fn follow_to_end(&mut self, step: ControlStep) -> Option<EndedBy> {
+        let ControlFlow::Break(by) = self.others.follow(&mut self.here, step) else {
+            return None;
+        };
+        self.others.end_path(&mut self.here, by)
+    }
+
+    /// Announces that ways meet.
+    #[cold]
+    fn tell_joined(&mut self, observer: &mut dyn Observer) {
+        let Some(frame) = self.here.state.control.frames.running() else {
+            return;
+        };
+        if self.here.state.track.is_shadow() {
+            return;
+        }
+        let place = self.here.programs.index(frame.unit).block_place(frame.next);
+        self.here.show_ways();
+        // A run stops at blocks: a request to stop takes effect at the next one.
+        let _ = observer.event(Event::Joined(Joined {
+            seq: self.here.state.seq,
+            place: &place,
+            compensation: &self.here.state.control.compensation,
+            possible: &self.here.shown.possible,
+            occurred: &self.here.state.occurred,
+            version: self.here.version,
+        }));
+    }
+
+    /// Parts the run after a block that asked. Returns the remaining step, which is that of the way on which no jump is
+    /// taken.
+    fn part_and_step(
+        &mut self,
+        step: Option<ControlStep>,
+        finder: &mut dyn Finder,
+    ) -> Option<ControlStep> {
+        if self.here.sides.is_empty() {
+            return step;
+        }
+        match step {
+            None | Some(ControlStep::Call(_)) => {
+                self.others
+                    .take_sides(&mut self.here, step.as_ref(), finder);
+                None
+            }
+            Some(ControlStep::Covered) => {
+                // An error ends the block on all ways.
+                self.here.sides.clear();
+                step
+            }
+            _ if self.here.is_jump_chosen() => {
+                self.others.take_sides(&mut self.here, None, finder);
+                None
+            }
+            step => {
+                self.others.take_jumps(&mut self.here, finder);
+                step
+            }
+        }
+    }
+}
+
+impl Executor {
+    /// Looks for a branch beyond the part of a control block at an entry, which is skipped.
+    fn seek_beyond(&mut self, unit: usize, entry: EntryIndex) {
+        let links = self.programs.index(unit).links(entry);
+        if let Some(frame) = self.state.control.frames.running_mut()
+            && frame.seeking.is_some()
+        {
+            if links.next == entry {
+                frame.seeking = None;
+            } else {
+                frame.next = links.next;
+            }
+        }
+    }
+}
+
+/// Whether the control only computes, branches or switches.
+fn is_still(item: &Item) -> bool {
+    matches!(
+        item,
+        Item::Comp(_) | Item::Assign(_) | Item::Label(_) | Item::Flow(..)
+    )
+}
+
+impl Executor {
+    /// Checks the motion of the axes of a block: the axes that move with its words, and whether
+    /// each may.
+    #[inline]
+    fn look_at_motion(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
+        let words = outcome.axis_words;
+        if self.scratch.again != 0 {
+            self.refuse_repeated_axes(words, at);
+        }
+        if !self.scratch.lacking.is_empty() {
+            self.say_lacking(words, at);
+        }
+        self.move_around(words);
+        self.check_feed(outcome, at);
+        self.carry_along(words);
+        if !self.scratch.outcomes.is_empty() {
+            self.note_command_with_motion();
+        }
+        if self.any_required && self.state.control.described.is_none() {
+            let goes_on = !self.scratch.diagnostics.iter().any(stops);
+            if goes_on || self.options.stop != StopPolicy::FirstError {
+                self.check_required(words, at);
+            }
+        }
+    }
+
+    /// Remembers the axes that a shadow moves.
+    #[cold]
+    fn note_moves_of_shadow(&mut self) {
+        let words = self.scratch.moved.iter().map(|word| word.axis);
+        let axes = words.chain(self.scratch.also_moved.iter().map(|moved| moved.axis));
+        self.state.track.shadow.moved.extend(axes);
+    }
+
+    /// The axes that shadows moved stand at an unknown position.
+    #[cold]
+    fn take_moves_of_shadows(&mut self) {
+        for axis in std::mem::take(&mut self.state.track.shadow.moved) {
+            self.state.control.modal.havoc_position(axis);
+            self.scratch.perhaps_move(axis);
+        }
+    }
+
+    /// Returns whether a block did no more than move.
+    #[inline]
+    fn is_plain(&self) -> bool {
+        !self.scratch.wrote
+            && self.scratch.unsaid.is_none()
+            && self.state.work.level() <= self.options.limits.work
+            && self.state.work.ways() <= self.options.limits.ways
+    }
+
+    /// Informs the observer of a block.
+    fn raise(
+        &self,
+        number: Option<i64>,
+        stopped: bool,
+        at: &BlockContext<'_>,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<()> {
+        observer.event(Event::Executed(Executed {
+            seq: self.state.seq,
+            file: at.file,
+            line: at.line,
+            text: at.text,
+            comments: at.comments,
+            remark: at.remark,
+            number,
+            level: (at.level > 0).then_some(at.level),
+            block: at.block,
+            outcomes: &self.scratch.outcomes,
+            changes: &self.scratch.changes,
+            doubted: &self.scratch.doubted,
+            moved: if stopped { &[] } else { &self.scratch.moved },
+            named: self.scratch.seen,
+            aside: &self.scratch.aside,
+            rests: self.scratch.rests.get() || self.scratch.dwells,
+            also_moved: if stopped {
+                &[]
+            } else {
+                &self.scratch.also_moved
+            },
+            word_motion: self.scratch.word_row.map(|row| row.kind),
+            motion: self.scratch.motion.as_ref(),
+            notes: &self.scratch.notes.borrow(),
+            diagnostics: &self.scratch.diagnostics,
+            stopped,
+            passed: self.is_searching(),
+            compensation: &self.state.control.compensation,
+            possible: &self.shown.possible,
+            found: self.state.found_states(),
+            failed: self.state.track.failed.as_deref(),
+            branch: self.shown.branch.as_deref(),
+            modal: &self.state.control.modal,
+            occurred: &self.state.occurred,
+            version: self.version,
+        }))
+    }
+
+    /// Informs the observer of a block with a skip mark that it may decide on.
+    #[cold]
+    fn offer_skip(
+        &mut self,
+        at: &BlockContext<'_>,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<()> {
+        self.state.seq += 1;
+        self.state.blocks += 1;
+        let number = self.block_number(at);
+        self.raise(number, false, at, observer)
+    }
+
+    /// Accounts for the work and the changes of a block. Returns whether the program is over.
+    #[inline]
+    fn account(&mut self, at: &BlockContext<'_>) -> bool {
+        self.state.work.grant(at.text);
+        let is_over = !self.is_plain() && self.settle(at);
+        let scratch = &self.scratch;
+        if !scratch.changes.is_empty() || scratch.new_axes || scratch.left_open.is_some() {
+            self.version += 1;
+            self.close_changed();
+        }
+        if let Some(earlier) = self.scratch.earlier.take()
+            && let OptionalSection::Asked(condition) = self.state.control.optional
+        {
+            self.join_earlier(condition, &earlier);
+        }
+        self.state.remember_last(at);
+        self.scratch.gather_asked();
+        is_over
+    }
+
+    /// Ends the way at an error of the control.
+    #[cold]
+    fn end_by_error(&mut self, at: &BlockContext<'_>) -> ControlStep {
+        let after = std::mem::take(&mut self.scratch.after_error);
+        let ways = self.state.track.reach.clone();
+        self.stop_on(&ways, after, at);
+        ControlStep::Covered
+    }
+
+    /// Limits the messages of the block to the ways on which they apply, except the first ones, which are
+    /// about ways that meet (R14.5).
+    #[inline]
+    fn limit_messages(&mut self, first: usize) {
+        self.show_ways();
+        if let Some(ways) = &self.shown.branch {
+            let own = self.scratch.diagnostics.iter_mut().skip(first);
+            own.for_each(|said| limit_to(said, ways));
+        }
+        let work = &mut self.scratch;
+        work.diagnostics.append(&mut work.of_some_ways);
+    }
+
+    /// The machine may change values between the questions of blocks.
+    #[inline]
+    fn outdate_readings(&mut self, at: &BlockContext<'_>) {
+        if !self.state.track.readings.is_empty() {
+            self.state.track.outdate_readings(at.block);
+        }
+    }
+
+    /// Finishes a block that did more than move: reports the number of messages left out and a budget
+    /// that is used up. Returns whether one is.
+    #[inline(never)]
+    fn settle(&mut self, at: &BlockContext<'_>) -> bool {
+        self.say_unsaid(at);
+        let Some(over) = self.used_up(at) else {
+            return false;
+        };
+        // The faults of the parts that were given up add nothing to it.
+        let is_part = |said: &Diagnostic| said.code == Code::Fc919;
+        self.scratch.diagnostics.retain(|said| !is_part(said));
+        self.scratch.diagnostics.push(over);
+        true
+    }
+
+    /// Returns the next step of the control, where that is not the next block.
+    #[inline(never)]
+    fn step(
+        &mut self,
+        mut outcome: BlockOutcome,
+        calls: Vec<Request>,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<ControlStep> {
+        let moved = !self.scratch.moved.is_empty();
+        if !calls.is_empty() {
+            outcome.step = Some(ControlStep::Call(calls));
+        }
+        if let Some(by) = outcome.end {
+            if self.state.control.ending.is_none() && at.level > 0 {
+                let fault = Fault::new(
+                    Code::Fc315,
+                    Span::new(0, at.text.len()),
+                    "a program end inside a subprogram ends the whole run",
+                )
+                .with_help("end a subprogram with `M17` or `M29`");
+                self.scratch.diagnostics.push(at.diagnostic(fault));
+            }
+            if at.used.is_none() && self.state.control.ending.is_none() {
+                self.scratch.end = Some(OwnEnd {
+                    place: at.place(Span::new(0, at.text.len())),
+                    is_passed_into: !self.may_be_jumped_to(at),
+                });
+            }
+            return Some(self.program_end(by, at, finder));
+        }
+        if outcome.returns {
+            return Some(ControlStep::Return);
+        }
+        let step = outcome.step.take();
+        if step.is_none() || matches!(step, Some(ControlStep::Call(_))) {
+            return self.repetition(step, moved, at, finder);
+        }
+        step
+    }
+
+    /// Executes the items of a block. Its commands are then the last ones on the way, each at the place where it is
+    /// written or used as a macro.
+    fn remembered_items(
+        &mut self,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+        limit: Option<u32>,
+    ) {
+        self.items(at, outcome, limit);
+        for outcome in &mut self.scratch.outcomes {
+            let Ok(axis) = outcome.result else {
+                continue;
+            };
+            let (command, history) = (&outcome.command, &mut self.state.control.history);
+            outcome.repeated = history.repeated(axis, command.selection, &self.state.track.reach);
+            let site = BlockSite {
+                seq: self.state.seq,
+                place: at.place(command.span),
+            };
+            history.switch(axis, command.selection, site);
+        }
+        if let Some(cause) = self.scratch.unknown_call.take() {
+            self.havoc_all(&cause);
+        }
+    }
+
+    /// Drops the sets of states that a change by the block has decided.
+    fn close_changed(&mut self) {
+        let history = &mut self.state.control.history;
+        for change in &self.scratch.changes {
+            history.close(change.axis, KindSet::of(change.kind));
+        }
+        if let Some(left) = self.scratch.left_open.take() {
+            self.leave_open(&left);
+        }
+    }
+
+    /// Records what the block, or what it calls, may have switched without a command.
+    #[inline]
+    fn note_doubts(&mut self, at: &BlockContext<'_>) {
+        if self.scratch.changes.is_empty() && self.scratch.doubted.is_empty() {
+            return;
+        }
+        let history = &mut self.state.control.history;
+        let seq = self.state.seq;
+        let site = || BlockSite {
+            seq,
+            place: at.place(Span::new(0, at.text.len())),
+        };
+        let lost = self.scratch.changes.iter();
+        for change in lost.filter(|change| change.to == CompState::Unknown) {
+            let kinds = KindSet::of(change.kind);
+            history.doubt((change.axis, kinds), KindEffect::Lost, site());
+        }
+        for doubted in &self.scratch.doubted {
+            history.doubt(*doubted, KindEffect::Doubted, site());
+        }
+    }
+}
+
+impl Interpreter {
+    /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
+    /// messages.
+    #[inline]
+    fn begin_block(&mut self, at: &BlockContext<'_>) -> usize {
+        self.here.scratch.clear();
+        let are_told = self.others.joined.is_empty() && self.others.joined_withheld.is_empty();
+        if !(are_told || self.here.state.track.is_shadow()) {
+            self.here
+                .scratch
+                .diagnostics
+                .append(&mut self.others.joined);
+            self.here
+                .scratch
+                .aside
+                .withheld
+                .append(&mut self.others.joined_withheld);
+        }
+        if !self.here.state.track.shadow.moved.is_empty() && !self.here.state.track.is_shadow() {
+            self.here.take_moves_of_shadows();
+        }
+        let first = self.here.scratch.diagnostics.len();
+        self.here.state.seq += 1;
+        self.here.state.blocks += 1;
+        if self.here.state.track.searching.is_some() {
+            self.here.search(at);
+        }
+        first
+    }
+
+    /// Finds the programs that a block calls.
+    #[inline]
+    fn take_calls(
+        &mut self,
+        outcome: &mut BlockOutcome,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        if outcome.calls.is_empty() {
+            return Vec::new();
+        }
+        if !outcome.goes_on() {
+            self.here.pass_over_calls(outcome, at);
+            return Vec::new();
+        }
+        let calls = self
+            .here
+            .resolve_all(std::mem::take(&mut outcome.calls), at, finder);
+        if self.others.waiting.is_empty() {
+            return calls;
+        }
+        self.others
+            .without_open_recursion(&mut self.here, calls, at, finder)
+    }
+
+    /// Executes a block and informs the observer. `Continue` where the next block follows.
+    pub(crate) fn execute(
+        &mut self,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<NextBlock> {
+        let first = self.begin_block(at);
+        let mut outcome = BlockOutcome::default();
+        let limit = self.here.first_refusal(at.block);
+        let number = self.here.block_number(at);
+        let undecided = self.here.undecided_level(at.block);
+        if let Some(level) = undecided {
+            let whole = Span::new(0, at.text.trim_end().len());
+            self.here
+                .pass_over_part(Unknown::SkipLevel(level), whole, at);
+        } else if !self.here.is_halted() {
+            self.here.remembered_items(at, &mut outcome, limit);
+        }
+        self.here.look_at_motion(&outcome, at);
+        self.here.outdate_readings(at);
+        self.here.pass_over_parts(&mut outcome, finder);
+        self.others.let_leave(&mut self.here);
+        let calls = self.take_calls(&mut outcome, at, finder);
+        if let Some(name) = outcome.looks_for.take() {
+            self.here.look_for_file(name, at, finder);
+        }
+        if self.here.scratch.plc_acts {
+            self.here.let_plc_act();
+        }
+        let refused = limit.is_some() || self.here.scratch.diagnostics.iter().any(stops);
+        let stopped = refused && self.here.options.stop == StopPolicy::FirstError;
+        if refused {
+            self.here.fail(AfterError::Reset, at);
+        }
+        if !at.block.faults.is_empty() {
+            self.here.take_faults(at, stopped);
+        }
+        if !stopped {
+            self.here.move_axes(&outcome, at);
+        }
+        let is_over = self.here.account(at);
+        let step = if is_over || self.here.scratch.too_deep {
+            Some(ControlStep::End(EndedBy::Budget))
+        } else if stopped {
+            Some(ControlStep::End(ended_by(&self.here.scratch.diagnostics)))
+        } else if calls.is_empty() && outcome.goes_on() && self.here.state.control.cycles.is_empty()
+        {
+            None
+        } else {
+            match self.here.step(outcome, calls, at, finder) {
+                Some(ControlStep::Jump(target))
+                    if self.here.state.control.frames.is_passed(target) =>
+                {
+                    Some(self.others.come_round(&mut self.here, target, finder))
+                }
+                step => step,
+            }
+        };
+        let step = match step {
+            Some(ControlStep::End(EndedBy::Error)) => Some(self.here.end_by_error(at)),
+            step => step,
+        };
+        self.here.limit_messages(first);
+        self.here.note_doubts(at);
+        if self.here.state.track.is_shadow() {
+            self.here.note_moves_of_shadow();
+            self.here.scratch.clear_said();
+            return match step {
+                None => ControlFlow::Continue(()),
+                Some(step) => ControlFlow::Break(NextBlock::Step(step)),
+            };
+        }
+        if self.here.options.takes_motions() && self.here.scratch.motion.is_some() {
+            let is_alone = self.others.waiting.is_empty() && self.here.state.ended.is_empty();
+            self.here.state.track.shadow.moves_alone |= !is_alone;
+        }
+        let flow = self.here.raise(number, stopped, at, observer);
+        self.here.scratch.clear_said();
+        match step {
+            step if flow.is_break() => {
+                self.here.state.parked = step;
+                ControlFlow::Break(NextBlock::Paused)
+            }
+            None => ControlFlow::Continue(()),
+            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
+        }
+    }
+}
+
+impl RunState {
+    /// Remembers the block for FC310; it is not known beforehand whether M30 follows.
+    fn remember_last(&mut self, at: &BlockContext<'_>) {
+        if at.level > 0 {
+            return;
+        }
+        match &mut self.last {
+            Some(last) => {
+                at.text.clone_into(&mut last.text);
+                last.line = at.line;
+            }
+            None => {
+                self.last = Some(Last {
+                    file: at.file.clone(),
+                    line: at.line,
+                    text: at.text.to_owned(),
+                });
+            }
+        }
+    }
+}
+
+impl RunTrack {
+    /// Drops readings that an action of the control may change; a `#` command may wait for any
+    /// value (R14.1).
+    #[cold]
+    fn outdate_readings(&mut self, block: &Block) {
+        let readings = &mut self.readings;
+        let mut items = block.items.iter();
+        if items.clone().any(|item| matches!(item, Item::Hash(_))) {
+            readings.clear();
+        } else if !block.words.is_empty() || !items.all(is_still) {
+            readings.act();
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Motion: the modal words that it depends on, its form and its pace.
+
+pub(super) mod contouring;
+pub(super) mod form;
+pub(super) mod modal;
+pub(super) mod pace;
+pub(super) mod saved;

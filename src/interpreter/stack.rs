@@ -1,0 +1,299 @@
+//! The call stack, and the step after a block that does not lead to the next one.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::Diagnostic;
+use crate::interpreter::events::EndedBy;
+use crate::interpreter::motion::saved;
+use crate::interpreter::programs::index::{EntryIndex, LabelName, ProgramId};
+use crate::interpreter::values::location::Unknown;
+use crate::interpreter::values::names::join_value;
+use crate::interpreter::values::value::Value;
+use crate::syntax::ast::CallForm;
+use crate::text::Place;
+
+/// The programs that run, the main program first.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct CallStack(Vec<CallFrame>);
+
+/// One level of the call stack: the position in a program or subprogram.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct CallFrame {
+    /// The file, by its position among the files of the run.
+    pub(crate) unit: usize,
+    pub(crate) section: usize,
+    /// The next block.
+    pub(crate) next: EntryIndex,
+    /// The call depth; 0 is the main program.
+    pub(crate) level: u32,
+    /// Own parameters of the call.
+    pub(crate) own: BTreeMap<u32, Value>,
+    /// Set between `$IF` or `$SWITCH` and the branch being looked for.
+    pub(crate) seeking: Option<Seeking>,
+    /// Place of the call.
+    pub(crate) called_from: Option<Place>,
+    /// State that the end of a cycle restores.
+    pub(crate) restores: Option<Box<saved::Saved>>,
+    pub(crate) retains: Retains,
+    /// Programs that are called before the next block, the first one last.
+    pub(crate) waiting: Vec<Request>,
+    /// The blocks that are executed, where that is not the whole program.
+    pub(crate) passage: Option<Passage>,
+}
+
+impl CallFrame {
+    /// The program that it belongs to.
+    pub(crate) fn program(&self) -> ProgramId {
+        ProgramId {
+            unit: self.unit,
+            section: self.section,
+        }
+    }
+}
+
+/// Whether a cycle keeps its changes to G functions and feed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Retains {
+    /// It does not.
+    Nothing,
+    /// `#RETAIN CYCLE CHANGES` may have been executed.
+    Perhaps,
+}
+
+/// Decision that the next branch statement has to make.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Seeking {
+    /// A true condition.
+    Condition,
+    /// A case with this value.
+    Case(Value),
+}
+
+impl CallFrame {
+    /// Joins another way at the same block: whatever differs becomes unknown.
+    fn join(&mut self, other: &Self, cause: &Unknown) {
+        let Self {
+            // Both are at the same block.
+            unit: _,
+            section: _,
+            next: _,
+            level: _,
+            seeking: _,
+            waiting: _,
+            own,
+            called_from,
+            restores,
+            retains,
+            passage,
+        } = other;
+        let given: Vec<u32> = self.own.keys().chain(own.keys()).copied().collect();
+        for index in given {
+            let mut mine = self.own.get(&index).cloned();
+            join_value(&mut mine, own.get(&index), cause);
+            if let Some(value) = mine {
+                self.own.insert(index, value);
+            }
+        }
+        if self.called_from.is_none() {
+            self.called_from.clone_from(called_from);
+        }
+        if let (Some(mine), Some(theirs)) = (&mut self.restores, restores) {
+            mine.join(theirs);
+        }
+        if *retains == Retains::Perhaps {
+            self.retains = Retains::Perhaps;
+        }
+        if let (Some(mine), Some(theirs)) = (&mut self.passage, passage) {
+            mine.begun = mine.begun.min(theirs.begun);
+        }
+    }
+}
+
+impl CallStack {
+    /// Joins another way at the same block: whatever differs becomes unknown.
+    pub(crate) fn join(&mut self, other: &Self, cause: &Unknown) {
+        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
+            mine.join(theirs, cause);
+        }
+    }
+
+    /// The program whose blocks are executed.
+    #[inline]
+    pub(crate) fn running(&self) -> Option<&CallFrame> {
+        self.0.last()
+    }
+
+    /// The program whose blocks are executed.
+    #[inline]
+    pub(crate) fn running_mut(&mut self) -> Option<&mut CallFrame> {
+        self.0.last_mut()
+    }
+
+    /// The main program.
+    pub(crate) fn main(&self) -> Option<&CallFrame> {
+        self.0.first()
+    }
+
+    /// Whether a subprogram is being executed.
+    pub(crate) fn is_running(&self, program: ProgramId) -> bool {
+        self.iter().any(|frame| {
+            frame.level > 0 && (frame.unit, frame.section) == (program.unit, program.section)
+        })
+    }
+
+    /// The running cycle, whose end restores what was in force before it.
+    pub(crate) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
+        let mut frames = self.0.iter_mut().rev();
+        frames.find(|frame| frame.restores.is_some())
+    }
+
+    /// The place of the program whose blocks are executed.
+    pub(crate) fn program(&self) -> Option<ProgramId> {
+        self.running().map(CallFrame::program)
+    }
+
+    /// The call depth of the program whose blocks are executed; 0 is the main program.
+    pub(crate) fn level(&self) -> u32 {
+        self.running().map_or(0, |frame| frame.level)
+    }
+
+    /// The block that is executed.
+    pub(crate) fn entry(&self) -> Option<EntryIndex> {
+        self.running()?.next.checked_sub(1)
+    }
+
+    /// Whether a block of the running program comes before the next one.
+    pub(crate) fn is_passed(&self, target: EntryIndex) -> bool {
+        self.running().is_some_and(|frame| target < frame.next)
+    }
+
+    /// The outermost program of a call depth.
+    pub(crate) fn at_level(&self, level: u32) -> Option<&CallFrame> {
+        self.0.iter().find(|frame| frame.level == level)
+    }
+
+    /// The program at a call depth, the main program being the first.
+    pub(crate) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut CallFrame> {
+        self.0.get_mut(depth.checked_sub(1)?)
+    }
+
+    /// Returns the number of nested programs.
+    pub(crate) fn depth(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether no program runs.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The programs, the main program first.
+    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &CallFrame> {
+        self.0.iter()
+    }
+
+    /// A program is called.
+    pub(crate) fn push(&mut self, frame: CallFrame) {
+        self.0.push(frame);
+    }
+
+    /// A program is left.
+    pub(crate) fn pop(&mut self) -> Option<CallFrame> {
+        self.0.pop()
+    }
+
+    /// The programs that called the running one.
+    pub(crate) fn without_running(&self) -> Self {
+        Self(self.0[..self.0.len().saturating_sub(1)].to_vec())
+    }
+
+    /// The running program, whoever called it.
+    pub(crate) fn running_alone(&self) -> Self {
+        let alone = |frame: &CallFrame| CallFrame {
+            called_from: None,
+            ..frame.clone()
+        };
+        Self(self.running().map(alone).into_iter().collect())
+    }
+
+    /// All programs are left.
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+}
+
+/// Step of the control after a block, where it does not lead to the next one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) enum ControlStep {
+    /// The program was announced and has not begun.
+    Begin,
+    /// To a block of the same program.
+    Jump(EntryIndex),
+    /// Programs, one after the other.
+    Call(Vec<Request>),
+    /// M17, M29.
+    Return,
+    /// M17, M29 with a place to return to.
+    ReturnTo(Destination),
+    End(EndedBy),
+    /// Nowhere: another way does what this one would do (R14.3).
+    Covered,
+}
+
+/// Reason why the block that follows is not executed next.
+pub(crate) enum NextBlock {
+    /// The observer stops the run.
+    Paused,
+    Step(ControlStep),
+}
+
+/// A program to call.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Request {
+    pub(crate) found: ProgramId,
+    pub(crate) passage: Option<Passage>,
+    pub(crate) own: BTreeMap<u32, Value>,
+    pub(crate) form: CallForm,
+    pub(crate) called_from: Place,
+}
+
+/// The blocks of a program that a frame executes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Passage {
+    pub(crate) first: EntryIndex,
+    pub(crate) last: EntryIndex,
+    /// Number of passes left.
+    pub(crate) left: u64,
+    /// Number of blocks executed before this pass began.
+    pub(crate) begun: u64,
+}
+
+impl Passage {
+    /// The start of the next pass, when there is one. A pass of blocks that are all skipped is the
+    /// last one.
+    pub(crate) fn again(&mut self, executed: u64) -> Option<EntryIndex> {
+        if self.left == 0 || executed == self.begun {
+            return None;
+        }
+        self.left -= 1;
+        self.begun = executed;
+        Some(self.first)
+    }
+}
+
+/// Target of an M17.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Destination {
+    pub(crate) level: u32,
+    /// The block, where it is not the one that follows the call.
+    pub(crate) entry: Option<EntryIndex>,
+}
+
+/// A block of a main program that is read line by line, and the message if it is never reached.
+#[derive(Clone, Debug)]
+pub(crate) struct AwaitedBlock {
+    pub(crate) label: LabelName,
+    pub(crate) missing: Diagnostic,
+}

@@ -1,0 +1,580 @@
+//! Questions that only the machine answers: the run parts there (R14.1). One of them is at which block a program is started
+//! (R2.96).
+
+use std::sync::Arc;
+
+use crate::comp::{AxisIndex, Kind, KindSet, Membership, State};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::interpreter::block::BlockContext;
+use crate::interpreter::drive::host::Interpreter;
+use crate::interpreter::executor::{Executor, RunState};
+use crate::interpreter::options::Branches;
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::stack::Seeking;
+use crate::interpreter::values::location::{Location, Unknown};
+use crate::interpreter::values::plain::{Asking, ConditionMeaning, Writer};
+use crate::interpreter::values::value::Value;
+use crate::interpreter::ways::history::HistorySide;
+use crate::interpreter::ways::path::{AskedCondition, BranchSide, EarlierStates, Last};
+use crate::interpreter::ways::possible_state::ways_of;
+use crate::interpreter::ways::question::{
+    Condition, ConditionKind, ImpliedValues, KeptAnswer, MAX_ANSWERS, RememberedCondition,
+    is_compared,
+};
+use crate::interpreter::ways::set::{WayAnswer, WaySet};
+use crate::interpreter::ways::words::WayCondition;
+use crate::readings::{Alternative, Question};
+use crate::text::Span;
+
+/// Most ways that are open at a time; beyond them they are joined (FC908).
+pub(crate) const MAX_OPEN: usize = 400;
+
+/// Most conditions that ways may name; beyond them a way does not tell its answers.
+pub(crate) const MAX_CONDITIONS: usize = 4096;
+
+/// Most conditions on values of the program whose answers are remembered; older ones are asked again.
+const MAX_ASKED: usize = 64;
+
+/// Number of questions at a place before its earlier answers are dropped.
+const MAX_ROUNDS: u8 = 4;
+
+/// A question to the machine.
+pub(crate) struct MachineQuestion {
+    pub(crate) kind: ConditionKind,
+    pub(crate) span: Span,
+    /// Text of the condition for each answer but the last.
+    pub(crate) texts: Vec<Arc<str>>,
+    pub(crate) cause: Unknown,
+    /// Values that it reads, where that is plain.
+    pub(crate) reads: Option<Asking>,
+    /// The answer that what the program set gives.
+    pub(crate) kept: Option<KeptAnswer>,
+}
+
+impl MachineQuestion {
+    /// The key of equal questions, if only the program writes the values that it reads.
+    fn key(&self) -> Option<&Arc<ConditionMeaning>> {
+        let asking = self.reads.as_ref();
+        let asking = asking.filter(|asking| asking.writer == Writer::Nothing)?;
+        Some(&asking.meaning)
+    }
+}
+
+/// Block at which a way continues.
+#[derive(Clone)]
+pub(crate) struct Goal {
+    pub(crate) to: EntryIndex,
+    pub(crate) seeking: Option<Seeking>,
+    /// Values that follow from the answer.
+    pub(crate) values: Vec<(Location, Value)>,
+    /// Values that the answer rules out.
+    pub(crate) ruled_out: Vec<(Location, Value)>,
+    /// The jump labels at which the way continues, where it may be any of them.
+    pub(crate) labels: Option<Arc<[EntryIndex]>>,
+}
+
+impl Goal {
+    fn says(&self) -> ImpliedValues {
+        ImpliedValues {
+            is: self.values.clone(),
+            is_not: self.ruled_out.clone(),
+        }
+    }
+
+    pub(crate) fn side(self, ways: WaySet) -> BranchSide {
+        BranchSide {
+            seeking: self.seeking,
+            values: self.values,
+            labels: self.labels,
+            ..BranchSide::to(ways, self.to)
+        }
+    }
+
+    /// A block.
+    pub(crate) fn block(to: EntryIndex) -> Self {
+        Self {
+            to,
+            seeking: None,
+            values: Vec::new(),
+            ruled_out: Vec::new(),
+            labels: None,
+        }
+    }
+
+    /// The way continues at any of the jump labels, which stand in the order of the text; `None` without a label.
+    pub(crate) fn any(labels: Vec<EntryIndex>) -> Option<Self> {
+        let first = *labels.first()?;
+        Some(Self {
+            labels: Some(labels.into()),
+            ..Self::block(first)
+        })
+    }
+}
+
+/// The answers to a condition, by their number.
+pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayAnswer> {
+    let of = u8::try_from(count).unwrap_or(u8::MAX);
+    (0..count).map(move |place| WayAnswer {
+        condition,
+        sides: 1 << place,
+        of,
+    })
+}
+
+impl Interpreter {
+    /// The answers to the condition in the last executed block, where only the machine knows which holds and none
+    /// was chosen ([`Branches::OneFollowed`]).
+    pub fn offered(&self) -> &[WayCondition] {
+        &self.here.offered
+    }
+
+    /// The next such condition has one of the answers that are [`offered`](Self::offered), by its place
+    /// among them; after a second call, so has the one after it.
+    pub fn choose(&mut self, place: usize) {
+        self.here.chosen.push_back(place);
+    }
+}
+
+impl Executor {
+    /// The run parts at a question: one way for each answer. A further question of a block is asked where the answers to
+    /// those before it let the run go on. Returns whether it parts; it does not where one way is followed that the
+    /// program itself decides, unless the PLC interferes.
+    pub(crate) fn part(
+        &mut self,
+        question: MachineQuestion,
+        mut goals: Vec<Goal>,
+        at: &BlockContext<'_>,
+    ) -> bool {
+        if self.options.follows_one_way() && question.kept.is_some() {
+            return false;
+        }
+        let is_unread = self.scratch.unread.get();
+        let frames = &self.state.control.frames;
+        if let Some((frame, entry)) = frames.running().zip(frames.entry()).filter(|_| is_unread)
+            && self.programs.index(frame.unit).is_linked(entry)
+        {
+            self.pass_over_part(question.cause, question.span, at);
+            return true;
+        }
+        self.offered.clear();
+        let offers = self.options.branches == Branches::OneFollowed;
+        if let Some(kept) = &question.kept
+            && let Some(own) = goals.get_mut(kept.sides.trailing_zeros() as usize)
+        {
+            own.values.clear();
+        }
+        if offers && question.key().is_none() {
+            // The next block that reads the value asks anew.
+            for goal in &mut goals {
+                goal.values.clear();
+            }
+        }
+        if question.kind == ConditionKind::Loop {
+            self.note_open_loop();
+        }
+        let answers = self.answers_to(question, &goals, at);
+        let chosen = offers.then(|| self.chosen_among(&answers)).flatten();
+        let own = self.state.control.frames.running().map(|frame| frame.next);
+        let before = self.sides.iter().position(|side| Some(side.to) == own);
+        let before = match before {
+            Some(place) => self.sides.remove(place),
+            None if self.sides.is_empty() => BranchSide::to(WaySet::always(), 0),
+            None => return true,
+        };
+        let sides = goals.into_iter().zip(answers);
+        let sides = sides.filter(|(_, ways)| chosen.as_ref().is_none_or(|chosen| chosen == ways));
+        let sides = sides.map(|(goal, ways)| {
+            let mut side = goal.side(before.ways.and(&ways));
+            side.values.extend(before.values.iter().cloned());
+            side
+        });
+        self.sides.extend(sides);
+        true
+    }
+
+    /// The ways on which each goal is reached. Beyond the number of answers that a question may have, the last one stands
+    /// for all others; beyond that of conditions, the ways are not told apart.
+    fn answers_to(
+        &mut self,
+        question: MachineQuestion,
+        goals: &[Goal],
+        at: &BlockContext<'_>,
+    ) -> Vec<WaySet> {
+        let count = goals.len().min(MAX_ANSWERS);
+        if count < 2 || self.scratch.unread.get() || !self.state.can_ask() {
+            return vec![WaySet::always(); goals.len()];
+        }
+        let question = MachineQuestion {
+            texts: question.texts.into_iter().take(count - 1).collect(),
+            ..question
+        };
+        // It is compared with those that were asked before.
+        let known = 20 * self.state.conditions.len() as u64;
+        self.state.work.charge_ways(known);
+        let says = goals.iter().take(count).map(Goal::says).collect();
+        let condition = self.ask(question, says, at);
+        let mut ways: Vec<WaySet> = answers(condition, count).map(WaySet::of).collect();
+        let last = ways.last().cloned().unwrap_or_else(WaySet::always);
+        ways.resize(goals.len(), last);
+        ways
+    }
+
+    /// Joins a loop whose own condition is not known at its head from the second pass on.
+    fn note_open_loop(&mut self) {
+        let frames = &self.state.control.frames;
+        if let Some(program) = frames.program()
+            && let Some(entry) = frames.entry()
+        {
+            let opener = self.programs.index(program.unit).links(entry).opener;
+            let place = (frames.depth(), program.unit, opener);
+            self.state.track.open_loops.insert(place);
+        }
+    }
+
+    /// The ways on which the program ends at the block, and those on which it goes on.
+    pub(crate) fn part_at_end(
+        &mut self,
+        question: MachineQuestion,
+        at: &BlockContext<'_>,
+    ) -> [WaySet; 2] {
+        self.state
+            .work
+            .charge_ways(1_000 + 20 * self.machine.axes.len() as u64);
+        let reach = self.state.track.reach.clone();
+        if !self.state.can_ask() {
+            return [reach.clone(), reach];
+        }
+        let condition = self.ask(question, vec![ImpliedValues::default(); 2], at);
+        let [ends, goes_on] = [1, 2].map(|sides| WayAnswer {
+            condition,
+            sides,
+            of: 2,
+        });
+        let reach = &self.state.track.reach;
+        [ends, goes_on].map(|answer| reach.and(&WaySet::of(answer)))
+    }
+
+    /// The answer that was chosen beforehand, or that an earlier one implies; without either, offers the answers.
+    fn chosen_among(&mut self, answers: &[WaySet]) -> Option<WaySet> {
+        if self.state.track.is_shadow() {
+            return None;
+        }
+        let reach = &self.state.track.reach;
+        let mut possible = answers.iter().filter(|it| !reach.and(it).is_never());
+        if let Some(only) = possible.next().filter(|_| possible.next().is_none()) {
+            return Some(only.clone());
+        }
+        let chosen = self.chosen.pop_front();
+        if let Some(chosen) = chosen.and_then(|place| answers.get(place)) {
+            return Some(chosen.clone());
+        }
+        let ways = answers.iter().map(|it| ways_of(it, &self.state.conditions));
+        self.offered = ways.flatten().flatten().collect();
+        None
+    }
+
+    /// The number of the condition that a question asks for.
+    fn ask(
+        &mut self,
+        question: MachineQuestion,
+        answers: Vec<ImpliedValues>,
+        at: &BlockContext<'_>,
+    ) -> u32 {
+        let key = question.key().cloned();
+        if let Some(key) = &key {
+            let mut asked = self.state.track.asked.iter();
+            if let Some(asked) = asked.find(|asked| asked.meaning == *key) {
+                return asked.condition;
+            }
+            let mut asked = self.state.asked.iter();
+            if let Some(asked) = asked.find(|asked| *asked.meaning == **key) {
+                self.state.track.asked.push(asked.clone());
+                return asked.condition;
+            }
+        }
+        let condition = self.state.ask_anew(Condition::new(
+            question.kind,
+            at.place(question.span),
+            question.texts,
+            question.cause,
+        ));
+        self.keep_answer(condition, question.kept.as_ref());
+        let track = &mut self.state.track;
+        track.asked.retain(|asked| asked.condition != condition);
+        if let Some(meaning) = key {
+            if track.asked.len() >= MAX_ASKED {
+                track.asked.remove(0);
+            }
+            let asked = AskedCondition { condition, meaning };
+            if asked.reads_nothing() {
+                self.state.asked.push(asked.clone());
+            }
+            track.asked.push(asked);
+        } else {
+            self.compare(condition, (question.kind, question.reads), answers);
+        }
+        condition
+    }
+
+    /// Notes the answer that what the program set gives. Other ways may name the same condition as it was asked
+    /// before.
+    fn keep_answer(&mut self, condition: u32, kept: Option<&KeptAnswer>) {
+        let is_alone = self.is_alone && self.state.ended.is_empty();
+        let conditions = &mut self.state.conditions;
+        if let Some(known) = conditions.get_mut(condition as usize) {
+            let is_it = known.time == 0 || is_alone || known.kept.as_ref() == kept;
+            known.kept = kept.filter(|_| is_it).cloned();
+        }
+    }
+
+    /// Finds the answers that contradict earlier ones, unless the machine changes a value in between.
+    fn compare(
+        &mut self,
+        condition: u32,
+        (kind, asking): (ConditionKind, Option<Asking>),
+        answers: Vec<ImpliedValues>,
+    ) {
+        let place = condition as usize;
+        let is_own =
+            |target: &Location| matches!(target, Location::Variable(name) if self.is_own(name));
+        let asking = asking.as_ref();
+        let asking = asking.filter(|asking| !asking.meaning.reads.iter().any(is_own));
+        let is_again = self.state.is_asked_again(place);
+        let RunState {
+            track,
+            conditions,
+            ended,
+            ..
+        } = &mut self.state;
+        let Some(known) = conditions.get_mut(place) else {
+            return;
+        };
+        known.time = known.time.saturating_add(1);
+        known.clashes.clear();
+        if is_again || !is_compared(kind) {
+            track.readings.wait_for(asking);
+        }
+        // Other ways may name the same condition as it was asked before.
+        let is_alone = known.time == 1 || (self.is_alone && ended.is_empty());
+        if let Some(asking) = asking.filter(|_| is_alone && is_compared(kind)) {
+            let reading = RememberedCondition::of((condition, known.time), asking, answers);
+            known.clashes = track.readings.ask(reading);
+        }
+    }
+
+    /// The states of a kind on the ways that lead here: a test of it tells them apart (R14.1).
+    pub(crate) fn part_by_state(
+        &mut self,
+        (axis, kind): (AxisIndex, Kind),
+        goals: [Goal; 2],
+    ) -> bool {
+        let Some(split) = self.state.control.history.states(axis, kind) else {
+            return false;
+        };
+        let ways = [split.on.clone(), split.off.clone()];
+        let states = [Membership::In, Membership::Out];
+        let sides = goals.into_iter().zip(ways).zip(states);
+        let sides = sides.map(|((goal, ways), state)| BranchSide {
+            seeking: goal.seeking,
+            values: goal.values,
+            state: Some((axis, kind, state)),
+            ..BranchSide::to(ways, goal.to)
+        });
+        self.sides = sides.collect();
+        true
+    }
+}
+
+impl RunState {
+    /// Whether ways may name a further condition.
+    pub(crate) fn can_ask(&self) -> bool {
+        self.conditions.len() + 1 < MAX_CONDITIONS
+    }
+
+    /// Whether the condition was asked before at the same place, and its value not written since.
+    fn is_asked_again(&self, place: usize) -> bool {
+        let RunState {
+            track, conditions, ..
+        } = self;
+        let Some(condition) = conditions.get(place) else {
+            return false;
+        };
+        let mut asked = track.readings.conditions();
+        asked.any(|it| {
+            let other = conditions.get(it as usize);
+            other.is_some_and(|other| other.is_like(condition))
+        })
+    }
+
+    /// The number of a condition of which no way knows the answer yet.
+    pub(crate) fn ask_anew(&mut self, wanted: Condition) -> u32 {
+        let condition = self.condition_at(wanted);
+        self.track.reach.havoc(condition);
+        self.control.history.havoc(condition);
+        condition
+    }
+
+    /// The condition of a question: a new one, or one of this place that no way names any more.
+    fn condition_at(&mut self, mut wanted: Condition) -> u32 {
+        let mut last = None;
+        for (number, known) in (0..).zip(&self.conditions) {
+            if !known.is_like(&wanted) {
+                continue;
+            }
+            last = Some(number);
+            wanted.round = wanted.round.max(known.round.saturating_add(1));
+            let mut named = self.track.reach.conditions();
+            let mut switched = self.control.history.conditions();
+            let is_it = |it| it == number;
+            if !(named.any(is_it) || switched.any(is_it)) {
+                return number;
+            }
+        }
+        if let Some(last) = last.filter(|_| wanted.round >= MAX_ROUNDS) {
+            return last;
+        }
+        let number = u32::try_from(self.conditions.len()).unwrap_or(u32::MAX);
+        self.conditions.push(wanted);
+        number
+    }
+}
+
+impl Executor {
+    /// Returns whether the block at which the program is to be started was not reached yet.
+    pub(crate) fn is_searching(&self) -> bool {
+        self.state.track.searching.is_some()
+    }
+
+    /// FC413: the program ended before the block at which it was to be started.
+    pub(crate) fn missed_search(&self) -> Option<Diagnostic> {
+        let wanted = self.options.search.filter(|_| self.is_searching())?;
+        let start = || {
+            let main = self.programs.units().first()?;
+            Some(main.index.source.place(Span::new(0, 0)))
+        };
+        let last = self.state.last.as_ref().map(Last::place);
+        let place = last.or_else(start)?;
+        let message = format!(
+            "the program ends here without reaching {wanted}, at which it is to be started"
+        );
+        let said = Diagnostic::new(Code::Fc413, place, message).raised(Severity::Error);
+        Some(said.with_help(
+            "name a block that the main program executes, by its number or by its first line",
+        ))
+    }
+
+    pub(crate) fn begin_search(&mut self) {
+        if self.options.search.is_some() {
+            let earlier = self.state.control.earlier_states();
+            self.state.track.searching = Some(Box::new(earlier));
+        }
+    }
+
+    /// Ends the search if the block is the searched one.
+    #[cold]
+    pub(crate) fn search(&mut self, at: &BlockContext<'_>) {
+        if !self.options.search.is_some_and(|wanted| wanted.is(at)) {
+            return;
+        }
+        let Some(before) = self.state.track.searching.take() else {
+            return;
+        };
+        if !self.differing_since(&before).is_empty() {
+            self.state.rests_on.insert(Question::BlockSearch);
+        }
+        match self.machine.readings.of(Question::BlockSearch) {
+            Some(Alternative::First) => {}
+            Some(Alternative::Second) => {
+                let control = &mut self.state.control;
+                control.compensation = before.compensation;
+                control.history = before.history;
+                self.version += 1;
+            }
+            None => self.search_either_way(&before, at),
+        }
+    }
+
+    /// Continues with both readings of a block search.
+    fn search_either_way(&mut self, before: &EarlierStates, at: &BlockContext<'_>) {
+        let differing = self.differing_since(before);
+        if differing.is_empty() {
+            return;
+        }
+        for (axis, kind) in &differing {
+            let said = self.open_search((*axis, *kind), before, at);
+            self.scratch.diagnostics.push(said);
+        }
+        self.version += 1;
+        if !self.state.can_ask() {
+            for (axis, kind) in differing {
+                self.havoc(axis, KindSet::of(kind));
+            }
+            return;
+        }
+        let condition = self.state.ask_anew(Condition::new(
+            ConditionKind::Search,
+            at.place(Span::new(0, at.text.trim_end().len())),
+            vec![Arc::from("executed")],
+            Unknown::Search,
+        ));
+        self.join_earlier(condition, before);
+    }
+
+    /// The states are those of an earlier block where a condition does not hold.
+    pub(crate) fn join_earlier(&mut self, condition: u32, earlier: &EarlierStates) {
+        let reach = &self.state.track.reach;
+        let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
+        let (Some(holds), Some(fails)) = (sides.next(), sides.next()) else {
+            return;
+        };
+        let control = &mut self.state.control;
+        let theirs = HistorySide {
+            compensation: &earlier.compensation,
+            history: &earlier.history,
+            reach: &fails,
+        };
+        control
+            .history
+            .join(&mut control.compensation, &holds, &theirs);
+        self.version += 1;
+    }
+
+    fn differing_since(&self, before: &EarlierStates) -> Vec<(AxisIndex, Kind)> {
+        let now = &self.state.control.compensation;
+        let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
+        let of_axis = |axis: AxisIndex| {
+            let kinds = now.differing(&before.compensation, axis);
+            let kinds = kinds.intersection(self.machine.axis(axis).configured);
+            kinds
+                .iter()
+                .map(move |kind| (axis, kind))
+                .collect::<Vec<_>>()
+        };
+        axes.flat_map(of_axis).collect()
+    }
+
+    /// FC413: a state that depends on what the block search does.
+    fn open_search(
+        &self,
+        (axis, kind): (AxisIndex, Kind),
+        before: &EarlierStates,
+        at: &BlockContext<'_>,
+    ) -> Diagnostic {
+        let name = &self.machine.axis(axis).name;
+        let states = [&self.state.control.compensation, &before.compensation];
+        let [executed, decoded]: [State; 2] = states.map(|it| it.state(axis, kind));
+        let message = format!(
+            "`{kind}` of axis `{name}` is {executed} here if the block search executes the COMP commands \
+             that it passes, and {decoded} if it only decodes them"
+        );
+        let to = if matches!(executed, State::Active | State::Ineffective) {
+            "ON"
+        } else {
+            "OFF"
+        };
+        Diagnostic::new(Code::Fc413, at.place(Span::new(0, at.text.trim_end().len())), message).with_help(format!(
+            "the control's documents leave this open; repeat `{name}[COMP {to} {kind}]` after this block, or \
+             check `V.A.{kind}_COMP_ACTIVE.{name}` before the start"
+        ))
+    }
+}

@@ -131,7 +131,7 @@ impl ScanQuestion for SwitchedAxes {
     }
 }
 
-/// The requested axes that a program names, and whether it calls a file (R2.74).
+/// The requested axes that a program names, and whether it may name more (R2.74).
 #[derive(Debug, Default)]
 pub struct NamedAxes {
     pending: Vec<PendingLabel>,
@@ -140,6 +140,8 @@ pub struct NamedAxes {
     read: BTreeSet<String>,
     next_read: Option<usize>,
     calls: Calls,
+    /// Whether a block that may name an axis has a fault and a bracket.
+    is_faulty: bool,
 }
 
 /// Part of a variable that reads a state, `V.A.FRICT_COMP_ACTIVE.X`.
@@ -182,9 +184,9 @@ impl NamedAxes {
         &self.read
     }
 
-    /// Whether the program calls a file.
-    pub fn calls_files(&self) -> bool {
-        self.calls.is_found
+    /// Whether the program may name further axes: it calls a file, or a block that may name one has a fault.
+    pub fn may_name_more(&self) -> bool {
+        self.calls.is_found || self.is_faulty
     }
 }
 
@@ -210,6 +212,7 @@ impl ScanQuestion for NamedAxes {
     }
 
     fn look(&mut self, block: &Block, text: &str) {
+        self.is_faulty |= !block.faults.is_empty() && text.contains('[');
         with_macros(block, text, MAX_MACROS, &mut |block, text| {
             for (name, _) in own_uses(block, text) {
                 if let Some(at) = self.pending.iter().position(|label| label.name == name) {
@@ -295,7 +298,7 @@ mod tests {
         for piece in pieces {
             scan.feed(piece.as_bytes());
         }
-        let calls = scan.question.calls_files();
+        let calls = scan.question.may_name_more();
         let names: Vec<String> = scan.question.into_names().into_iter().collect();
         (names.join(" "), calls)
     }
@@ -341,6 +344,12 @@ mod tests {
         ] {
             assert!(!named(&[text]).1, "{text}");
         }
+    }
+
+    #[test]
+    fn a_faulty_bracket_may_be_that_of_an_axis() {
+        // R9.74
+        assert!(named(&["N10 X[COMP OF FRICT]"]).1);
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub(crate) struct AxesAhead {
     read: BTreeSet<String>,
     /// Names that may occur in programs of other runs.
     elsewhere: Vec<String>,
-    /// Whether there may be more: in called programs, or in those from a pipe.
+    /// Whether there may be more: in called programs, in blocks with faults, or in programs from a pipe.
     is_open: bool,
 }
 
@@ -46,7 +46,7 @@ impl AxesAhead {
             }
             found = scan.question;
         }
-        ahead.is_open |= found.calls_files();
+        ahead.is_open |= found.may_name_more();
         ahead.read.clone_from(found.read());
         ahead.found = found.into_names();
         ahead
@@ -115,6 +115,7 @@ mod tests {
         assert!(ahead("G0 X1\nLL SUB\n%L SUB\nM17").1);
         assert!(!ahead("G0 X1\nL SUB.nc\n").1);
         assert!(!ahead("L \"SUB.nc\"").1);
+        assert!(!ahead("N10 X[COMP OF FRICT]").1);
     }
 
     #[test]

@@ -447,20 +447,8 @@ impl Executor {
                 self.check_jump(entry, span, at)?;
                 Ok(Some(ControlStep::Jump(entry)))
             }
-            None if at.macro_depth == 0
-                && matches!(
-                    target,
-                    BlockReference::Number(Operand::Number(_)) | BlockReference::Label(_)
-                ) =>
-            {
-                // Reported before the program began.
-                Ok(None)
-            }
-            None => Err(Box::new(Fault::new(
-                Code::Fc209,
-                span,
-                format!("jump label `{label}` does not exist in this program"),
-            ))),
+            None if is_reported(*target, at) => Ok(None),
+            None => Err(Box::new(missing_label(&label, span))),
         }
     }
 
@@ -531,4 +519,19 @@ fn flow_span(block: &Block) -> Span {
             _ => None,
         })
         .unwrap_or_default()
+}
+
+/// FC209.
+pub(crate) fn missing_label(label: &LabelName, span: Span) -> Fault {
+    let message = format!("jump label `{label}` does not exist in this program");
+    Fault::new(Code::Fc209, span, message)
+}
+
+/// Whether a label that does not exist is reported before the program begins: it is written in a block.
+pub(crate) fn is_reported(target: BlockReference, at: &BlockContext<'_>) -> bool {
+    at.macro_depth == 0
+        && matches!(
+            target,
+            BlockReference::Number(Operand::Number(_)) | BlockReference::Label(_)
+        )
 }

@@ -21,6 +21,7 @@ use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::path::Marked;
 use crate::interpreter::ways::question::{ConditionKind, MAX_ANSWERS};
 use crate::interpreter::ways::set::WaySet;
+use crate::interpreter::words::flow::{is_reported, missing_label};
 use crate::interpreter::words::plc::Doubt;
 use crate::interpreter::words::questions::{Goal, MachineQuestion};
 use crate::interpreter::words::refusal::StopScope;
@@ -29,6 +30,15 @@ use crate::readings::Question as Open;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, BlockReference, Expression, Flow, Item, Operand};
 use crate::text::{Place, Span};
+
+/// Where the jump of a condition goes.
+enum ConditionalJump {
+    /// There is no jump, or it is reported before the program begins.
+    Nowhere,
+    /// Its label does not exist.
+    Missing(LabelName, Span),
+    To(Goal, Span),
+}
 
 impl Executor {
     /// The run parts at a condition: where it holds and where it does not. Whether it can.
@@ -166,21 +176,18 @@ impl Executor {
         at: &BlockContext<'_>,
     ) -> bool {
         let next = self.next_block();
-        let Some((goal, span)) = self.jump_after(place, at) else {
-            // A label that is written is reported before the program begins where it does not exist.
-            let is_computed = |item: &Item| {
-                let Item::Flow(Flow::Goto(target), _) = item else {
-                    return false;
-                };
-                !matches!(
-                    target,
-                    BlockReference::Label(_) | BlockReference::Number(Operand::Number(_))
-                )
-            };
-            if at.block.items.iter().any(is_computed) {
-                self.perhaps_stop((Unknown::MissingLabel, StopScope::Block), place, at);
+        let (goal, span) = match self.jump_after(place, at) {
+            ConditionalJump::To(goal, span) => (goal, span),
+            ConditionalJump::Missing(label, span) => {
+                if let Operand::Expression(condition) = condition {
+                    let asked = (ConditionKind::Branch, span);
+                    let question = self.question_of(condition, doubt, asked, at);
+                    let said = at.diagnostic(missing_label(&label, span));
+                    self.refused_where(question, said, AfterError::Reset, at);
+                }
+                return true;
             }
-            return true;
+            ConditionalJump::Nowhere => return true,
         };
         let asked = (ConditionKind::Branch, span);
         let across = if goal.labels.is_none() {
@@ -208,7 +215,7 @@ impl Executor {
         (cause, place): (Unknown, Span),
         at: &BlockContext<'_>,
     ) {
-        if let Some((goal, span)) = self.jump_after(place, at) {
+        if let Some((goal, span)) = self.possible_jump(place, at) {
             let goals = vec![goal, Goal::block(self.next_block())];
             let texts = vec![span.of(at.text).trim().into()];
             self.part_by_cause(ConditionKind::Branch, (cause, span), (goals, texts), at);
@@ -306,7 +313,7 @@ impl Executor {
     pub(crate) fn jumps_back(&mut self, place: Span, at: &BlockContext<'_>) -> bool {
         let next = self.next_block();
         let jump = self.jump_after(place, at);
-        jump.is_some_and(|(goal, _)| goal.labels.is_none() && goal.to < next)
+        matches!(jump, ConditionalJump::To(goal, _) if goal.labels.is_none() && goal.to < next)
     }
 
     /// The run parts where a jump computes its target: one way for each label that it may mean.
@@ -380,7 +387,7 @@ impl Executor {
 
     /// The run parts where a probe answers, or does not (R2.91).
     pub(crate) fn part_at_probe(&mut self, place: Span, at: &BlockContext<'_>) {
-        let Some((goal, span)) = self.jump_after(place, at) else {
+        let Some((goal, span)) = self.possible_jump(place, at) else {
             return;
         };
         let question = MachineQuestion {
@@ -422,7 +429,7 @@ impl Executor {
     }
 
     /// The jump at a place of a block or after it, before its next condition; `None` where its label does not exist.
-    fn jump_after(&mut self, place: Span, at: &BlockContext<'_>) -> Option<(Goal, Span)> {
+    fn jump_after(&mut self, place: Span, at: &BlockContext<'_>) -> ConditionalJump {
         let mut items = at.block.items.iter();
         let after = items
             .by_ref()
@@ -435,27 +442,50 @@ impl Executor {
                     jump = Some((*target, *span));
                     break;
                 }
-                Item::Flow(Flow::If(_), _) if !is_first => return None,
+                Item::Flow(Flow::If(_), _) if !is_first => break,
                 _ => {}
             }
             is_first = false;
         }
-        let (target, span) = jump?;
-        let value = match target {
-            BlockReference::Label(name) => Value::Text(name.of(at.text).into()),
-            BlockReference::Number(operand) => self.value(operand, at).ok()?,
-            BlockReference::Variable(place) => self.value(Operand::Expression(place), at).ok()?,
+        let Some((target, span)) = jump else {
+            return ConditionalJump::Nowhere;
         };
-        let frame = self.state.control.frames.running()?;
+        let value = match target {
+            BlockReference::Label(name) => Ok(Value::Text(name.of(at.text).into())),
+            BlockReference::Number(operand) => self.value(operand, at),
+            BlockReference::Variable(place) => self.value(Operand::Expression(place), at),
+        };
+        let (Ok(value), Some(frame)) = (value, self.state.control.frames.running()) else {
+            return ConditionalJump::Nowhere;
+        };
         let index = self.programs.index(frame.unit);
-        let name = match value {
+        let label = match value {
             Value::Number(number) => LabelName::numbered(number),
             Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
             Value::Unknown(_) => {
-                return Some((Goal::any(index.labels(frame.section).collect())?, span));
+                let any = Goal::any(index.labels(frame.section).collect());
+                return any.map_or(ConditionalJump::Nowhere, |goal| {
+                    ConditionalJump::To(goal, span)
+                });
             }
         };
-        Some((Goal::block(index.label(frame.section, name)?), span))
+        match index.label(frame.section, label.clone()) {
+            Some(entry) => ConditionalJump::To(Goal::block(entry), span),
+            None if is_reported(target, at) => ConditionalJump::Nowhere,
+            None => ConditionalJump::Missing(label, span),
+        }
+    }
+
+    /// The jump after a condition of which the answer does not say what it is about: a missing label may end the program.
+    fn possible_jump(&mut self, place: Span, at: &BlockContext<'_>) -> Option<(Goal, Span)> {
+        match self.jump_after(place, at) {
+            ConditionalJump::To(goal, span) => Some((goal, span)),
+            ConditionalJump::Missing(_, span) => {
+                self.perhaps_stop((Unknown::MissingLabel, StopScope::Block), span, at);
+                None
+            }
+            ConditionalJump::Nowhere => None,
+        }
     }
 
     /// Parts the run at a `$SWITCH`: one way for each case, and one for everything else.

@@ -380,6 +380,10 @@ fn only_axes_that_occur_are_enabled() {
     assert_eq!(bench.status(&["run", "--enable", "X", "call.nc"]), Some(0));
     let configured = Bench::new(&[("a.nc", LEAVE_OFF)]);
     assert!(refused(&configured, &["run", "--enable", "W", "a.nc"]).contains("no axis `W`"));
+    // A mistake in the only command of an axis is reported, not that the axis is missing.
+    bench.write("typo.nc", "N10 X[COMP OF FRICT]\nN20 M30\n");
+    let said = bench.stdout(&["check", "--enable", "X", "typo.nc"]);
+    assert!(said.contains("FC202"), "{said}");
     // No word means all axes, whatever the programs call.
     for all in ["all", "ALL", "all,x"] {
         for program in ["a.nc", "call.nc"] {

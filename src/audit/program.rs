@@ -321,14 +321,14 @@ impl Auditor {
         observations: &mut [Observation],
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<(), E> {
-        interpreter.find(&self.found);
+        interpreter.here.find(&self.found);
         run(interpreter, &mut |event: Event<'_>| {
             for observation in &mut *observations {
                 observation.event(&self.scope, &event);
             }
             ControlFlow::Continue(())
         })?;
-        let used = interpreter.take_use();
+        let used = interpreter.here.take_use();
         for observation in observations {
             observation.rests_on = interpreter.rests_on();
             observation.use_ends(used.clone());

@@ -163,6 +163,20 @@ impl Executor {
         };
     }
 
+    /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and records
+    /// their use from here on.
+    pub(crate) fn find(&mut self, found: &FoundVariables) {
+        self.state.control.memory.find(found);
+        let used = VariableUse::new(self.machine.parameters, &self.externals);
+        self.used = Some(RefCell::new(used));
+    }
+
+    /// The use of variables that outlive programs by the programs since.
+    pub(crate) fn take_use(&mut self) -> VariableUse {
+        let used = self.used.take().map(RefCell::into_inner);
+        used.unwrap_or_default()
+    }
+
     /// Records the use of variables that outlive programs, if requested.
     pub(crate) fn note_use(&self, note: impl FnOnce(&mut VariableUse)) {
         if let Some(used) = &self.used {

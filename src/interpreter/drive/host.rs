@@ -101,20 +101,6 @@ impl Interpreter {
             .give(VariableName::read(name), setting.into());
     }
 
-    /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and records
-    /// their use from here on.
-    pub(crate) fn find(&mut self, found: &FoundVariables) {
-        self.here.state.control.memory.find(found);
-        let used = VariableUse::new(self.here.machine.parameters, &self.here.externals);
-        self.here.used = Some(RefCell::new(used));
-    }
-
-    /// The use of variables that outlive programs by the programs since.
-    pub(crate) fn take_use(&mut self) -> VariableUse {
-        let used = self.here.used.take().map(RefCell::into_inner);
-        used.unwrap_or_default()
-    }
-
     /// Sets the position of an axis before the first program, in mm or degrees; a name that no axis has
     /// is ignored.
     pub fn place(&mut self, name: &str, position: f64) {

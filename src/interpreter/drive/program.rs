@@ -69,7 +69,7 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        if self.is_refused() {
+        if self.here.is_refused() {
             return self.refuse(observer);
         }
         self.lost.extend(self.here.programs.index(0).no_block());
@@ -174,6 +174,11 @@ impl Interpreter {
 }
 
 impl Executor {
+    /// Whether faults of the main program keep it from running.
+    pub(crate) fn is_refused(&self) -> bool {
+        !self.programs.refused().is_empty() && self.options.stop == StopPolicy::FirstError
+    }
+
     /// Calls the configured program that runs before every main program (R2.15).
     pub(crate) fn start_program(
         &mut self,
@@ -237,11 +242,6 @@ pub(crate) enum ProgramStop {
 }
 
 impl Interpreter {
-    /// Whether faults of the main program keep it from running.
-    pub(crate) fn is_refused(&self) -> bool {
-        !self.here.programs.refused().is_empty() && self.here.options.stop == StopPolicy::FirstError
-    }
-
     /// Ends a program that does not run.
     pub(crate) fn refuse(&mut self, observer: &mut dyn Observer) -> RunOutcome {
         let refused = self.here.programs.refused();
@@ -523,11 +523,6 @@ impl Interpreter {
         }
         said
     }
-
-    /// Keeps the messages about lines that are not kept.
-    pub(crate) fn note_lost(&mut self, file: &Arc<str>, lost: &LostRemarks) {
-        gather(file, lost, u32::MAX, &mut self.lost);
-    }
 }
 
 impl Executor {
@@ -547,7 +542,7 @@ impl Executor {
 }
 
 /// FC490 or FC491 for each comment, and the faults of lines outside blocks, down to a line.
-fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
+pub(crate) fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
     let lines = lost.remarks.iter().flat_map(Remark::lines);
     for (text, line) in lines.take_while(|(_, line)| *line <= until) {
         let Some(fault) = allow::lost(text) else {

@@ -171,14 +171,14 @@ impl Interpreter {
     #[inline]
     fn choose_way(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) {
         if !self.others.waiting.is_empty() && self.others.choose_path(&mut self.here) {
-            self.tell_joined(observer);
+            self.here.tell_joined(observer);
         }
         if self.others.waiting.len() > MAX_OPEN {
             self.others.join_waiting(&mut self.here);
         }
         if self.others.is_past_ways(&mut self.here) {
             self.others.widen(&mut self.here, finder);
-            self.tell_joined(observer);
+            self.here.tell_joined(observer);
         }
         let is_alone = self.others.waiting.is_empty();
         self.here.is_alone = is_alone;
@@ -192,28 +192,6 @@ impl Interpreter {
             return None;
         };
         self.others.end_path(&mut self.here, by)
-    }
-
-    /// Announces that ways meet.
-    #[cold]
-    fn tell_joined(&mut self, observer: &mut dyn Observer) {
-        let Some(frame) = self.here.state.control.frames.running() else {
-            return;
-        };
-        if self.here.state.track.is_shadow() {
-            return;
-        }
-        let place = self.here.programs.index(frame.unit).block_place(frame.next);
-        self.here.show_ways();
-        // A run stops at blocks: a request to stop takes effect at the next one.
-        let _ = observer.event(Event::Joined(Joined {
-            seq: self.here.state.seq,
-            place: &place,
-            compensation: &self.here.state.control.compensation,
-            possible: &self.here.shown.possible,
-            occurred: &self.here.state.occurred,
-            version: self.here.version,
-        }));
     }
 
     /// Parts the run after a block that asked. Returns the remaining step, which is that of the way on which no jump is
@@ -250,6 +228,28 @@ impl Interpreter {
 }
 
 impl Executor {
+    /// Announces that ways meet.
+    #[cold]
+    fn tell_joined(&mut self, observer: &mut dyn Observer) {
+        let Some(frame) = self.state.control.frames.running() else {
+            return;
+        };
+        if self.state.track.is_shadow() {
+            return;
+        }
+        let place = self.programs.index(frame.unit).block_place(frame.next);
+        self.show_ways();
+        // A run stops at blocks: a request to stop takes effect at the next one.
+        let _ = observer.event(Event::Joined(Joined {
+            seq: self.state.seq,
+            place: &place,
+            compensation: &self.state.control.compensation,
+            possible: &self.shown.possible,
+            occurred: &self.state.occurred,
+            version: self.version,
+        }));
+    }
+
     /// Looks for a branch beyond the part of a control block at an entry, which is skipped.
     fn seek_beyond(&mut self, unit: usize, entry: EntryIndex) {
         let links = self.programs.index(unit).links(entry);

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use crate::diagnostic::Collected;
 use crate::interpreter::block::{BlockContext, ShownBlockLines, one};
 use crate::interpreter::drive::host::Interpreter;
+use crate::interpreter::drive::program::gather;
 use crate::interpreter::events::{EndedBy, Observer};
 use crate::interpreter::executor::Executor;
 use crate::interpreter::options::{RunOutcome, SourceMode, StopPolicy};
@@ -184,9 +185,13 @@ impl Interpreter {
         if let ProgramStage::Before | ProgramStage::Announced = stage {
             self.lost.push(no_block(&file));
         }
-        self.note_lost(&file, reader.lost_remarks());
+        gather(&file, reader.lost_remarks(), u32::MAX, &mut self.lost);
         self.here.scratch.block = block;
-        self.after_lines(&file, &StreamProgress { stage, notes }, finder, observer)
+        // A program without any block begins and ends here.
+        match self.begin_at(stage, &file, finder, observer) {
+            Some(outcome) => outcome,
+            None => self.end_of_lines(stage, &notes, observer),
+        }
     }
 
     /// Ends the run at a file that is no program.
@@ -202,20 +207,6 @@ impl Interpreter {
                 let said = one(not_a_program(file, what));
                 self.ended(EndedBy::Error, &said, observer)
             }
-        }
-    }
-
-    /// All lines were read: a program without any block begins and ends here.
-    fn after_lines(
-        &mut self,
-        file: &Arc<str>,
-        progress: &StreamProgress,
-        finder: &mut dyn Finder,
-        observer: &mut dyn Observer,
-    ) -> RunOutcome {
-        match self.begin_at(progress.stage, file, finder, observer) {
-            Some(outcome) => outcome,
-            None => self.end_of_lines(progress.stage, &progress.notes, observer),
         }
     }
 
@@ -292,7 +283,7 @@ impl Interpreter {
         self.here.programs.hold_first(index);
         match stage {
             ProgramStage::Before | ProgramStage::Announced => self.begin(finder, observer),
-            ProgramStage::Running if self.is_refused() => self.refuse(observer),
+            ProgramStage::Running if self.here.is_refused() => self.refuse(observer),
             ProgramStage::Running => {
                 if let Some(awaited) = self.here.awaited.take() {
                     let found = self.here.programs.block_of(
@@ -320,7 +311,7 @@ impl Interpreter {
         reader: &mut BlockReader<S>,
     ) -> SourceFile {
         reader.append_rest(&mut text);
-        self.note_lost(&file, reader.lost_remarks());
+        gather(&file, reader.lost_remarks(), u32::MAX, &mut self.lost);
         SourceFile::new(file, text).from_line(first)
     }
 

@@ -266,52 +266,37 @@ pub(crate) struct PassedBlocks {
     pub(crate) said: Option<Diagnostic>,
 }
 
-/// Buffers that are used again for each block.
-#[derive(Default)]
-#[allow(
-    clippy::struct_excessive_bools,
-    reason = "facts of one block, of which each is asked by itself"
-)]
-#[derive(Clone)]
+/// A block while it is executed: what its words read, how it moves, what it switches, how it ends, and the messages on it.
+/// The buffers are used again for each block.
+#[derive(Default, Clone)]
 pub(crate) struct BlockScratch {
     pub(crate) block: Block,
     pub(crate) outcomes: Vec<Outcome>,
     pub(crate) changes: Vec<Change>,
-    pub(crate) left_open: Option<LeftOpen>,
     /// Kinds that may or may not have been switched.
     pub(crate) doubted: Vec<(AxisIndex, KindSet)>,
-    /// The axes that it moves, or may, without their own word.
-    pub(crate) also_moved: Vec<MovedAxis>,
-    /// Motion of its axis words, where the G functions in force do not decide it.
-    pub(crate) word_row: Option<MotionEffect>,
-    /// Its axis words.
-    pub(crate) moved: Vec<AxisWord>,
-    /// Words of axes that the machine does not have.
-    pub(crate) lacking: Vec<(String, Span)>,
+    pub(crate) left_open: Option<LeftOpen>,
+    /// The states before the block, where the control may skip its commands (R2.109).
+    pub(crate) earlier: Option<Box<EarlierStates>>,
+    pub(crate) read: BlockReading,
+    pub(crate) moves: BlockMotion,
     pub(crate) aside: Aside,
-    /// Whether the axes come to rest in the block, or may.
-    pub(crate) rests: Cell<bool>,
-    /// The axes that have a word, and those that may have another, a bit each.
-    pub(crate) seen: u64,
-    pub(crate) again: u64,
-    pub(crate) diagnostics: Vec<Diagnostic>,
-    /// Errors that end some of the ways that lead to the block, and not the others.
-    pub(crate) of_some_ways: Vec<Diagnostic>,
     /// The blocks that it passes over, which only the machine may execute.
     pub(crate) passed: Vec<PassedBlocks>,
     /// The paths on which the run may go on elsewhere than after them.
     pub(crate) left: Vec<Path>,
-    /// Number of messages on the last block.
-    pub(crate) said: u64,
-    /// Number of messages on the block that are left out, and the place of the first of them.
-    pub(crate) unsaid: Option<(Span, u64)>,
+    pub(crate) ending: BlockEnding,
+    pub(crate) messages: BlockMessages,
+    /// Whether an axis occurred for the first time.
+    pub(crate) new_axes: bool,
+    /// Whether a value was written.
+    pub(crate) wrote: bool,
+}
+
+/// What the words of a block read.
+#[derive(Default, Clone)]
+pub(crate) struct BlockReading {
     pub(crate) stack: Vec<Result<Value, Box<Fault>>>,
-    /// I, J, K, R and the like, where the block has any.
-    pub(crate) geometry: Option<Geometry>,
-    /// Whether the block is G04 or `#TIME`.
-    pub(crate) dwells: bool,
-    /// Motion of the block, where motions are taken.
-    pub(crate) motion: Option<Motion>,
     pub(crate) notes: RefCell<Vec<Note>>,
     /// The variables that its expressions read and that the PLC may write, where their value is known (R2.99).
     pub(crate) relied: RefCell<Vec<VariableName>>,
@@ -323,8 +308,6 @@ pub(crate) struct BlockScratch {
     /// Whether a text of the block had no known meaning; what depends on it is not reported again
     /// (R2.71).
     pub(crate) unread: Cell<bool>,
-    /// The states before the block, where the control may skip its commands (R2.109).
-    pub(crate) earlier: Option<Box<EarlierStates>>,
     /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
     pub(crate) flushing: RefCell<Option<VariableName>>,
     /// A `V.I.` variable that was read and that no program of the run declares (R2.102).
@@ -335,8 +318,37 @@ pub(crate) struct BlockScratch {
     pub(crate) lone: Option<LonePart>,
     /// Macros that the block has expanded.
     pub(crate) expansions: Cell<u32>,
+}
+
+/// How a block moves.
+#[derive(Default, Clone)]
+pub(crate) struct BlockMotion {
+    /// Its axis words.
+    pub(crate) moved: Vec<AxisWord>,
+    /// The axes that it moves, or may, without their own word.
+    pub(crate) also_moved: Vec<MovedAxis>,
+    /// Words of axes that the machine does not have.
+    pub(crate) lacking: Vec<(String, Span)>,
+    /// The axes that have a word, and those that may have another, a bit each.
+    pub(crate) seen: u64,
+    pub(crate) again: u64,
+    /// Motion of its axis words, where the G functions in force do not decide it.
+    pub(crate) word_row: Option<MotionEffect>,
+    /// I, J, K, R and the like, where the block has any.
+    pub(crate) geometry: Option<Geometry>,
+    /// Whether the axes come to rest in the block, or may.
+    pub(crate) rests: Cell<bool>,
+    /// Whether the block is G04 or `#TIME`.
+    pub(crate) dwells: bool,
+    /// Motion of the block, where motions are taken.
+    pub(crate) motion: Option<Motion>,
+}
+
+/// How a block ends the program, or its way through it.
+#[derive(Default, Clone)]
+pub(crate) struct BlockEnding {
     /// The block that ends the program.
-    pub(crate) end: Option<OwnEnd>,
+    pub(crate) at: Option<OwnEnd>,
     /// What follows the error by which the block ends the program.
     pub(crate) after_error: AfterError,
     /// Messages on the end of the run or of a way through it: a budget, or the end of a file
@@ -348,25 +360,33 @@ pub(crate) struct BlockScratch {
     pub(crate) endless: bool,
     /// Whether calls are nested too deeply for the run to continue (R9.91).
     pub(crate) too_deep: bool,
-    /// Whether an axis occurred for the first time.
-    pub(crate) new_axes: bool,
-    /// Whether a value was written.
-    pub(crate) wrote: bool,
+}
+
+/// The messages on a block.
+#[derive(Default, Clone)]
+pub(crate) struct BlockMessages {
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Errors that end some of the ways that lead to the block, and not the others.
+    pub(crate) of_some_ways: Vec<Diagnostic>,
+    /// Number of messages on the last block.
+    pub(crate) said: u64,
+    /// Number of messages on the block that are left out, and the place of the first of them.
+    pub(crate) unsaid: Option<(Span, u64)>,
 }
 
 impl BlockScratch {
     /// Clears the messages on the block; those left at program end belong to no block.
     pub(crate) fn clear_said(&mut self) {
-        self.said = u64::try_from(self.diagnostics.len()).unwrap_or(u64::MAX);
-        self.diagnostics.clear();
-        self.of_some_ways.clear();
+        self.messages.said = u64::try_from(self.messages.diagnostics.len()).unwrap_or(u64::MAX);
+        self.messages.diagnostics.clear();
+        self.messages.of_some_ways.clear();
         self.changes.clear();
     }
 
     /// Hands the states that the block read to the details reported of it.
     #[inline]
     pub(crate) fn gather_asked(&mut self) {
-        let asked = self.asked.get_mut();
+        let asked = self.read.asked.get_mut();
         if !asked.is_empty() {
             self.aside.asked.append(asked);
         }
@@ -378,36 +398,36 @@ impl BlockScratch {
         self.left_open = None;
         self.earlier = None;
         self.doubted.clear();
-        self.also_moved.clear();
-        self.word_row = None;
-        if !self.moved.is_empty() {
-            std::mem::swap(&mut self.moved, &mut self.aside.last_moved);
-            self.moved.clear();
+        self.moves.also_moved.clear();
+        self.moves.word_row = None;
+        if !self.moves.moved.is_empty() {
+            std::mem::swap(&mut self.moves.moved, &mut self.aside.last_moved);
+            self.moves.moved.clear();
             if self.aside.arc.is_some() || self.aside.last_arc.is_some() {
                 std::mem::swap(&mut self.aside.arc, &mut self.aside.last_arc);
             }
         }
-        if self.rests.replace(false) || self.dwells {
+        if self.moves.rests.replace(false) || self.moves.dwells {
             self.aside.last_moved.clear();
             self.aside.last_arc = None;
         }
         self.aside.arc = None;
-        self.lacking.clear();
-        self.seen = 0;
-        self.again = 0;
-        self.diagnostics.clear();
+        self.moves.lacking.clear();
+        self.moves.seen = 0;
+        self.moves.again = 0;
+        self.messages.diagnostics.clear();
         self.aside.withheld.clear();
-        self.unknown_call = None;
-        self.lone = None;
-        self.geometry = None;
-        self.dwells = false;
-        self.plc_acts = false;
-        self.motion = None;
-        self.notes.get_mut().clear();
+        self.read.unknown_call = None;
+        self.read.lone = None;
+        self.moves.geometry = None;
+        self.moves.dwells = false;
+        self.read.plc_acts = false;
+        self.moves.motion = None;
+        self.read.notes.get_mut().clear();
         self.aside.asked.clear();
-        self.unread.set(false);
-        self.expansions.set(0);
-        self.too_deep = false;
+        self.read.unread.set(false);
+        self.read.expansions.set(0);
+        self.ending.too_deep = false;
         self.new_axes = false;
     }
 }

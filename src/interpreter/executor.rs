@@ -17,7 +17,7 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::stack::{AwaitedBlock, ControlStep};
 use crate::interpreter::values::externals::ExternalNames;
-use crate::interpreter::values::handover::VariableUse;
+use crate::interpreter::values::handover::{FoundVariables, VariableUse};
 use crate::interpreter::values::location::{Reads, Unknown};
 use crate::interpreter::values::rows;
 use crate::interpreter::values::work_budget::{PER_UNIT_READ, WorkBudget};

@@ -170,8 +170,8 @@ impl OtherPaths {
             ControlStep::Begin => {}
             ControlStep::Jump(entry) => {
                 if let Some(endless) = here.endless_loop() {
-                    here.scratch.over.push(endless);
-                    here.scratch.endless = true;
+                    here.scratch.ending.over.push(endless);
+                    here.scratch.ending.endless = true;
                     return ControlFlow::Break(EndedBy::Budget);
                 }
                 if let Some(frame) = here.state.control.frames.running_mut() {
@@ -202,7 +202,7 @@ impl OtherPaths {
             ControlStep::ReturnTo(destination) => self.go_back(here, &destination),
             ControlStep::End(by) => return ControlFlow::Break(by),
             ControlStep::Covered => {
-                here.scratch.covered = true;
+                here.scratch.ending.covered = true;
                 return ControlFlow::Break(EndedBy::EndOfFile);
             }
         }

@@ -1,7 +1,6 @@
 //! The interpreter, as a host uses it: the path that is executed and the others; what one program hands to the next (R2.34,
 //! R9.32), a reset between two of them, and questions to a run that has stopped.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -14,7 +13,7 @@ use crate::interpreter::motion::modal::{AxisPosition, Modal};
 use crate::interpreter::options::{Options, SourceMode};
 use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::externals::ExternalNames;
-use crate::interpreter::values::handover::{Carried, FoundVariables, VariableUse};
+use crate::interpreter::values::handover::Carried;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::others::OtherPaths;
 use crate::interpreter::ways::possible_state::{CarriedWays, PossibleStates};

@@ -176,7 +176,7 @@ impl RunState {
 impl BlockScratch {
     /// The block before was executed on another way.
     pub(crate) fn havoc_last_motion(&mut self) {
-        self.moved.clear();
+        self.moves.moved.clear();
         self.aside.last_moved.clear();
     }
 }
@@ -287,7 +287,7 @@ impl OtherPaths {
     /// Ends a way. Returns the end of the run if no other way continues.
     #[cold]
     pub(crate) fn end_path(&mut self, here: &mut Executor, by: EndedBy) -> Option<EndedBy> {
-        let is_covered = std::mem::take(&mut here.scratch.covered);
+        let is_covered = std::mem::take(&mut here.scratch.ending.covered);
         let is_alone = self.waiting.is_empty() && here.state.ended.is_empty();
         let waits_for_lines = by == EndedBy::EndOfFile
             && here.state.control.frames.depth() == 1
@@ -295,18 +295,18 @@ impl OtherPaths {
         if is_alone || (waits_for_lines && !is_covered) {
             return Some(by);
         }
-        if by == EndedBy::Budget && !here.scratch.endless && !is_covered {
+        if by == EndedBy::Budget && !here.scratch.ending.endless && !is_covered {
             // The effects of the other ways are not known.
             self.waiting.clear();
             here.state.ended.clear();
             here.havoc_all(&Unknown::Ways);
             return Some(by);
         }
-        let never_ends = std::mem::take(&mut here.scratch.endless);
+        let never_ends = std::mem::take(&mut here.scratch.ending.endless);
         if never_ends {
             here.reset_after_stop();
-            let said = here.scratch.over.last();
-            here.scratch.end = said.map(|said| OwnEnd {
+            let said = here.scratch.ending.over.last();
+            here.scratch.ending.at = said.map(|said| OwnEnd {
                 place: said.place.clone(),
                 is_passed_into: false,
             });
@@ -317,7 +317,7 @@ impl OtherPaths {
                     here.state.limit_to_reach(&mut missing, None);
                     missing
                 });
-                here.scratch.over.extend(missing);
+                here.scratch.ending.over.extend(missing);
             }
             let ended = here.ended_path(by);
             here.state.ended.push(ended);
@@ -327,7 +327,7 @@ impl OtherPaths {
             return None;
         }
         let last = here.state.ended.pop()?;
-        here.scratch.end = last.at.map(|(place, passed)| OwnEnd {
+        here.scratch.ending.at = last.at.map(|(place, passed)| OwnEnd {
             place,
             is_passed_into: passed == Passed::Into,
         });
@@ -340,7 +340,7 @@ impl OtherPaths {
     /// ended counts only if no other went on, and the states at the errors are apart (R9.20).
     #[cold]
     pub(crate) fn meet_ended(&mut self, here: &mut Executor, by: EndedBy) -> MetWays {
-        if !std::mem::take(&mut here.scratch.covered) {
+        if !std::mem::take(&mut here.scratch.ending.covered) {
             let own = here.ended_path(by);
             here.state.ended.push(own);
         }
@@ -368,9 +368,9 @@ impl OtherPaths {
             return MetWays { by, ends, stopped };
         };
         let is_stop = matches!(by, EndedBy::Error | EndedBy::Budget);
-        here.scratch.endless = by == EndedBy::Budget;
+        here.scratch.ending.endless = by == EndedBy::Budget;
         let at = at.filter(|_| !is_stop);
-        here.scratch.end = at.map(|(place, passed)| OwnEnd {
+        here.scratch.ending.at = at.map(|(place, passed)| OwnEnd {
             place,
             is_passed_into: passed == Passed::Into,
         });
@@ -534,7 +534,7 @@ impl OtherPaths {
                 if let Some(call @ ControlStep::Call(_)) = step
                     && self.follow(here, call.clone()).is_break()
                 {
-                    here.scratch.covered = false;
+                    here.scratch.ending.covered = false;
                     continue;
                 }
                 open.push(here.state.leave_path());

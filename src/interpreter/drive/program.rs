@@ -254,7 +254,7 @@ impl Interpreter {
             return outcome;
         };
         let mut notes = self.here.programs.refused();
-        notes.extend(self.here.scratch.over.drain(..));
+        notes.extend(self.here.scratch.ending.over.drain(..));
         if by == EndedBy::EndOfFile && !self.here.state.control.frames.is_empty() {
             notes.extend(self.here.state.missing_end());
         }
@@ -299,15 +299,15 @@ impl Interpreter {
         notes.to_mut().extend(self.others.joined.drain(..));
         notes
             .to_mut()
-            .extend(self.here.scratch.of_some_ways.drain(..));
+            .extend(self.here.scratch.messages.of_some_ways.drain(..));
         notes.to_mut().extend(self.here.missed_search());
-        let at = self.here.scratch.end.take();
+        let at = self.here.scratch.ending.at.take();
         let mut ends = self.here.own_end(by, at.as_ref());
         if !ended.ends.is_empty() {
             ends.splice(..1.min(ends.len()), ended.ends);
         }
         // R2.84: only a reset ends a loop without an end.
-        if self.here.scratch.endless {
+        if self.here.scratch.ending.endless {
             self.here.reset_friction();
         }
         let mut changes = std::mem::take(&mut self.here.scratch.changes);
@@ -322,7 +322,7 @@ impl Interpreter {
         self.here.state.control.frames.clear();
         self.here.end_exchange(match by {
             EndedBy::Error => ProgramStop::Reset,
-            _ if self.here.scratch.endless => ProgramStop::Reset,
+            _ if self.here.scratch.ending.endless => ProgramStop::Reset,
             _ => ProgramStop::End,
         });
         self.here.state.control.couplings.end_following();
@@ -334,7 +334,7 @@ impl Interpreter {
         let _ = observer.event(Event::Ended(Ended {
             seq: self.here.state.seq,
             by,
-            endless: std::mem::take(&mut self.here.scratch.endless),
+            endless: std::mem::take(&mut self.here.scratch.ending.endless),
             at: at.as_ref().map(|end| &end.place),
             ends: &ends,
             found: self.here.state.found_states(),
@@ -379,7 +379,7 @@ impl Executor {
         let what = "this `$IF` has no `$ENDIF`: the control skips the rest of the text and stops at its end";
         let mut said = at.diagnostic(*Fault::refused(code, span, what));
         self.state.limit_to_reach(&mut said, None);
-        self.scratch.over.push(said);
+        self.scratch.ending.over.push(said);
         if self.options.stop == StopPolicy::FirstError {
             return true;
         }

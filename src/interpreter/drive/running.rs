@@ -80,7 +80,7 @@ impl Interpreter {
                 BlockContext::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
             if let Some(over) = self.here.over_budget(&at) {
                 let over = self.here.with_loop(over, unit, next);
-                self.here.scratch.over.push(over);
+                self.here.scratch.ending.over.push(over);
                 match self.others.end_path(&mut self.here, EndedBy::Budget) {
                     Some(by) => return RunOutcome::Ended(by),
                     None => continue,
@@ -94,7 +94,7 @@ impl Interpreter {
                 self.here
                     .state
                     .work
-                    .repeat(parsed.weight, self.here.scratch.said, spent);
+                    .repeat(parsed.weight, self.here.scratch.messages.said, spent);
             } else {
                 self.here.state.work.grant_ways();
             }
@@ -150,7 +150,7 @@ impl Interpreter {
             return ControlFlow::Continue(None);
         }
         if !self.others.loop_heads.is_empty() && self.others.enters_covered(&mut self.here, next) {
-            self.here.scratch.covered = true;
+            self.here.scratch.ending.covered = true;
             return self.go_on_elsewhere(EndedBy::EndOfFile);
         }
         ControlFlow::Continue(Some((unit, next)))
@@ -279,10 +279,10 @@ impl Executor {
     #[inline]
     fn look_at_motion(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
         let words = outcome.axis_words;
-        if self.scratch.again != 0 {
+        if self.scratch.moves.again != 0 {
             self.refuse_repeated_axes(words, at);
         }
-        if !self.scratch.lacking.is_empty() {
+        if !self.scratch.moves.lacking.is_empty() {
             self.say_lacking(words, at);
         }
         self.move_around(words);
@@ -292,7 +292,7 @@ impl Executor {
             self.note_command_with_motion();
         }
         if self.any_required && self.state.control.described.is_none() {
-            let goes_on = !self.scratch.diagnostics.iter().any(stops);
+            let goes_on = !self.scratch.messages.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
                 self.check_required(words, at);
             }
@@ -302,8 +302,8 @@ impl Executor {
     /// Remembers the axes that a shadow moves.
     #[cold]
     fn note_moves_of_shadow(&mut self) {
-        let words = self.scratch.moved.iter().map(|word| word.axis);
-        let axes = words.chain(self.scratch.also_moved.iter().map(|moved| moved.axis));
+        let words = self.scratch.moves.moved.iter().map(|word| word.axis);
+        let axes = words.chain(self.scratch.moves.also_moved.iter().map(|moved| moved.axis));
         self.state.track.shadow.moved.extend(axes);
     }
 
@@ -320,7 +320,7 @@ impl Executor {
     #[inline]
     fn is_plain(&self) -> bool {
         !self.scratch.wrote
-            && self.scratch.unsaid.is_none()
+            && self.scratch.messages.unsaid.is_none()
             && self.state.work.level() <= self.options.limits.work
             && self.state.work.ways() <= self.options.limits.ways
     }
@@ -346,19 +346,23 @@ impl Executor {
             outcomes: &self.scratch.outcomes,
             changes: &self.scratch.changes,
             doubted: &self.scratch.doubted,
-            moved: if stopped { &[] } else { &self.scratch.moved },
-            named: self.scratch.seen,
+            moved: if stopped {
+                &[]
+            } else {
+                &self.scratch.moves.moved
+            },
+            named: self.scratch.moves.seen,
             aside: &self.scratch.aside,
-            rests: self.scratch.rests.get() || self.scratch.dwells,
+            rests: self.scratch.moves.rests.get() || self.scratch.moves.dwells,
             also_moved: if stopped {
                 &[]
             } else {
-                &self.scratch.also_moved
+                &self.scratch.moves.also_moved
             },
-            word_motion: self.scratch.word_row.map(|row| row.kind),
-            motion: self.scratch.motion.as_ref(),
-            notes: &self.scratch.notes.borrow(),
-            diagnostics: &self.scratch.diagnostics,
+            word_motion: self.scratch.moves.word_row.map(|row| row.kind),
+            motion: self.scratch.moves.motion.as_ref(),
+            notes: &self.scratch.read.notes.borrow(),
+            diagnostics: &self.scratch.messages.diagnostics,
             stopped,
             passed: self.is_searching(),
             compensation: &self.state.control.compensation,
@@ -408,7 +412,7 @@ impl Executor {
     /// Ends the way at an error of the control.
     #[cold]
     fn end_by_error(&mut self, at: &BlockContext<'_>) -> ControlStep {
-        let after = std::mem::take(&mut self.scratch.after_error);
+        let after = std::mem::take(&mut self.scratch.ending.after_error);
         let ways = self.state.track.reach.clone();
         self.stop_on(&ways, after, at);
         ControlStep::Covered
@@ -420,10 +424,10 @@ impl Executor {
     fn limit_messages(&mut self, first: usize) {
         self.show_ways();
         if let Some(ways) = &self.shown.branch {
-            let own = self.scratch.diagnostics.iter_mut().skip(first);
+            let own = self.scratch.messages.diagnostics.iter_mut().skip(first);
             own.for_each(|said| limit_to(said, ways));
         }
-        let work = &mut self.scratch;
+        let work = &mut self.scratch.messages;
         work.diagnostics.append(&mut work.of_some_ways);
     }
 
@@ -445,8 +449,11 @@ impl Executor {
         };
         // The faults of the parts that were given up add nothing to it.
         let is_part = |said: &Diagnostic| said.code == Code::Fc919;
-        self.scratch.diagnostics.retain(|said| !is_part(said));
-        self.scratch.diagnostics.push(over);
+        self.scratch
+            .messages
+            .diagnostics
+            .retain(|said| !is_part(said));
+        self.scratch.messages.diagnostics.push(over);
         true
     }
 
@@ -459,7 +466,7 @@ impl Executor {
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<ControlStep> {
-        let moved = !self.scratch.moved.is_empty();
+        let moved = !self.scratch.moves.moved.is_empty();
         if !calls.is_empty() {
             outcome.step = Some(ControlStep::Call(calls));
         }
@@ -471,10 +478,10 @@ impl Executor {
                     "a program end inside a subprogram ends the whole run",
                 )
                 .with_help("end a subprogram with `M17` or `M29`");
-                self.scratch.diagnostics.push(at.diagnostic(fault));
+                self.scratch.messages.diagnostics.push(at.diagnostic(fault));
             }
             if at.used.is_none() && self.state.control.ending.is_none() {
-                self.scratch.end = Some(OwnEnd {
+                self.scratch.ending.at = Some(OwnEnd {
                     place: at.place(Span::new(0, at.text.len())),
                     is_passed_into: !self.may_be_jumped_to(at),
                 });
@@ -512,7 +519,7 @@ impl Executor {
             };
             history.switch(axis, command.selection, site);
         }
-        if let Some(cause) = self.scratch.unknown_call.take() {
+        if let Some(cause) = self.scratch.read.unknown_call.take() {
             self.havoc_all(&cause);
         }
     }
@@ -561,6 +568,7 @@ impl Interpreter {
         if !(are_told || self.here.state.track.is_shadow()) {
             self.here
                 .scratch
+                .messages
                 .diagnostics
                 .append(&mut self.others.joined);
             self.here
@@ -572,7 +580,7 @@ impl Interpreter {
         if !self.here.state.track.shadow.moved.is_empty() && !self.here.state.track.is_shadow() {
             self.here.take_moves_of_shadows();
         }
-        let first = self.here.scratch.diagnostics.len();
+        let first = self.here.scratch.messages.diagnostics.len();
         self.here.state.seq += 1;
         self.here.state.blocks += 1;
         if self.here.state.track.searching.is_some() {
@@ -633,10 +641,10 @@ impl Interpreter {
         if let Some(name) = outcome.looks_for.take() {
             self.here.look_for_file(name, at, finder);
         }
-        if self.here.scratch.plc_acts {
+        if self.here.scratch.read.plc_acts {
             self.here.let_plc_act();
         }
-        let refused = limit.is_some() || self.here.scratch.diagnostics.iter().any(stops);
+        let refused = limit.is_some() || self.here.scratch.messages.diagnostics.iter().any(stops);
         let stopped = refused && self.here.options.stop == StopPolicy::FirstError;
         if refused {
             self.here.fail(AfterError::Reset, at);
@@ -648,10 +656,12 @@ impl Interpreter {
             self.here.move_axes(&outcome, at);
         }
         let is_over = self.here.account(at);
-        let step = if is_over || self.here.scratch.too_deep {
+        let step = if is_over || self.here.scratch.ending.too_deep {
             Some(ControlStep::End(EndedBy::Budget))
         } else if stopped {
-            Some(ControlStep::End(ended_by(&self.here.scratch.diagnostics)))
+            Some(ControlStep::End(ended_by(
+                &self.here.scratch.messages.diagnostics,
+            )))
         } else if calls.is_empty() && outcome.goes_on() && self.here.state.control.cycles.is_empty()
         {
             None
@@ -679,7 +689,7 @@ impl Interpreter {
                 Some(step) => ControlFlow::Break(NextBlock::Step(step)),
             };
         }
-        if self.here.options.takes_motions() && self.here.scratch.motion.is_some() {
+        if self.here.options.takes_motions() && self.here.scratch.moves.motion.is_some() {
             let is_alone = self.others.waiting.is_empty() && self.here.state.ended.is_empty();
             self.here.state.track.shadow.moves_alone |= !is_alone;
         }

@@ -258,7 +258,7 @@ impl Interpreter {
             RunOutcome::Ended(EndedBy::EndOfFile) => None,
             RunOutcome::Ended(by) => {
                 let mut notes = Collected::default();
-                notes.extend(self.here.scratch.over.drain(..));
+                notes.extend(self.here.scratch.ending.over.drain(..));
                 Some(self.ended(by, &notes, observer))
             }
             stopped @ (RunOutcome::Paused | RunOutcome::Stopped) => Some(stopped),

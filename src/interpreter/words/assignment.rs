@@ -103,11 +103,11 @@ impl Executor {
         self.state.write_anything();
         for declaration in declarations {
             refuse_declaration(declaration, at)?;
-            let mut stack = std::mem::take(&mut self.scratch.stack);
+            let mut stack = std::mem::take(&mut self.scratch.read.stack);
             let dimensions = self.with_evaluator(at, |evaluator| {
                 evaluator.dimensions(declaration.target.place, &mut stack)
             });
-            self.scratch.stack = stack;
+            self.scratch.read.stack = stack;
             let dimensions = dimensions?;
             let name = declared_name(declaration, at);
             let mut values = Vec::with_capacity(declaration.initial.len());
@@ -344,13 +344,13 @@ impl Executor {
         if let Operand::Number(number) = operand {
             return Ok(Value::Number(number));
         }
-        let mut stack = std::mem::take(&mut self.scratch.stack);
+        let mut stack = std::mem::take(&mut self.scratch.read.stack);
         let value = self.with_evaluator(at, |evaluator| evaluator.value(operand, &mut stack));
-        self.scratch.stack = stack;
-        if let Some(name) = self.scratch.flushing.take() {
+        self.scratch.read.stack = stack;
+        if let Some(name) = self.scratch.read.flushing.take() {
             self.read_flushes(&name, at);
         }
-        if let Some(name) = self.scratch.undeclared.take() {
+        if let Some(name) = self.scratch.read.undeclared.take() {
             self.miss_internal(&name, Span::new(0, at.text.trim_end().len()), at);
         }
         value
@@ -375,7 +375,7 @@ impl Executor {
             macros: Macros {
                 depth: at.macro_depth,
                 limit: self.options.limits.macros,
-                expansions: &self.scratch.expansions,
+                expansions: &self.scratch.read.expansions,
                 until: self.work_bound(),
             },
             work: &self.state.work,
@@ -385,16 +385,16 @@ impl Executor {
                 used: self.used.as_ref(),
                 own: frame.map_or(&NONE, |frame| &frame.own),
                 given,
-                unread: &self.scratch.unread,
-                waits: &self.scratch.rests,
-                flushing: &self.scratch.flushing,
-                relied: &self.scratch.relied,
-                held: self.scratch.held,
+                unread: &self.scratch.read.unread,
+                waits: &self.scratch.moves.rests,
+                flushing: &self.scratch.read.flushing,
+                relied: &self.scratch.read.relied,
+                held: self.scratch.read.held,
                 nearly_equal: self.machine.readings.of(Question::NearlyEqual),
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {
-                        self.scratch.notes.borrow_mut().push(Note {
+                        self.scratch.read.notes.borrow_mut().push(Note {
                             kind: NoteKind::Unknown,
                             name: name.to_owned(),
                             place: at.place(span),
@@ -417,7 +417,7 @@ impl Executor {
             }
         }
         if self.options.notes == Notes::Taken {
-            self.scratch.notes.borrow_mut().push(Note {
+            self.scratch.read.notes.borrow_mut().push(Note {
                 kind: NoteKind::Opaque,
                 name: word.to_owned(),
                 place: at.place(span),
@@ -432,16 +432,17 @@ impl Executor {
         }
         if name.family() == VariableFamily::Internal && self.state.control.memory.is_absent(name) {
             self.scratch
+                .read
                 .undeclared
                 .replace(Some(name.array().to_owned()));
         }
         let own = self.own_variable(name)?;
         if matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..)) {
-            self.scratch.flushing.replace(Some(name.clone()));
+            self.scratch.read.flushing.replace(Some(name.clone()));
         }
         match own {
             OwnVariable::Active(axis, kind) => {
-                self.scratch.asked.borrow_mut().push((axis, kind));
+                self.scratch.read.asked.borrow_mut().push((axis, kind));
                 match self.state.control.compensation.state(axis, kind) {
                     State::Unknown => None,
                     state => Some((state == State::Active).into()),
@@ -527,7 +528,7 @@ impl Executor {
                 "switch it with `{axis}[COMP ON {kind}]` or `{axis}[COMP OFF {kind}]`"
             ));
         }
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// Something may have written such a variable: its value is not known any more.
@@ -619,9 +620,9 @@ impl Executor {
         place: Expression,
         at: &BlockContext<'_>,
     ) -> Result<Option<Denoted>, Box<Fault>> {
-        let mut stack = std::mem::take(&mut self.scratch.stack);
+        let mut stack = std::mem::take(&mut self.scratch.read.stack);
         let found = self.with_evaluator(at, |evaluator| evaluator.place(place, &mut stack));
-        self.scratch.stack = stack;
+        self.scratch.read.stack = stack;
         found
     }
 
@@ -721,7 +722,7 @@ impl Executor {
         );
         let fault = Fault::new(Code::Fc412, span, message)
             .with_help("read it before G41 or G42, for example into a parameter");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 }
 

@@ -59,7 +59,7 @@ impl Executor {
                 if call.scope == CallScope::Local {
                     self.pass_over_locals(&cause);
                 }
-                if self.scratch.unread.get() {
+                if self.scratch.read.unread.get() {
                     return Ok(None);
                 }
                 let what = "which program is called";
@@ -111,7 +111,7 @@ impl Executor {
     ) -> Vec<Request> {
         let mut requests = Vec::new();
         for wanted in calls {
-            let refused = self.scratch.diagnostics.iter().any(stops);
+            let refused = self.scratch.messages.diagnostics.iter().any(stops);
             if refused && self.options.stop == StopPolicy::FirstError {
                 break;
             }
@@ -173,7 +173,10 @@ impl Executor {
                 self.state.mentioned.enter_root(&cause, wanted.span, at);
                 self.state.control.memory.miss(&cause);
                 self.note_use(VariableUse::write_anything);
-                self.scratch.diagnostics.push(at.diagnostic(*fault));
+                self.scratch
+                    .messages
+                    .diagnostics
+                    .push(at.diagnostic(*fault));
                 return None;
             }
         };
@@ -186,6 +189,7 @@ impl Executor {
             if self.state.control.refused.insert(found.unit) {
                 let refused = &self.programs.index(found.unit).refused;
                 self.scratch
+                    .messages
                     .diagnostics
                     .extend(refused.said.iter().cloned());
             }
@@ -211,8 +215,8 @@ impl Executor {
                 ),
             )
             .with_help(Advice::RaiseBudget(Budget::Calls));
-            self.scratch.diagnostics.push(at.diagnostic(fault));
-            self.scratch.too_deep = self.options.stop != StopPolicy::KeepGoing;
+            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
+            self.scratch.ending.too_deep = self.options.stop != StopPolicy::KeepGoing;
             return None;
         }
         let passage = self.passage(&wanted, found, at).ok()?;
@@ -249,7 +253,7 @@ impl Executor {
         );
         let fault = Fault::new(Code::Fc329, wanted.span, message)
             .with_help("call it with its folder, or give the others names of their own");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC902: the program that is called may be another one on the machine (R2.108).
@@ -284,7 +288,7 @@ impl Executor {
         let what =
             "this block calls a cycle while a modal cycle is active, which the control refuses";
         let said = at.diagnostic(*Fault::refused(Code::PErr21381, span, what));
-        self.scratch.diagnostics.push(said);
+        self.scratch.messages.diagnostics.push(said);
         true
     }
 
@@ -348,7 +352,7 @@ impl Executor {
             .with_help(format!(
                 "if it keeps every compensation, set `harmless = [\"{word}\"]` in `[machine]`"
             ));
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// The calls of a block with the modal cycle after them, unless the block is one of the
@@ -496,7 +500,7 @@ impl Executor {
                 format!("block `{name}` does not exist in this program"),
             )
         };
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// Ends the program, after the configured program that runs before its end (R2.15).
@@ -710,6 +714,6 @@ impl BlockScratch {
         );
         let fault = Fault::new(Code::Fc317, span, message)
             .with_help("write `M17 [MAIN]` to return to the main program");
-        self.diagnostics.push(at.diagnostic(fault));
+        self.messages.diagnostics.push(at.diagnostic(fault));
     }
 }

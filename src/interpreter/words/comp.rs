@@ -55,7 +55,7 @@ impl Executor {
             }
             Err(error) => {
                 let diagnostic = self.refusal(error, command, at);
-                self.scratch.diagnostics.push(diagnostic);
+                self.scratch.messages.diagnostics.push(diagnostic);
             }
         }
         self.scratch.outcomes.push(Outcome {
@@ -93,7 +93,7 @@ impl Executor {
         let fault = Fault::new(Code::Fc902, command.span, message)
             .with_help("switch compensation outside of the section");
         let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-        self.scratch.diagnostics.push(diagnostic);
+        self.scratch.messages.diagnostics.push(diagnostic);
     }
 
     /// FC902: a command to an axis that the program gave away, which the control may refuse (R2.70).
@@ -116,7 +116,7 @@ impl Executor {
         let fault = Fault::new(Code::Fc902, command.span, message)
             .with_help("request the axis first, with `#CALL AX` or `#AX REQUEST`");
         let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-        self.scratch.diagnostics.push(diagnostic);
+        self.scratch.messages.diagnostics.push(diagnostic);
     }
 
     /// The refusal of a command that the control does not accept under the selected readings (R1.8, R1.25,
@@ -227,7 +227,7 @@ impl Executor {
             "switch compensation before the transformation is activated, or after its end",
         );
         let diagnostic = at.diagnostic(fault).with_axis(command.axis.clone());
-        self.scratch.diagnostics.push(diagnostic);
+        self.scratch.messages.diagnostics.push(diagnostic);
     }
 
     /// FC301: the same axis and kind twice in one block with opposite states.
@@ -263,7 +263,7 @@ impl Executor {
                 .diagnostic(fault)
                 .with_axis(name.clone())
                 .with_label(at.place(first), "the opposite command is here");
-            self.scratch.diagnostics.push(diagnostic);
+            self.scratch.messages.diagnostics.push(diagnostic);
         }
     }
 
@@ -288,6 +288,7 @@ impl Executor {
                     ),
                 );
                 self.scratch
+                    .messages
                     .diagnostics
                     .push(at.diagnostic(fault).with_axis(command.axis.clone()));
             }
@@ -330,6 +331,7 @@ impl Executor {
         )
         .with_help(help);
         self.scratch
+            .messages
             .diagnostics
             .push(at.diagnostic(fault).with_axis(name.clone()));
     }

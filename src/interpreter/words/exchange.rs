@@ -295,7 +295,7 @@ impl Executor {
             );
             let fault = Fault::new(Code::Fc210, hash.span, message)
                 .with_help("separate names and numbers with commas");
-            self.scratch.diagnostics.push(at.diagnostic(fault));
+            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
             return;
         }
         match exchange {
@@ -309,7 +309,7 @@ impl Executor {
                         hash.name
                     ),
                 );
-                self.scratch.diagnostics.push(at.diagnostic(fault));
+                self.scratch.messages.diagnostics.push(at.diagnostic(fault));
             }
             Exchange::Request => self.request_axes(exchanged, at),
             Exchange::Release if command.has(FurtherWord::All) => self.release_others(&[]),
@@ -411,7 +411,7 @@ impl Executor {
             let span = Span::new(0, at.text.trim_end().len());
             let fault = Fault::new(Code::Fc902, span, message)
                 .with_help("write `number = …` in each `[[axis]]` of frictcomp.toml, or name the start-up list");
-            self.scratch.diagnostics.push(at.diagnostic(fault));
+            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
         }
     }
 

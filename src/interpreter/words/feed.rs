@@ -47,6 +47,7 @@ impl Executor {
             );
             let fault = Fault::new(Code::Fc327, at.in_block(span), message);
             self.scratch
+                .messages
                 .diagnostics
                 .push(at.diagnostic(fault.with_help("write a feed above 0")));
         } else if self.moves_at_feed(outcome) {
@@ -62,6 +63,7 @@ impl Executor {
         }
         let span = self
             .scratch
+            .moves
             .moved
             .first()
             .map_or(Span::default(), |word| word.span);
@@ -90,7 +92,7 @@ impl Executor {
                 "write `F` in this block or before it, or give the channel list a `prog_start.feedrate`",
             ));
             if is_certain {
-                self.scratch.diagnostics.push(said);
+                self.scratch.messages.diagnostics.push(said);
             } else {
                 self.say_before_parting(said);
                 self.perhaps_stop(
@@ -118,11 +120,11 @@ impl Executor {
 
     /// Whether the block moves along its axis words at the feed in force.
     fn moves_at_feed(&self, outcome: &BlockOutcome) -> bool {
-        let geometry = self.scratch.geometry.as_ref();
+        let geometry = self.scratch.moves.geometry.as_ref();
         let is_other = geometry.is_some_and(|it| it.foreign.is_some() || it.end_feed.is_some());
         outcome.axis_words == AxisWords::Motion
-            && !self.scratch.moved.is_empty()
-            && self.scratch.word_row.is_none()
+            && !self.scratch.moves.moved.is_empty()
+            && self.scratch.moves.word_row.is_none()
             && self.state.control.described.is_none()
             && self.state.control.modal.functions.is_feed_move()
             && !is_other
@@ -189,13 +191,13 @@ impl Executor {
         let homing_counts = self.machine.readings.takes_second(Question::Homing);
         let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring)
             || (homing_counts && words == AxisWords::Homing);
-        let of_words = self.scratch.moved.iter().filter(|_| is_motion);
+        let of_words = self.scratch.moves.moved.iter().filter(|_| is_motion);
         let of_words = of_words.map(|word| (word.axis, word.span));
         let counts = |motion: &&MovedAxis| {
             motion.certainty == Certainty::Certain
                 && (homing_counts || motion.kind != MotionKind::Homing)
         };
-        let others = self.scratch.also_moved.iter().filter(counts);
+        let others = self.scratch.moves.also_moved.iter().filter(counts);
         of_words
             .chain(others.map(|motion| (motion.axis, motion.span)))
             .collect()
@@ -209,8 +211,8 @@ impl Executor {
             let mut required = self.machine.axis(axis).monitored().iter();
             required.any(|kind| compensation.state(axis, kind) != State::Active)
         };
-        let of_words = self.scratch.moved.iter().map(|word| word.axis);
-        let others = self.scratch.also_moved.iter();
+        let of_words = self.scratch.moves.moved.iter().map(|word| word.axis);
+        let others = self.scratch.moves.also_moved.iter();
         let others = others.filter(|it| it.kind == MotionKind::Homing);
         if of_words.filter(|_| words == AxisWords::Homing).any(lacks)
             || others.map(|it| it.axis).any(lacks)
@@ -222,7 +224,7 @@ impl Executor {
     /// Notes that it matters whether a command acts before the motion of its block (R1.9).
     pub(crate) fn note_command_with_motion(&mut self) {
         let is_taken = self.scratch.outcomes.iter().any(|it| it.result.is_ok());
-        if is_taken && !self.scratch.moved.is_empty() {
+        if is_taken && !self.scratch.moves.moved.is_empty() {
             self.state.rests_on.insert(Question::WithMotion);
         }
     }
@@ -265,12 +267,12 @@ impl Executor {
                     let help = format!("set it before, with `{name}[COMP ON {keyword}]`");
                     let fault = Fault::new(Code::Fc902, span, message).with_help(help);
                     let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-                    self.scratch.diagnostics.push(diagnostic);
+                    self.scratch.messages.diagnostics.push(diagnostic);
                 }
                 continue;
             };
             let refused = moves_without(name, kind, span, at);
-            self.scratch.diagnostics.push(refused);
+            self.scratch.messages.diagnostics.push(refused);
         }
     }
 
@@ -295,7 +297,7 @@ impl Executor {
         }
         let mut refused = moves_without(&self.machine.axis(axis).name, kind, span, at);
         limit_to(&mut refused, &ways_of(&off, &self.state.conditions));
-        self.scratch.of_some_ways.push(refused);
+        self.scratch.messages.of_some_ways.push(refused);
         self.stop_on(&off, AfterError::Reset, at);
         if self.options.stop != StopPolicy::KeepGoing {
             self.state.go_on_with(on);

@@ -40,9 +40,9 @@ impl Executor {
     ) -> Result<(), Box<Fault>> {
         let command = hash.command;
         if command.path == PathFlow::MayRest {
-            self.scratch.rests.set(true);
+            self.scratch.moves.rests.set(true);
         }
-        self.scratch.plc_acts |= command.lets_plc_act();
+        self.scratch.read.plc_acts |= command.lets_plc_act();
         self.check_flushing(hash, at)?;
         match command.action {
             HashAction::Wait => self.wait_for(hash, at, outcome)?,
@@ -58,7 +58,7 @@ impl Executor {
             HashAction::Delete => return self.delete(hash, at),
             HashAction::Dwell => {
                 outcome.axis_words = AxisWords::Other;
-                self.scratch.dwells = true;
+                self.scratch.moves.dwells = true;
                 if let Some(&time) = hash.arguments.first() {
                     let seconds = self.number(time, hash.span, at)?;
                     self.scratch.geometry().dwell = Some(seconds);
@@ -239,7 +239,7 @@ impl Executor {
         let fault = fault.with_help(format!(
             "a COMP command after it makes the state known again, `{axis}[COMP ON FRICT]`"
         ));
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC314: the whole axis list is transferred again (R2.92).
@@ -290,7 +290,7 @@ impl Executor {
         let fault = Fault::new(Code::Fc314, hash.span, message)
             .with_help("set the state after it, for example with `X[COMP ON FRICT]`");
         let diagnostic = at.diagnostic(fault);
-        self.scratch.diagnostics.push(diagnostic);
+        self.scratch.messages.diagnostics.push(diagnostic);
     }
 
     /// `#RT WHILE` runs as long as its condition on a real-time variable holds (tf5261, 783727499).
@@ -323,7 +323,7 @@ impl Executor {
         self.pass_over(hash.command.words, hash.span, at);
         // The PLC acts while the program waits, not after it.
         self.let_plc_act();
-        self.scratch.plc_acts = false;
+        self.scratch.read.plc_acts = false;
         let Some(&condition) = hash.arguments.first() else {
             return Ok(());
         };
@@ -362,8 +362,8 @@ impl Executor {
         );
         let fault = Fault::new(Code::Fc909, hash.span, message)
             .with_help("wait for a value that the machine writes, `#WAIT FOR V.E.READY == 1`");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
-        self.scratch.endless = true;
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
+        self.scratch.ending.endless = true;
         outcome.step = Some(ControlStep::End(EndedBy::Budget));
     }
 }

@@ -48,7 +48,7 @@ impl Executor {
     /// words of the block, since programs are called after them.
     pub(crate) fn havoc_by_call(&mut self, cause: &Unknown) {
         self.havoc_all(cause);
-        let calls = &mut self.scratch.unknown_call;
+        let calls = &mut self.scratch.read.unknown_call;
         calls.get_or_insert_with(|| cause.clone());
     }
 
@@ -56,7 +56,15 @@ impl Executor {
     pub(crate) fn perhaps_move_all(&mut self) {
         let count = self.machine.axes.len();
         let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
-        if self.scratch.also_moved.iter().filter(possible).count() < count {
+        if self
+            .scratch
+            .moves
+            .also_moved
+            .iter()
+            .filter(possible)
+            .count()
+            < count
+        {
             for axis in (0..count).map(AxisIndex::new) {
                 self.scratch.perhaps_move(axis);
             }
@@ -65,7 +73,7 @@ impl Executor {
 
     /// Every parameter and variable becomes unknown.
     pub(crate) fn havoc_memory(&mut self, cause: &Unknown) {
-        self.scratch.plc_acts = true;
+        self.scratch.read.plc_acts = true;
         self.scratch.wrote = true;
         self.state
             .track
@@ -97,7 +105,7 @@ impl Executor {
 impl BlockScratch {
     /// It is not known whether an axis moves.
     pub(crate) fn perhaps_move(&mut self, axis: AxisIndex) {
-        self.also_moved.push(MovedAxis {
+        self.moves.also_moved.push(MovedAxis {
             axis,
             span: Span::default(),
             kind: MotionKind::Unknown,

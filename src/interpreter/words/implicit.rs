@@ -68,7 +68,7 @@ impl Executor {
         match self.configured(word) {
             Configured::None => return false,
             Configured::Program(name) => {
-                self.scratch.plc_acts |= word.letter == b'M';
+                self.scratch.read.plc_acts |= word.letter == b'M';
                 self.check_implicit(word.letter, span, at, outcome);
                 let wanted = WantedCall::program(CallScope::Global, name, at.in_block(span));
                 outcome.calls.push(wanted);
@@ -199,7 +199,7 @@ impl Executor {
             "if it moves no axis and no origin, set `harmless = [\"{word}\"]` in `[machine]` of frictcomp.toml"
         );
         let fault = Fault::new(Code::Fc210, at.in_block(span), message).with_help(help);
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
@@ -260,7 +260,7 @@ impl Executor {
         let cause = Unknown::text(letter);
         self.havoc_by_call(&cause);
         self.state.control.modal.note_transformed(letter);
-        if self.scratch.unread.get() {
+        if self.scratch.read.unread.get() {
             return;
         }
         let fault = Fault::new(
@@ -301,7 +301,7 @@ impl Executor {
         );
         let fault = Fault::new(Code::Fc210, call.span, message)
             .with_help("write the call in a separate block before it");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC902: `what` depends on a value that only the machine knows.

@@ -40,6 +40,7 @@ impl Executor {
         let error = |diagnostic: &&Diagnostic| stops(diagnostic);
         let executed = self
             .scratch
+            .messages
             .diagnostics
             .iter()
             .find(error)
@@ -60,7 +61,10 @@ impl Executor {
             .iter()
             .filter(|fault| fault.span.start <= limit && !is_harmless(harmless, fault, at.text))
         {
-            self.scratch.diagnostics.push(at.diagnostic(fault.clone()));
+            self.scratch
+                .messages
+                .diagnostics
+                .push(at.diagnostic(fault.clone()));
         }
     }
 
@@ -114,7 +118,7 @@ impl Executor {
         if let Err(fault) = done {
             self.scratch.complain(*fault, at);
         }
-        if self.scratch.diagnostics.is_empty() {
+        if self.scratch.messages.diagnostics.is_empty() {
             return ControlFlow::Continue(());
         }
         self.fail_if_refused(at);
@@ -127,19 +131,20 @@ impl Executor {
 
     /// Reports the number of messages about a block that are left out.
     pub(crate) fn say_unsaid(&mut self, at: &BlockContext<'_>) {
-        if let Some((span, more)) = self.scratch.unsaid.take() {
+        if let Some((span, more)) = self.scratch.messages.unsaid.take() {
             let message = format!(
                 "the first {MAX_SAID} messages about this block are shown; there are {more} more"
             );
             let fault = Fault::new(Code::Fc905, at.in_block(span), message);
-            self.scratch.diagnostics.push(at.diagnostic(fault));
+            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
         }
     }
 
     /// Whether the control stops at a message about the block.
     #[inline]
     pub(crate) fn is_halted(&self) -> bool {
-        self.options.stop == StopPolicy::FirstError && self.scratch.diagnostics.iter().any(stops)
+        self.options.stop == StopPolicy::FirstError
+            && self.scratch.messages.diagnostics.iter().any(stops)
     }
 
     #[inline(never)]
@@ -164,7 +169,7 @@ impl Executor {
                 span,
             } => {
                 let (name, keyword) = (axis.of(at.text), keyword.of(at.text));
-                self.scratch.plc_acts |= command.plc == Plc::Acts;
+                self.scratch.read.plc_acts |= command.plc == Plc::Acts;
                 let bracket = AxisBracket {
                     name,
                     command: *command,
@@ -255,7 +260,7 @@ impl Executor {
             return Err(Box::new(fault));
         }
         self.scratch.complain(fault, at);
-        self.scratch.unread.set(true);
+        self.scratch.read.unread.set(true);
         Ok(())
     }
 
@@ -294,30 +299,33 @@ impl Executor {
             depth,
         };
         let inner = at.in_macro(&code, span, &shown);
-        let (said, moved) = (self.scratch.diagnostics.len(), self.scratch.moved.len());
-        let also_moved = self.scratch.also_moved.len();
+        let (said, moved) = (
+            self.scratch.messages.diagnostics.len(),
+            self.scratch.moves.moved.len(),
+        );
+        let also_moved = self.scratch.moves.also_moved.len();
         let (switched, noted) = (
             self.scratch.outcomes.len(),
-            self.scratch.notes.borrow().len(),
+            self.scratch.read.notes.borrow().len(),
         );
         let limit = self.first_refusal(&block);
         self.items(&inner, outcome, limit);
         let stopped = limit.is_some() && self.options.stop == StopPolicy::FirstError;
         self.take_faults(&inner, stopped);
         // Messages about the macro's code are shown where the macro is used.
-        for diagnostic in &mut self.scratch.diagnostics[said..] {
+        for diagnostic in &mut self.scratch.messages.diagnostics[said..] {
             diagnostic.place = at.place(span);
         }
-        for word in &mut self.scratch.moved[moved..] {
+        for word in &mut self.scratch.moves.moved[moved..] {
             word.span = span;
         }
-        for motion in &mut self.scratch.also_moved[also_moved..] {
+        for motion in &mut self.scratch.moves.also_moved[also_moved..] {
             motion.span = span;
         }
         for outcome in &mut self.scratch.outcomes[switched..] {
             outcome.command.span = span;
         }
-        for note in &mut self.scratch.notes.borrow_mut()[noted..] {
+        for note in &mut self.scratch.read.notes.borrow_mut()[noted..] {
             note.place = at.place(span);
         }
         self.check_sharing(&code, span, at)
@@ -342,10 +350,12 @@ impl Executor {
 impl BlockScratch {
     #[cold]
     pub(crate) fn complain(&mut self, fault: Fault, at: &BlockContext<'_>) {
-        if self.diagnostics.len() < MAX_SAID || !self.diagnostics.iter().any(stops) {
-            self.diagnostics.push(at.diagnostic(fault));
+        if self.messages.diagnostics.len() < MAX_SAID
+            || !self.messages.diagnostics.iter().any(stops)
+        {
+            self.messages.diagnostics.push(at.diagnostic(fault));
         } else {
-            self.unsaid.get_or_insert((fault.span, 0)).1 += 1;
+            self.messages.unsaid.get_or_insert((fault.span, 0)).1 += 1;
         }
     }
 }
@@ -363,13 +373,13 @@ impl Executor {
         span: Span,
         at: &BlockContext<'_>,
     ) -> Result<(), Box<Fault>> {
-        let inner = self.scratch.lone.take();
+        let inner = self.scratch.read.lone.take();
         let Some(lone) = LonePart::of(code).or(inner) else {
             return Ok(());
         };
         let Some(conflict) = lone.conflict(at.block, span) else {
             // The macro may be part of another one.
-            self.scratch.lone = Some(lone).filter(|_| at.macro_depth > 0);
+            self.scratch.read.lone = Some(lone).filter(|_| at.macro_depth > 0);
             return Ok(());
         };
         let name = unquoted(span.of(at.text));

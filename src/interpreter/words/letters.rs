@@ -106,7 +106,7 @@ impl Executor {
             self.state.control.modal.havoc_position(axis);
             fault = fault.with_help(format!("did you mean `{}`?", char::from(upper)));
         }
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// Takes a word of an axis that the program exchanged. Returns whether it is one.
@@ -143,7 +143,7 @@ impl Executor {
         );
         let fault = Fault::new(Code::Fc210, at.in_block(span), message)
             .with_help("request the axis before its first word, with `#CALL AX` or `#AX REQUEST`");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
     /// A word of an axis that the machine does not have.
@@ -152,6 +152,7 @@ impl Executor {
         let is_exchanged = exchanged.doubtful || exchanged.names.contains_key(name);
         if self.machine.axes_are_listed && !is_exchanged {
             self.scratch
+                .moves
                 .lacking
                 .push((name.to_owned(), at.in_block(span)));
         }
@@ -161,7 +162,7 @@ impl Executor {
     /// FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
     #[cold]
     pub(crate) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
-        for (name, span) in std::mem::take(&mut self.scratch.lacking) {
+        for (name, span) in std::mem::take(&mut self.scratch.moves.lacking) {
             let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
             if !moves || !self.state.is_new_word(&name) {
                 continue;
@@ -177,7 +178,7 @@ impl Executor {
                 .collect();
             let fault = Fault::new(Code::Fc210, span, message)
                 .with_help(format!("the lists name {}", known.join(", ")));
-            self.scratch.diagnostics.push(at.diagnostic(fault));
+            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
         }
     }
 
@@ -186,6 +187,7 @@ impl Executor {
         let text = span.of(at.text);
         self.havoc_by_call(&Unknown::text(text));
         self.scratch
+            .messages
             .diagnostics
             .push(at.diagnostic(not_known(text, span)));
     }
@@ -221,9 +223,9 @@ impl Executor {
     pub(crate) fn axis_word(&mut self, axis: AxisIndex, span: Span, value: Option<f64>) {
         self.see(axis);
         let bit = 1 << (axis.get() % 64);
-        self.scratch.again |= self.scratch.seen & bit;
-        self.scratch.seen |= bit;
-        self.scratch.moved.push(AxisWord {
+        self.scratch.moves.again |= self.scratch.moves.seen & bit;
+        self.scratch.moves.seen |= bit;
+        self.scratch.moves.moved.push(AxisWord {
             axis,
             span,
             value,
@@ -240,8 +242,8 @@ impl Executor {
         }
         let (mut first, mut said) = (BTreeMap::new(), BTreeSet::new());
         let machine = Arc::clone(&self.machine);
-        let diagnostics = &mut self.scratch.diagnostics;
-        self.scratch.moved.retain(|word| {
+        let diagnostics = &mut self.scratch.messages.diagnostics;
+        self.scratch.moves.moved.retain(|word| {
             let Some(&earlier) = first.get(&word.axis) else {
                 first.insert(word.axis, word.span);
                 return true;
@@ -307,7 +309,7 @@ impl Executor {
             (b'F', _) => outcome.feed = Feed::Given(number),
             (b'M', None) => {
                 self.unknown_word("M", span, at);
-                self.scratch.plc_acts = true;
+                self.scratch.read.plc_acts = true;
                 self.part_at_unknown_m(span, at);
             }
             (b'M', Some(FIRST_ABOVE_M..)) => {
@@ -316,8 +318,9 @@ impl Executor {
             }
             (b'M' | b'T' | b'D', number) => {
                 // A function may wait for its acknowledgement.
-                self.scratch.rests.set(true);
-                self.scratch.plc_acts |= letter == b'M' && self.may_acknowledge(letter, number);
+                self.scratch.moves.rests.set(true);
+                self.scratch.read.plc_acts |=
+                    letter == b'M' && self.may_acknowledge(letter, number);
                 if letter == b'D' || gives_data {
                     self.state.control.modal.select_tool_data(number);
                 }
@@ -331,10 +334,10 @@ impl Executor {
                 self.circle_word(letter, number, span);
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
-            (b'P', _) if self.scratch.dwells => self.dwell_parameter(number),
+            (b'P', _) if self.scratch.moves.dwells => self.dwell_parameter(number),
             (b'H', _) => {
                 let function = number.and_then(rounded);
-                self.scratch.plc_acts |= self.may_acknowledge(letter, function);
+                self.scratch.read.plc_acts |= self.may_acknowledge(letter, function);
             }
             (b'N', _) => {}
             (b'O', _) if is_program_number(at.block) => {
@@ -355,7 +358,7 @@ impl Executor {
             let message = format!("the feed `{feed}` at the end of this block is not above 0");
             let fault = Fault::new(Code::Fc327, at.in_block(span), message);
             let said = at.diagnostic(fault.with_help("write a feed above 0"));
-            self.scratch.diagnostics.push(said);
+            self.scratch.messages.diagnostics.push(said);
         }
     }
 
@@ -394,12 +397,12 @@ impl Executor {
             GAction::Mirror | GAction::SwitchSpline => return Ok(()),
             GAction::Dwell => {
                 outcome.axis_words = function.axis_words;
-                self.scratch.plc_acts = true;
-                self.scratch.dwells = true;
+                self.scratch.read.plc_acts = true;
+                self.scratch.moves.dwells = true;
                 return Ok(());
             }
             GAction::RestAtEnd => {
-                self.scratch.rests.set(true);
+                self.scratch.moves.rests.set(true);
                 self.scratch.geometry().end = BlockEnd::ExactStop;
                 return Ok(());
             }
@@ -446,8 +449,8 @@ impl Executor {
         if let Some(function) = GFunction::of(number) {
             self.check_flush(function.flushes, &format!("G{number}"), span, at);
             if let Some(motion) = function.motion {
-                self.scratch.word_row = Some(motion);
-                self.scratch.rests.set(true);
+                self.scratch.moves.word_row = Some(motion);
+                self.scratch.moves.rests.set(true);
             }
             if function.axis_words != AxisWords::Motion {
                 outcome.axis_words = function.axis_words;
@@ -469,8 +472,8 @@ impl Executor {
             self.state.control.modal.set_feed(feed);
         }
         if self.state.control.described.is_some() {
-            self.scratch.moved.clear();
-            self.scratch.geometry = None;
+            self.scratch.moves.moved.clear();
+            self.scratch.moves.geometry = None;
             return;
         }
         // The lint for switches during motion looks at arcs (R1.57).
@@ -480,29 +483,29 @@ impl Executor {
         let coordinates = self.scratch.coordinates();
         let modal = &mut self.state.control.modal;
         match outcome.axis_words {
-            AxisWords::Motion => modal.move_axes(&mut self.scratch.moved[..coordinates]),
+            AxisWords::Motion => modal.move_axes(&mut self.scratch.moves.moved[..coordinates]),
             AxisWords::Homing | AxisWords::Measuring => {
-                for word in &self.scratch.moved {
+                for word in &self.scratch.moves.moved {
                     modal.havoc_position(word.axis);
                 }
             }
-            AxisWords::Reference => modal.set_references(&self.scratch.moved),
+            AxisWords::Reference => modal.set_references(&self.scratch.moves.moved),
             AxisWords::Other => {}
         }
         if let (Some(span), Some(before)) = (outcome.radius, before) {
             self.warn_full_circle(span, &before, at);
         }
-        if start.is_some() || self.scratch.geometry.is_some() {
+        if start.is_some() || self.scratch.moves.geometry.is_some() {
             self.take_motion(start, outcome.axis_words);
         }
         if matches!(outcome.axis_words, AxisWords::Reference | AxisWords::Other) {
-            self.scratch.moved.clear();
+            self.scratch.moves.moved.clear();
         }
     }
 
     /// Returns the positions of the axes of the block's words, where they are known.
     fn ends(&self) -> Vec<Option<f64>> {
-        let words = self.scratch.moved[..self.scratch.coordinates()].iter();
+        let words = self.scratch.moves.moved[..self.scratch.coordinates()].iter();
         words
             .map(|word| self.state.control.modal.position(word.axis).value)
             .collect()
@@ -520,7 +523,7 @@ impl Executor {
                 "a circle by its radius ends where it starts; `R` cannot describe a full circle",
             )
             .with_help("give the centre of a full circle with `I`, `J`, `K`");
-            self.scratch.diagnostics.push(at.diagnostic(fault));
+            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
         }
     }
 }

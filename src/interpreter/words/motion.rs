@@ -42,7 +42,7 @@ impl Executor {
             self.gear_in(axis, bracket.arguments, at);
             return;
         }
-        self.scratch.also_moved.push(MovedAxis {
+        self.scratch.moves.also_moved.push(MovedAxis {
             axis,
             span,
             kind: row.kind,
@@ -63,7 +63,7 @@ impl Executor {
             named
         };
         for axis in axes {
-            self.scratch.also_moved.push(MovedAxis {
+            self.scratch.moves.also_moved.push(MovedAxis {
                 axis,
                 span: hash.span,
                 kind: row.kind,
@@ -85,7 +85,7 @@ impl Executor {
     pub(crate) fn carry_along(&mut self, words: AxisWords) {
         let carries = self.state.control.couplings.carry()
             || !self.state.control.modal.transformed.is_empty()
-            || self.scratch.word_row.is_some();
+            || self.scratch.moves.word_row.is_some();
         if carries && self.state.control.described.is_none() {
             self.carry(words);
         }
@@ -93,7 +93,7 @@ impl Executor {
 
     #[inline(never)]
     fn carry(&mut self, words: AxisWords) {
-        let row = self.scratch.word_row;
+        let row = self.scratch.moves.word_row;
         if let Some(row) = row.filter(|row| row.certainty == Certainty::Possible) {
             self.leave_to_operator(row.kind, row.moves);
         }
@@ -107,6 +107,7 @@ impl Executor {
     fn leave_to_operator(&mut self, kind: MotionKind, moves: Moves) {
         let words: Vec<_> = self
             .scratch
+            .moves
             .moved
             .iter()
             .map(|it| (it.axis, it.span))
@@ -118,7 +119,7 @@ impl Executor {
             words
         };
         for (axis, span) in axes {
-            self.scratch.also_moved.push(MovedAxis {
+            self.scratch.moves.also_moved.push(MovedAxis {
                 axis,
                 span,
                 kind,
@@ -171,9 +172,9 @@ impl Executor {
 
     /// A motion word in a rotated or transformed frame moves its other axes, too.
     fn move_in_frame(&mut self) {
-        let of_words = self.scratch.moved.iter().map(|it| (it.axis, it.span));
+        let of_words = self.scratch.moves.moved.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;
-        let unknown = self.scratch.also_moved.iter().filter(moves);
+        let unknown = self.scratch.moves.also_moved.iter().filter(moves);
         let in_motion: Vec<_> = of_words
             .clone()
             .chain(unknown.map(|it| (it.axis, it.span)))
@@ -206,7 +207,7 @@ impl Executor {
                 kind: MotionKind::Frame,
                 certainty,
             });
-        self.scratch.also_moved.extend(found);
+        self.scratch.moves.also_moved.extend(found);
     }
 
     /// Axes that follow what the block moves.
@@ -219,9 +220,9 @@ impl Executor {
             AxisWords::Homing => MotionKind::Homing,
             _ => MotionKind::Coupled,
         };
-        let of_words = self.scratch.moved.iter().filter(|_| moves);
+        let of_words = self.scratch.moves.moved.iter().filter(|_| moves);
         let of_words = of_words.map(|word| MovedAxis::of_word(word, kind));
-        let in_motion = of_words.chain(self.scratch.also_moved.iter().copied());
+        let in_motion = of_words.chain(self.scratch.moves.also_moved.iter().copied());
         let mut moving: BTreeMap<AxisIndex, MovedAxis> = BTreeMap::new();
         for moved in in_motion {
             let known = moving.entry(moved.axis).or_insert(moved);
@@ -273,7 +274,7 @@ impl Executor {
             known.is_none_or(|known| known.certainty > motion.certainty)
         };
         let new: Vec<_> = moving.into_values().filter(is_new).collect();
-        self.scratch.also_moved.extend(new);
+        self.scratch.moves.also_moved.extend(new);
     }
 }
 
@@ -304,7 +305,7 @@ impl Executor {
     #[inline]
     pub(crate) fn move_around(&mut self, words: AxisWords) {
         let turns = self.state.control.modal.functions.is_arc();
-        if (turns || self.scratch.geometry.is_some()) && words == AxisWords::Motion {
+        if (turns || self.scratch.moves.geometry.is_some()) && words == AxisWords::Motion {
             self.move_around_in_plane(turns);
         }
     }
@@ -312,28 +313,28 @@ impl Executor {
     fn move_around_in_plane(&mut self, turns: bool) {
         let letters = [b'X', b'Y'].map(|letter| self.main_axis(letter));
         let plane = letters.into_iter().flatten();
-        let geometry = self.scratch.geometry.as_ref();
+        let geometry = self.scratch.moves.geometry.as_ref();
         let centred = geometry.is_some_and(|it| it.centre.iter().any(Option::is_some));
         let is_circle = turns || !self.state.control.modal.is_known(Group::Motion);
-        let own = self.scratch.moved.len();
-        let word = self.scratch.moved.iter();
+        let own = self.scratch.moves.moved.len();
+        let word = self.scratch.moves.moved.iter();
         let word = word.filter(|word| letters.contains(&Some(word.axis)));
         let word = word.map(|word| word.span).next();
         let along = geometry.and_then(|it| it.span);
         let Some(span) = along.filter(|_| centred).or(word) else {
             return;
         };
-        if !is_circle || (!turns && !centred) || self.scratch.dwells {
+        if !is_circle || (!turns && !centred) || self.scratch.moves.dwells {
             return;
         }
         for axis in plane {
-            if self.scratch.moved[..own]
+            if self.scratch.moves.moved[..own]
                 .iter()
                 .all(|word| word.axis != axis)
             {
                 self.see(axis);
-                self.scratch.seen |= 1 << (axis.get() % 64);
-                self.scratch.moved.push(AxisWord {
+                self.scratch.moves.seen |= 1 << (axis.get() % 64);
+                self.scratch.moves.moved.push(AxisWord {
                     axis,
                     span,
                     value: None,
@@ -341,7 +342,7 @@ impl Executor {
                 });
             }
         }
-        let around = self.scratch.moved.len() - own;
+        let around = self.scratch.moves.moved.len() - own;
         if around > 0 {
             self.scratch.geometry().around = around;
         }
@@ -360,7 +361,7 @@ impl Executor {
     /// Creates the motion of the block, which started at `from`.
     #[inline(never)]
     pub(crate) fn take_motion(&mut self, from: Option<Vec<Option<f64>>>, words: AxisWords) {
-        let geometry = self.scratch.geometry.take();
+        let geometry = self.scratch.moves.geometry.take();
         if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {
             // The radius is modal (PM, radius programming).
             self.state.control.modal.radius = radius;
@@ -371,10 +372,10 @@ impl Executor {
         let is_taken = self.options.takes_motions();
         match motion {
             Some(Motion::Travel(travel)) if matches!(travel.form, PathForm::Arc(_)) => {
-                self.scratch.motion = is_taken.then(|| Motion::Travel(travel.clone()));
+                self.scratch.moves.motion = is_taken.then(|| Motion::Travel(travel.clone()));
                 self.scratch.aside.arc = Some(travel);
             }
-            motion => self.scratch.motion = motion.filter(|_| is_taken),
+            motion => self.scratch.moves.motion = motion.filter(|_| is_taken),
         }
     }
 
@@ -384,13 +385,13 @@ impl Executor {
         from: Vec<Option<f64>>,
         words: AxisWords,
     ) -> Option<Motion> {
-        if self.scratch.dwells {
-            let by_axis = self.scratch.moved.first().map(|word| word.value);
+        if self.scratch.moves.dwells {
+            let by_axis = self.scratch.moves.moved.first().map(|word| word.value);
             return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
         }
         let circular = self.state.control.modal.functions.is_arc();
         let centred = geometry.centre.iter().any(Option::is_some);
-        let moves = !self.scratch.moved.is_empty() || (circular && centred);
+        let moves = !self.scratch.moves.moved.is_empty() || (circular && centred);
         let form = match words {
             _ if !moves => return None,
             AxisWords::Motion | AxisWords::Measuring => self.form(geometry, &from),
@@ -402,7 +403,13 @@ impl Executor {
         let modal = &self.state.control.modal;
         Some(Motion::Travel(Travel {
             form,
-            axes: self.scratch.moved.iter().map(|word| word.axis).collect(),
+            axes: self
+                .scratch
+                .moves
+                .moved
+                .iter()
+                .map(|word| word.axis)
+                .collect(),
             from,
             to: modal.positions().to_vec(),
             feed: self.path_feed(geometry),
@@ -517,14 +524,14 @@ impl Executor {
         if geometry.at_full_speed {
             return pace.weight(haste);
         }
-        pace.share(haste, self.scratch.moved.iter().map(|word| word.axis))
+        pace.share(haste, self.scratch.moves.moved.iter().map(|word| word.axis))
     }
 
     /// A feed in mm, or in degrees where only rotary axes move.
     fn per_minute(&self, feed: ProgrammedFeed) -> Option<f64> {
         let is_rotary =
             |word: &AxisWord| self.machine.axis(word.axis).axis_type == AxisType::Rotary;
-        let moved = &self.scratch.moved;
+        let moved = &self.scratch.moves.moved;
         if !moved.is_empty() && moved.iter().all(is_rotary) {
             return Some(feed.value);
         }
@@ -546,13 +553,13 @@ impl BlockScratch {
     /// The words of the block that give axis targets.
     #[inline]
     pub(crate) fn coordinates(&self) -> usize {
-        let around = self.geometry.as_ref().map_or(0, |it| it.around);
-        self.moved.len() - around
+        let around = self.moves.geometry.as_ref().map_or(0, |it| it.around);
+        self.moves.moved.len() - around
     }
 
     /// The geometry words of the block.
     pub(crate) fn geometry(&mut self) -> &mut Geometry {
-        self.geometry.get_or_insert_default()
+        self.moves.geometry.get_or_insert_default()
     }
 }
 

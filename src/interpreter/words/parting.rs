@@ -374,7 +374,7 @@ impl Executor {
 
     /// FC902: a jump that may go to any label of its program, on ways that are not told apart.
     fn tell_any_label(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
-        if self.scratch.unread.get() {
+        if self.scratch.read.unread.get() {
             return;
         }
         let message = format!(
@@ -663,7 +663,7 @@ impl Executor {
                 name: cause.to_string(),
                 place: at.place(Span::new(0, at.text.trim_end().len())),
             };
-            self.scratch.notes.borrow_mut().push(note);
+            self.scratch.read.notes.borrow_mut().push(note);
         }
     }
 }

@@ -726,7 +726,7 @@ impl Executor {
         });
         for said in refused {
             ends.push((Some(said.place.clone()), EndedBy::Error));
-            self.scratch.of_some_ways.push(said);
+            self.scratch.messages.of_some_ways.push(said);
         }
         let own = effects.ends.into_iter();
         ends.extend(own.map(|place| (Some(place), EndedBy::M30)));
@@ -742,14 +742,14 @@ impl Executor {
         if by == EndedBy::Error {
             self.reset_after_stop();
         }
-        let end = self.scratch.end.take();
-        self.scratch.end = place.map(|place| OwnEnd {
+        let end = self.scratch.ending.at.take();
+        self.scratch.ending.at = place.map(|place| OwnEnd {
             place,
             is_passed_into: false,
         });
         let ended = self.ended_path(by);
         self.state.end_way(ended);
-        self.scratch.end = end;
+        self.scratch.ending.at = end;
         (self.state.control, self.state.track) = here;
         self.version += 1;
     }
@@ -788,7 +788,7 @@ impl Executor {
     fn tell_passed(&mut self, cause: &Unknown, before: &[KindSet], mut said: Diagnostic) {
         let named = self.newly_unknown(before);
         let is_new = !named.is_empty()
-            && !self.scratch.unread.get()
+            && !self.scratch.read.unread.get()
             && self
                 .state
                 .mentioned
@@ -796,7 +796,7 @@ impl Executor {
         if is_new {
             said.message.push_str(", including ");
             said.message.push_str(&named.join(", "));
-            self.scratch.diagnostics.push(said);
+            self.scratch.messages.diagnostics.push(said);
         } else {
             self.scratch.aside.withheld.push(said);
         }

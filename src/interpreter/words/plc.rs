@@ -136,11 +136,11 @@ impl Executor {
         let Some(set) = set.min().cloned() else {
             return Ok((value, None));
         };
-        let said = self.scratch.diagnostics.len();
-        self.scratch.held = HeldValues::Doubted;
+        let said = self.scratch.messages.diagnostics.len();
+        self.scratch.read.held = HeldValues::Doubted;
         let doubted = self.value(condition, at);
-        self.scratch.held = HeldValues::Taken;
-        self.scratch.diagnostics.truncate(said);
+        self.scratch.read.held = HeldValues::Taken;
+        self.scratch.messages.diagnostics.truncate(said);
         let is_open = matches!(doubted, Ok(Value::Unknown(_)));
         let kept = is_open.then(|| {
             Doubt::Kept(KeptValue {
@@ -172,9 +172,9 @@ impl Executor {
         operand: Operand,
         at: &BlockContext<'_>,
     ) -> Result<(Value, Vec<VariableName>), Box<Fault>> {
-        self.scratch.relied.get_mut().clear();
+        self.scratch.read.relied.get_mut().clear();
         let value = self.value(operand, at)?;
-        Ok((value, self.scratch.relied.take()))
+        Ok((value, self.scratch.read.relied.take()))
     }
 }
 
@@ -189,7 +189,7 @@ impl Executor {
     pub(crate) fn leave_to_machine(&mut self, program: &MissingProgram) {
         let name = program.to_string();
         let keeps = self.machine.programs.keeps(&name);
-        self.scratch.plc_acts = true;
+        self.scratch.read.plc_acts = true;
         if !keeps.compensation {
             self.havoc_couplings();
             self.havoc_compensation();

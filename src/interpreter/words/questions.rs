@@ -148,7 +148,7 @@ impl Executor {
         if self.options.follows_one_way() && question.kept.is_some() {
             return false;
         }
-        let is_unread = self.scratch.unread.get();
+        let is_unread = self.scratch.read.unread.get();
         let frames = &self.state.control.frames;
         if let Some((frame, entry)) = frames.running().zip(frames.entry()).filter(|_| is_unread)
             && self.programs.index(frame.unit).is_linked(entry)
@@ -201,7 +201,7 @@ impl Executor {
         at: &BlockContext<'_>,
     ) -> Vec<WaySet> {
         let count = goals.len().min(MAX_ANSWERS);
-        if count < 2 || self.scratch.unread.get() || !self.state.can_ask() {
+        if count < 2 || self.scratch.read.unread.get() || !self.state.can_ask() {
             return vec![WaySet::always(); goals.len()];
         }
         let question = MachineQuestion {
@@ -502,7 +502,7 @@ impl Executor {
         }
         for (axis, kind) in &differing {
             let said = self.open_search((*axis, *kind), before, at);
-            self.scratch.diagnostics.push(said);
+            self.scratch.messages.diagnostics.push(said);
         }
         self.version += 1;
         if !self.state.can_ask() {

@@ -66,7 +66,7 @@ impl Executor {
                     None => "no `RC`".to_owned(),
                 };
                 let said = error_with(&class_text, hash.span, at);
-                self.scratch.diagnostics.push(said);
+                self.scratch.messages.diagnostics.push(said);
                 let after = if class == SYSTEM_ERROR {
                     AfterError::ResetOrRestart
                 } else {
@@ -130,7 +130,7 @@ impl Executor {
         let [ends, _] = &ways;
         if !ends.is_never() {
             limit_to(&mut said, &ways_of(ends, &self.state.conditions));
-            self.scratch.of_some_ways.push(said);
+            self.scratch.messages.of_some_ways.push(said);
         }
         self.perhaps_end(ways, after, at)
     }
@@ -141,7 +141,7 @@ impl Executor {
         if !reach.is_always() {
             limit_to(&mut said, &ways_of(reach, &self.state.conditions));
         }
-        self.scratch.of_some_ways.push(said);
+        self.scratch.messages.of_some_ways.push(said);
     }
 
     fn remedy_class(
@@ -173,7 +173,7 @@ impl Executor {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        if self.scratch.unread.get() {
+        if self.scratch.read.unread.get() {
             return;
         }
         let asking = || Asking::of_unknown(Writer::Nothing, error.clone());
@@ -217,7 +217,7 @@ impl Executor {
 
     fn end_with(&mut self, after: AfterError, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
         if self.options.stop == StopPolicy::FirstError {
-            self.scratch.after_error = after;
+            self.scratch.ending.after_error = after;
             outcome.step = Some(ControlStep::End(EndedBy::Error));
         } else {
             self.fail(after, at);
@@ -367,7 +367,7 @@ impl Executor {
             .mentioned
             .is_new(cause, [what.to_owned()], &said.place)
         {
-            self.scratch.diagnostics.push(said);
+            self.scratch.messages.diagnostics.push(said);
         } else {
             self.scratch.aside.withheld.push(said);
         }
@@ -421,7 +421,7 @@ impl Executor {
                     self.state.control.history.forget_sites();
                 }
             }
-            let end = self.scratch.end.replace(OwnEnd {
+            let end = self.scratch.ending.at.replace(OwnEnd {
                 place: at.place(Span::new(0, at.text.len())),
                 is_passed_into,
             });
@@ -435,7 +435,7 @@ impl Executor {
             } else {
                 self.state.ended.push(ended);
             }
-            self.scratch.end = end;
+            self.scratch.ending.at = end;
         }
         (self.state.control, self.state.track) = here;
         self.version += 1;
@@ -448,7 +448,7 @@ impl Executor {
         if self.options.stop == StopPolicy::CheckAll && self.state.track.failed.is_none() {
             let ways = self.state.track.reach.clone();
             self.stop_on(&ways, after, at);
-            let failed = FailedAt::new(self.state.seq, at, &self.scratch.diagnostics);
+            let failed = FailedAt::new(self.state.seq, at, &self.scratch.messages.diagnostics);
             self.state.track.failed = Some(Box::new(failed));
         }
     }
@@ -456,7 +456,7 @@ impl Executor {
     /// The same where a message on the block is about an error of the control.
     #[cold]
     pub(crate) fn fail_if_refused(&mut self, at: &BlockContext<'_>) {
-        let mut said = self.scratch.diagnostics.iter();
+        let mut said = self.scratch.messages.diagnostics.iter();
         if said.any(|said| stops(said) && !said.code.is_budget()) {
             self.fail(AfterError::Reset, at);
         }
@@ -467,7 +467,7 @@ impl Executor {
         let mut path = self.state.leave_path();
         path.track.assumed.undo(&mut path.control.memory);
         path.control.frames.clear();
-        let at = self.scratch.end.take().map(|end| {
+        let at = self.scratch.ending.at.take().map(|end| {
             let passed = if end.is_passed_into {
                 Passed::Into
             } else {

@@ -338,7 +338,7 @@ const MAX_ONCE: usize = 1000;
 /// The path that is executed, with what all paths of the run have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RunState {
-    /// RunState of the control.
+    /// State of the control.
     pub(crate) control: ControlState,
     /// The way to it.
     pub(crate) track: RunTrack,
@@ -346,7 +346,7 @@ pub(crate) struct RunState {
     pub(crate) ended: Vec<EndedPath>,
     /// The conditions that ways name, by their numbers.
     pub(crate) conditions: Vec<Condition>,
-    /// Those of the program that read no value, and so have one answer on all ways.
+    /// The questions of the program that read no value, and so have one answer on all ways.
     pub(crate) asked: Vec<AskedCondition>,
     /// Executed blocks of the program.
     pub(crate) seq: u64,

@@ -176,7 +176,7 @@ impl Interpreter {
         if self.others.waiting.len() > MAX_OPEN {
             self.others.join_waiting(&mut self.here);
         }
-        if self.others.is_past_ways(&mut self.here) {
+        if self.others.is_past_ways(&self.here) {
             self.others.widen(&mut self.here, finder);
             self.here.tell_joined(observer);
         }
@@ -223,6 +223,137 @@ impl Interpreter {
                 self.others.take_jumps(&mut self.here, finder);
                 step
             }
+        }
+    }
+
+    /// Executes a block and informs the observer. `Continue` where the next block follows.
+    pub(crate) fn execute(
+        &mut self,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<NextBlock> {
+        let first = self.begin_block(at);
+        let number = self.here.block_number(at);
+        let mut outcome = self.here.read(at);
+        let calls = self.pass_over_and_call(&mut outcome, at, finder);
+        let stopped = self.here.judge(&outcome, at);
+        let is_over = self.here.account(at);
+        let step = self.next_step((outcome, calls), (is_over, stopped), at, finder);
+        self.here.limit_messages(first);
+        self.here.note_doubts(at);
+        let flow = if self.here.state.track.is_shadow() {
+            self.here.note_moves_of_shadow();
+            ControlFlow::Continue(())
+        } else {
+            self.note_lone_motion();
+            self.here.raise(number, stopped, at, observer)
+        };
+        self.here.scratch.clear_said();
+        match step {
+            step if flow.is_break() => {
+                self.here.state.parked = step;
+                ControlFlow::Break(NextBlock::Paused)
+            }
+            None => ControlFlow::Continue(()),
+            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
+        }
+    }
+
+    /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
+    /// messages.
+    #[inline]
+    fn begin_block(&mut self, at: &BlockContext<'_>) -> usize {
+        self.here.scratch.clear();
+        let are_told = self.others.joined.is_empty() && self.others.joined_withheld.is_empty();
+        if !(are_told || self.here.state.track.is_shadow()) {
+            let scratch = &mut self.here.scratch;
+            let said = &mut scratch.messages.diagnostics;
+            said.append(&mut self.others.joined);
+            let withheld = &mut scratch.aside.withheld;
+            withheld.append(&mut self.others.joined_withheld);
+        }
+        if !self.here.state.track.shadow.moved.is_empty() && !self.here.state.track.is_shadow() {
+            self.here.take_moves_of_shadows();
+        }
+        let first = self.here.scratch.messages.diagnostics.len();
+        self.here.state.seq += 1;
+        self.here.state.blocks += 1;
+        if self.here.state.track.searching.is_some() {
+            self.here.search(at);
+        }
+        first
+    }
+
+    /// Makes unknown what the block passes over, and finds the programs that it calls.
+    #[inline]
+    fn pass_over_and_call(
+        &mut self,
+        outcome: &mut BlockOutcome,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        self.here.pass_over_parts(outcome, finder);
+        self.others.let_leave(&mut self.here);
+        let mut calls = Vec::new();
+        if !outcome.calls.is_empty() && outcome.goes_on() {
+            calls = self
+                .here
+                .resolve_all(std::mem::take(&mut outcome.calls), at, finder);
+            if !self.others.waiting.is_empty() {
+                calls = self
+                    .others
+                    .without_open_recursion(&mut self.here, calls, at, finder);
+            }
+        } else if !outcome.calls.is_empty() {
+            self.here.pass_over_calls(outcome, at);
+        }
+        if let Some(name) = outcome.looks_for.take() {
+            self.here.look_for_file(name, at, finder);
+        }
+        if self.here.scratch.read.plc_acts {
+            self.here.let_plc_act();
+        }
+        calls
+    }
+
+    /// The step after a block, where that is not the next block.
+    #[inline]
+    fn next_step(
+        &mut self,
+        (outcome, calls): (BlockOutcome, Vec<Request>),
+        (is_over, stopped): (bool, bool),
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<ControlStep> {
+        let here = &mut self.here;
+        let step = if is_over || here.scratch.ending.too_deep {
+            Some(ControlStep::End(EndedBy::Budget))
+        } else if stopped {
+            Some(ControlStep::End(ended_by(
+                &here.scratch.messages.diagnostics,
+            )))
+        } else if calls.is_empty() && outcome.goes_on() && here.state.control.cycles.is_empty() {
+            None
+        } else {
+            here.step(outcome, calls, at, finder)
+        };
+        match step {
+            Some(ControlStep::Jump(target)) if here.state.control.frames.is_passed(target) => {
+                Some(self.others.come_round(here, target, finder))
+            }
+            Some(ControlStep::End(EndedBy::Error)) => Some(here.end_by_error(at)),
+            step => step,
+        }
+    }
+
+    /// Notes whether the motion of the block is that of one way only.
+    #[inline]
+    fn note_lone_motion(&mut self) {
+        let here = &mut self.here;
+        if here.options.takes_motions() && here.scratch.moves.motion.is_some() {
+            let is_alone = self.others.waiting.is_empty() && here.state.ended.is_empty();
+            here.state.track.shadow.moves_alone |= !is_alone;
         }
     }
 }
@@ -274,6 +405,39 @@ fn is_still(item: &Item) -> bool {
 }
 
 impl Executor {
+    /// Executes the words of a block and looks at its motion.
+    #[inline]
+    fn read(&mut self, at: &BlockContext<'_>) -> BlockOutcome {
+        let mut outcome = BlockOutcome::default();
+        if let Some(level) = self.undecided_level(at.block) {
+            let whole = Span::new(0, at.text.trim_end().len());
+            self.pass_over_part(Unknown::SkipLevel(level), whole, at);
+        } else if !self.is_halted() {
+            self.remembered_items(at, &mut outcome);
+        }
+        self.look_at_motion(&outcome, at);
+        self.outdate_readings(at);
+        outcome
+    }
+
+    /// Whether an error of the control stops the run at the block; else its axes move.
+    #[inline]
+    fn judge(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) -> bool {
+        let said = &self.scratch.messages.diagnostics;
+        let refused = self.first_refusal(at.block).is_some() || said.iter().any(stops);
+        let stopped = refused && self.options.stop == StopPolicy::FirstError;
+        if refused {
+            self.fail(AfterError::Reset, at);
+        }
+        if !at.block.faults.is_empty() {
+            self.take_faults(at, stopped);
+        }
+        if !stopped {
+            self.move_axes(outcome, at);
+        }
+        stopped
+    }
+
     /// Checks the motion of the axes of a block: the axes that move with its words, and whether
     /// each may.
     #[inline]
@@ -500,12 +664,8 @@ impl Executor {
 
     /// Executes the items of a block. Its commands are then the last ones on the way, each at the place where it is
     /// written or used as a macro.
-    fn remembered_items(
-        &mut self,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-        limit: Option<u32>,
-    ) {
+    fn remembered_items(&mut self, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
+        let limit = self.first_refusal(at.block);
         self.items(at, outcome, limit);
         for outcome in &mut self.scratch.outcomes {
             let Ok(axis) = outcome.result else {
@@ -554,154 +714,6 @@ impl Executor {
         }
         for doubted in &self.scratch.doubted {
             history.doubt(*doubted, KindEffect::Doubted, site());
-        }
-    }
-}
-
-impl Interpreter {
-    /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
-    /// messages.
-    #[inline]
-    fn begin_block(&mut self, at: &BlockContext<'_>) -> usize {
-        self.here.scratch.clear();
-        let are_told = self.others.joined.is_empty() && self.others.joined_withheld.is_empty();
-        if !(are_told || self.here.state.track.is_shadow()) {
-            self.here
-                .scratch
-                .messages
-                .diagnostics
-                .append(&mut self.others.joined);
-            self.here
-                .scratch
-                .aside
-                .withheld
-                .append(&mut self.others.joined_withheld);
-        }
-        if !self.here.state.track.shadow.moved.is_empty() && !self.here.state.track.is_shadow() {
-            self.here.take_moves_of_shadows();
-        }
-        let first = self.here.scratch.messages.diagnostics.len();
-        self.here.state.seq += 1;
-        self.here.state.blocks += 1;
-        if self.here.state.track.searching.is_some() {
-            self.here.search(at);
-        }
-        first
-    }
-
-    /// Finds the programs that a block calls.
-    #[inline]
-    fn take_calls(
-        &mut self,
-        outcome: &mut BlockOutcome,
-        at: &BlockContext<'_>,
-        finder: &mut dyn Finder,
-    ) -> Vec<Request> {
-        if outcome.calls.is_empty() {
-            return Vec::new();
-        }
-        if !outcome.goes_on() {
-            self.here.pass_over_calls(outcome, at);
-            return Vec::new();
-        }
-        let calls = self
-            .here
-            .resolve_all(std::mem::take(&mut outcome.calls), at, finder);
-        if self.others.waiting.is_empty() {
-            return calls;
-        }
-        self.others
-            .without_open_recursion(&mut self.here, calls, at, finder)
-    }
-
-    /// Executes a block and informs the observer. `Continue` where the next block follows.
-    pub(crate) fn execute(
-        &mut self,
-        at: &BlockContext<'_>,
-        finder: &mut dyn Finder,
-        observer: &mut dyn Observer,
-    ) -> ControlFlow<NextBlock> {
-        let first = self.begin_block(at);
-        let mut outcome = BlockOutcome::default();
-        let limit = self.here.first_refusal(at.block);
-        let number = self.here.block_number(at);
-        let undecided = self.here.undecided_level(at.block);
-        if let Some(level) = undecided {
-            let whole = Span::new(0, at.text.trim_end().len());
-            self.here
-                .pass_over_part(Unknown::SkipLevel(level), whole, at);
-        } else if !self.here.is_halted() {
-            self.here.remembered_items(at, &mut outcome, limit);
-        }
-        self.here.look_at_motion(&outcome, at);
-        self.here.outdate_readings(at);
-        self.here.pass_over_parts(&mut outcome, finder);
-        self.others.let_leave(&mut self.here);
-        let calls = self.take_calls(&mut outcome, at, finder);
-        if let Some(name) = outcome.looks_for.take() {
-            self.here.look_for_file(name, at, finder);
-        }
-        if self.here.scratch.read.plc_acts {
-            self.here.let_plc_act();
-        }
-        let refused = limit.is_some() || self.here.scratch.messages.diagnostics.iter().any(stops);
-        let stopped = refused && self.here.options.stop == StopPolicy::FirstError;
-        if refused {
-            self.here.fail(AfterError::Reset, at);
-        }
-        if !at.block.faults.is_empty() {
-            self.here.take_faults(at, stopped);
-        }
-        if !stopped {
-            self.here.move_axes(&outcome, at);
-        }
-        let is_over = self.here.account(at);
-        let step = if is_over || self.here.scratch.ending.too_deep {
-            Some(ControlStep::End(EndedBy::Budget))
-        } else if stopped {
-            Some(ControlStep::End(ended_by(
-                &self.here.scratch.messages.diagnostics,
-            )))
-        } else if calls.is_empty() && outcome.goes_on() && self.here.state.control.cycles.is_empty()
-        {
-            None
-        } else {
-            match self.here.step(outcome, calls, at, finder) {
-                Some(ControlStep::Jump(target))
-                    if self.here.state.control.frames.is_passed(target) =>
-                {
-                    Some(self.others.come_round(&mut self.here, target, finder))
-                }
-                step => step,
-            }
-        };
-        let step = match step {
-            Some(ControlStep::End(EndedBy::Error)) => Some(self.here.end_by_error(at)),
-            step => step,
-        };
-        self.here.limit_messages(first);
-        self.here.note_doubts(at);
-        if self.here.state.track.is_shadow() {
-            self.here.note_moves_of_shadow();
-            self.here.scratch.clear_said();
-            return match step {
-                None => ControlFlow::Continue(()),
-                Some(step) => ControlFlow::Break(NextBlock::Step(step)),
-            };
-        }
-        if self.here.options.takes_motions() && self.here.scratch.moves.motion.is_some() {
-            let is_alone = self.others.waiting.is_empty() && self.here.state.ended.is_empty();
-            self.here.state.track.shadow.moves_alone |= !is_alone;
-        }
-        let flow = self.here.raise(number, stopped, at, observer);
-        self.here.scratch.clear_said();
-        match step {
-            step if flow.is_break() => {
-                self.here.state.parked = step;
-                ControlFlow::Break(NextBlock::Paused)
-            }
-            None => ControlFlow::Continue(()),
-            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
         }
     }
 }

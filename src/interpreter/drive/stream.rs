@@ -188,10 +188,8 @@ impl Interpreter {
         gather(&file, reader.lost_remarks(), u32::MAX, &mut self.lost);
         self.here.scratch.block = block;
         // A program without any block begins and ends here.
-        match self.begin_at(stage, &file, finder, observer) {
-            Some(outcome) => outcome,
-            None => self.end_of_lines(stage, &notes, observer),
-        }
+        let begun = self.begin_at(stage, &file, finder, observer);
+        begun.unwrap_or_else(|| self.end_of_lines(stage, &notes, observer))
     }
 
     /// Ends the run at a file that is no program.

@@ -42,6 +42,11 @@ impl BlockLowering<'_> {
             return;
         }
         let words = words(self.code, body);
+        if words.iter().any(|word| word.of(self.code).contains('"')) {
+            // The code of a macro may be any part of the command.
+            self.unread(Effect::Everything, span);
+            return;
+        }
         let keyword = words.first().copied();
         let first = keyword.map_or("", |word| word.of(self.code));
         if first.eq_ignore_ascii_case("COMP") {

@@ -73,7 +73,11 @@ impl Interpreter {
         self.source_mode = SourceMode::LineByLine;
         let none = Index::new(SourceFile::new("", ""), self.here.options.limits.nesting);
         self.here.programs.hold(none);
-        match self.run_lines(file, lines, finder, observer) {
+        let outcome = match no_program(lines.ahead()) {
+            Some(what) => self.refuse_file(&file.into(), what, observer),
+            None => self.run_lines(file, lines, finder, observer),
+        };
+        match outcome {
             RunOutcome::Paused => RunOutcome::Stopped,
             outcome => outcome,
         }
@@ -87,9 +91,6 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         let file: Arc<str> = file.into();
-        if let Some(what) = no_program(lines.ahead()) {
-            return self.refuse_file(&file, what, observer);
-        }
         let mut reader = BlockReader::new(lines, 1, self.here.options.fast_path);
         let mut block = std::mem::take(&mut self.here.scratch.block);
         let mut stage = ProgramStage::Before;

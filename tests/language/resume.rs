@@ -271,12 +271,13 @@ fn stopped_on_sides() -> Snapshot {
     let searched = "N90".parse::<SearchedBlock>().expect("a block number");
     let options = options().with_search(searched);
     let is_full = |saved: &Snapshot| {
-        let state = &document(saved)["state"];
+        let saved = document(saved);
+        let (state, others) = (&saved["state"], &saved["others"]);
         let track = &state["track"];
         track["searching"].is_object()
             && track["readings"][0].is_object()
-            && state["loop_heads"][0][1]["state"].is_object()
-            && state["waiting"][0].is_object()
+            && others["loop_heads"][0][1]["state"].is_object()
+            && others["waiting"][0].is_object()
             && state["conditions"][3].is_object()
     };
     let mut stops = (10..40).map(|events| stopped_after(events, "sides.nc", options));

@@ -143,7 +143,7 @@ const FOLDERS: [(&str, &str, &[&str]); 22] = [
     (
         "interpreter",
         "drive",
-        &["programs", "values", "ways", "words"],
+        &["motion", "programs", "values", "ways", "words"],
     ),
     ("interpreter", "programs", &["values"]),
     ("interpreter", "values", &["ways"]),

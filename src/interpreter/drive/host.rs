@@ -17,6 +17,7 @@ use crate::interpreter::values::handover::Carried;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::others::OtherPaths;
 use crate::interpreter::ways::possible_state::{CarriedWays, PossibleStates};
+use crate::interpreter::ways::words::WayCondition;
 use crate::machine::{Machine, Setting};
 use crate::readings::{Question, QuestionSet};
 use crate::syntax::ast::Block;
@@ -59,6 +60,18 @@ impl Interpreter {
     /// The kinds that are unknown because ways differ, with the states that are possible (R14.2).
     pub fn possible(&self) -> &[PossibleStates] {
         &self.here.shown.possible
+    }
+
+    /// The answers to the condition in the last executed block, where only the machine knows which holds and none
+    /// was chosen ([`Branches::OneFollowed`](crate::interpreter::Branches::OneFollowed)).
+    pub fn offered(&self) -> &[WayCondition] {
+        &self.here.offered
+    }
+
+    /// The next such condition has one of the answers that are [`offered`](Self::offered), by its place
+    /// among them; after a second call, so has the one after it.
+    pub fn choose(&mut self, place: usize) {
+        self.here.chosen.push_back(place);
     }
 
     /// An interpreter for a machine whose compensation is in a given state.

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind, KindSet, Membership, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::block::BlockContext;
-use crate::interpreter::drive::host::Interpreter;
 use crate::interpreter::executor::{Executor, RunState};
 use crate::interpreter::options::Branches;
 use crate::interpreter::programs::index::EntryIndex;
@@ -22,7 +21,6 @@ use crate::interpreter::ways::question::{
     is_compared,
 };
 use crate::interpreter::ways::set::{WayAnswer, WaySet};
-use crate::interpreter::ways::words::WayCondition;
 use crate::readings::{Alternative, Question};
 use crate::text::Span;
 
@@ -119,20 +117,6 @@ pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayA
         sides: 1 << place,
         of,
     })
-}
-
-impl Interpreter {
-    /// The answers to the condition in the last executed block, where only the machine knows which holds and none
-    /// was chosen ([`Branches::OneFollowed`]).
-    pub fn offered(&self) -> &[WayCondition] {
-        &self.here.offered
-    }
-
-    /// The next such condition has one of the answers that are [`offered`](Self::offered), by its place
-    /// among them; after a second call, so has the one after it.
-    pub fn choose(&mut self, place: usize) {
-        self.here.chosen.push_back(place);
-    }
 }
 
 impl Executor {

@@ -256,6 +256,7 @@ impl<'a> Trust<'a> {
         let mut conditions = state.conditions.iter();
         let asked = conditions.all(|it| it.fits() && is_somewhere(&it.place));
         holds(asked, "a condition with too many answers")?;
+        self.check_conditions(state.asked.iter().map(|asked| asked.condition))?;
         self.check_counters()?;
         self.check_parked()?;
         self.check_path(&state.control, &state.track)?;
@@ -281,7 +282,8 @@ impl<'a> Trust<'a> {
             "a cycle that is not there",
         )?;
         let named = track.reach.conditions().chain(track.readings.conditions());
-        self.check_conditions(named)?;
+        let asked = track.asked.iter().map(|asked| asked.condition);
+        self.check_conditions(named.chain(asked))?;
         let axes = self.machine.axes.len();
         let moved = track.shadow.moved.iter().all(|axis| axis.get() < axes);
         holds(moved, "a motion of another axis")?;

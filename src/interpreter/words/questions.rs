@@ -290,7 +290,7 @@ impl Executor {
                 track.asked.remove(0);
             }
             let asked = AskedCondition { condition, meaning };
-            if asked.reads_nothing() {
+            if asked.reads_nothing() && self.state.asked.len() < MAX_ASKED {
                 self.state.asked.push(asked.clone());
             }
             track.asked.push(asked);

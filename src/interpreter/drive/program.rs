@@ -148,6 +148,7 @@ impl Interpreter {
         self.others.call_effects.clear();
         self.here.state.ended.clear();
         self.here.state.asked.clear();
+        self.here.is_alone = true;
         self.here.sides.clear();
         self.others.joined.clear();
         self.others.joined_withheld.clear();

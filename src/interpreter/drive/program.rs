@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Collected, Diagnostic};
 use crate::interpreter::block::{
     AfterError, BlockContext, OwnEnd, ShownBlockLines, ended_by, is_harmless, one,
 };
-use crate::interpreter::control::{ChannelAxes, ModalCycles, OptionalSection};
+use crate::interpreter::control::{ChannelAxes, ControlState, ModalCycles, OptionalSection};
 use crate::interpreter::drive::host::Interpreter;
 use crate::interpreter::drive::joining::MetWays;
 use crate::interpreter::events::{Ended, EndedBy, Event, Observer, ProgramEnd};
@@ -22,9 +22,11 @@ use crate::interpreter::programs::index::{EntryIndex, Index};
 use crate::interpreter::programs::store::{Caller, ProgramStore, SourceUnit};
 use crate::interpreter::stack::{ControlStep, Request};
 use crate::interpreter::values::location::MissingProgram;
+use crate::interpreter::ways::others::OtherPaths;
 use crate::interpreter::ways::path::{Last, RunTrack};
 use crate::interpreter::ways::set::WaySet;
 use crate::lists::ChannelSwitch;
+use crate::machine::Machine;
 use crate::syntax::ast::{Block, CallForm, CallScope};
 use crate::syntax::{Fault, LineFault, LostRemarks, RawBlock, Remark, allow};
 use crate::text::{Place, SourceFile, Span};
@@ -109,52 +111,8 @@ impl Interpreter {
 
     /// Prepares the state for a program start.
     pub(crate) fn start(&mut self) {
-        self.here.state.control.modal = self
-            .here
-            .state
-            .control
-            .modal
-            .next_program(&self.here.machine.channel);
-        self.here
-            .state
-            .control
-            .memory
-            .start_program(self.here.machine.parameters);
-        self.here.state.control.history.begin_program();
-        self.here.state.control.frames.clear();
-        self.here.state.seq = 0;
-        self.here.state.control.cycles = ModalCycles::default();
-        self.here.state.watching = false;
-        self.here.state.control.refused.clear();
-        self.here.state.once.clear();
-        self.here.state.control.ending = None;
-        self.here.state.last = None;
-        self.here.state.parked = None;
-        self.here.state.control.named.clear();
-        self.here.state.control.optional = OptionalSection::Outside;
-        let channel = &self.here.machine.channel;
-        let keeps_axes = [ChannelSwitch::KeepAxes, ChannelSwitch::KeepAxesAfterReset];
-        if !keeps_axes.into_iter().any(|it| channel.has(it)) {
-            self.here.state.control.channel_axes = ChannelAxes::default();
-        }
-        self.here.define_listed_couplings();
-        self.here.state.control.described = None;
-        self.here.state.track = RunTrack::default();
-        self.here.begin_search();
-        self.here.state.work.begin_ways();
-        self.others.widened = 0;
-        self.others.waiting.clear();
-        self.others.loop_heads.clear();
-        self.others.call_effects.clear();
-        self.here.state.ended.clear();
-        self.here.state.asked.clear();
-        self.here.is_alone = true;
-        self.here.sides.clear();
-        self.others.joined.clear();
-        self.others.joined_withheld.clear();
-        self.here.state.mentioned = MentionedUnknowns::default();
-        self.here.programs.clear();
-        self.here.scratch.changes.clear();
+        self.here.start();
+        self.others = OtherPaths::default();
         self.lost = Collected::default();
     }
 
@@ -175,6 +133,16 @@ impl Interpreter {
 }
 
 impl Executor {
+    fn start(&mut self) {
+        self.state.start(&self.machine);
+        self.define_listed_couplings();
+        self.begin_search();
+        self.is_alone = true;
+        self.sides.clear();
+        self.programs.clear();
+        self.scratch.changes.clear();
+    }
+
     /// Whether faults of the main program keep it from running.
     pub(crate) fn is_refused(&self) -> bool {
         !self.programs.refused().is_empty() && self.options.stop == StopPolicy::FirstError
@@ -573,5 +541,40 @@ pub(crate) fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut
     }
     if lost.more > 0 && until == u32::MAX {
         *said.unsaid.entry(Code::Fc490).or_default() += lost.more;
+    }
+}
+
+impl RunState {
+    fn start(&mut self, machine: &Machine) {
+        self.control.start(machine);
+        self.track = RunTrack::default();
+        self.ended.clear();
+        self.asked.clear();
+        self.seq = 0;
+        self.work.begin_ways();
+        self.once.clear();
+        self.watching = false;
+        self.last = None;
+        self.parked = None;
+        self.mentioned = MentionedUnknowns::default();
+    }
+}
+
+impl ControlState {
+    fn start(&mut self, machine: &Machine) {
+        self.modal = self.modal.next_program(&machine.channel);
+        self.memory.start_program(machine.parameters);
+        self.history.begin_program();
+        self.frames.clear();
+        self.cycles = ModalCycles::default();
+        self.refused.clear();
+        self.ending = None;
+        self.named.clear();
+        self.optional = OptionalSection::Outside;
+        self.described = None;
+        let keeps_axes = [ChannelSwitch::KeepAxes, ChannelSwitch::KeepAxesAfterReset];
+        if !keeps_axes.into_iter().any(|it| machine.channel.has(it)) {
+            self.channel_axes = ChannelAxes::default();
+        }
     }
 }

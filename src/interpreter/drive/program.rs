@@ -58,7 +58,7 @@ impl Interpreter {
         self.here.programs.clear();
         self.here.awaited = None;
         self.here.programs.hold(index);
-        if self.announce(name.as_deref(), observer).is_break() {
+        if self.here.announce(name.as_deref(), observer).is_break() {
             self.here.state.parked = Some(ControlStep::Begin);
             return RunOutcome::Paused;
         }
@@ -115,24 +115,24 @@ impl Interpreter {
         self.others = OtherPaths::default();
         self.lost = Collected::default();
     }
+}
 
+impl Executor {
     pub(crate) fn announce(
         &mut self,
         name: Option<&str>,
         observer: &mut dyn Observer,
     ) -> ControlFlow<()> {
-        self.here.show_ways();
+        self.show_ways();
         observer.event(Event::Started {
             name,
-            possible: &self.here.shown.possible,
-            compensation: &self.here.state.control.compensation,
-            occurred: &self.here.state.occurred,
-            version: self.here.version,
+            possible: &self.shown.possible,
+            compensation: &self.state.control.compensation,
+            occurred: &self.state.occurred,
+            version: self.version,
         })
     }
-}
 
-impl Executor {
     fn start(&mut self) {
         self.state.start(&self.machine);
         self.define_listed_couplings();

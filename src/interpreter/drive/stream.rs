@@ -111,7 +111,11 @@ impl Interpreter {
                     .extend(faults.map(|fault| raw.opening_said(&file, fault)));
                 if matches!(stage, ProgramStage::Before) {
                     stage = ProgramStage::Announced;
-                    if self.announce(Some(name.of(raw.text)), observer).is_break() {
+                    if self
+                        .here
+                        .announce(Some(name.of(raw.text)), observer)
+                        .is_break()
+                    {
                         return RunOutcome::Paused;
                     }
                     continue;
@@ -200,7 +204,7 @@ impl Interpreter {
         what: &str,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        match self.announce(None, observer) {
+        match self.here.announce(None, observer) {
             ControlFlow::Break(()) => RunOutcome::Paused,
             ControlFlow::Continue(()) => {
                 let said = one(not_a_program(file, what));
@@ -218,7 +222,7 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> Option<RunOutcome> {
         match stage {
-            ProgramStage::Before if self.announce(None, observer).is_break() => {
+            ProgramStage::Before if self.here.announce(None, observer).is_break() => {
                 Some(RunOutcome::Paused)
             }
             ProgramStage::Before | ProgramStage::Announced => {

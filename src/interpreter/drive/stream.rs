@@ -111,11 +111,8 @@ impl Interpreter {
                     .extend(faults.map(|fault| raw.opening_said(&file, fault)));
                 if matches!(stage, ProgramStage::Before) {
                     stage = ProgramStage::Announced;
-                    if self
-                        .here
-                        .announce(Some(name.of(raw.text)), observer)
-                        .is_break()
-                    {
+                    let name = Some(name.of(raw.text));
+                    if self.here.announce(name, observer).is_break() {
                         return RunOutcome::Paused;
                     }
                     continue;

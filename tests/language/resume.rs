@@ -335,23 +335,26 @@ fn a_snapshot_that_names_what_is_not_there_is_refused() {
 fn sides_of_conditions_that_are_not_there_are_refused() {
     let saved = stopped_on_sides();
     assert!(resume(saved.clone()).is_ok());
-    let state = &document(&saved)["state"];
+    let whole = document(&saved);
     let texts = json!(vec!["V.E.A"; 70]);
     let answers = json!(vec![json!({"is": [], "is_not": []}); 70]);
     let reached = json!([[{"condition": 90, "sides": 1, "of": 2}]]);
     for (place, value) in [
-        ("/conditions/0/texts", texts),
-        ("/conditions/0/place/first_line", json!(u32::MAX)),
-        ("/track/readings/0/answers", answers),
-        ("/track/readings/0/condition", json!(90)),
-        ("/track/reach", reached.clone()),
-        ("/loop_heads/0/1/state/track/reach", reached.clone()),
-        ("/loop_heads/0/1/state/control/compensation/axes", json!([])),
-        ("/track/searching/compensation/axes", json!([])),
-        ("/waiting/0/track/reach", reached),
+        ("/state/conditions/0/texts", texts),
+        ("/state/conditions/0/place/first_line", json!(u32::MAX)),
+        ("/state/track/readings/0/answers", answers),
+        ("/state/track/readings/0/condition", json!(90)),
+        ("/state/track/reach", reached.clone()),
+        ("/others/loop_heads/0/1/state/track/reach", reached.clone()),
+        (
+            "/others/loop_heads/0/1/state/control/compensation/axes",
+            json!([]),
+        ),
+        ("/state/track/searching/compensation/axes", json!([])),
+        ("/others/waiting/0/track/reach", reached),
     ] {
-        assert_ne!(state.pointer(place), Some(&value), "{place}");
-        let refused = forged(&saved, &format!("/state{place}"), value);
+        assert_ne!(whole.pointer(place), Some(&value), "{place}");
+        let refused = forged(&saved, place, value);
         assert!(
             matches!(refused, Err(ResumeError::Damaged(_))),
             "{place}: {:?}",

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use frictcomp::session::{Motions, Options, SessionOptions};
 use frictcomp_host::{
-    ContourSetup, FileRegistry, LoadedMachine, MachineOptions, Naming, drive_contour, find_plant,
-    read_value_list,
+    ContourSetup, Disk, FileRegistry, LoadedMachine, MachineOptions, Naming, drive_contour,
+    find_plant, read_value_list,
 };
 use frictcomp_physics::contour::{ContourLimits, ContourOptions};
 use frictcomp_physics::motion::PlannerOptions;
@@ -157,7 +157,7 @@ impl ContourJob {
     fn setup(&self, loaded: &LoadedMachine) -> Result<ContourSetup, Failure> {
         let registry = FileRegistry::default();
         let lists = self.value_lists.iter().map(|(axis, path)| {
-            let list = read_value_list(path, &registry)?.list;
+            let list = read_value_list(path, &registry, &Disk::default())?.list;
             Ok((axis.clone(), frictcomp::text::shown_path(path), list))
         });
         let usual = PlannerOptions::default();

@@ -10,6 +10,7 @@ mod border;
 mod circle;
 mod contour;
 mod current;
+mod drawn;
 mod dropped;
 mod engine;
 mod lines;

@@ -74,6 +74,7 @@ pub use messages::concise_line;
 pub use messages::{Listing, ListingFormat, ProgramResult, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;
+pub use report_text::ReportText;
 pub use strings::counted;
 pub use table::Table;
 pub use text::{MessageExtent, Runs, Text, TextOptions, headline};

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::super::assumptions::{not_modelled, not_modelled_line};
 use super::super::diagnostics::Detail;
+use super::super::report_text::ReportText;
 use super::super::stiction::guideline;
 use super::super::table::Table;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
@@ -17,7 +18,12 @@ use frictcomp_physics::stiction::StictionParameters;
 
 /// The report for people: the verdict, then the figures.
 pub fn render_text(report: &CircleReport, detail: Detail) -> String {
-    let mut out = format!("{}\n", report.headline());
+    report_text(report, detail).to_string()
+}
+
+/// The verdict, then the figures and what the shapes suggest.
+pub fn report_text(report: &CircleReport, detail: Detail) -> ReportText {
+    let mut out = ReportText::new(report.headline());
     let shown = match &report.subject {
         Subject::Recorded(recording) => recorded_conditions(recording),
         Subject::Simulated {
@@ -43,7 +49,8 @@ pub fn render_text(report: &CircleReport, detail: Detail) -> String {
     for row in shape_rows(&columns) {
         table.cells(row.cells(decimals));
     }
-    let _ = write!(out, "\n{table}");
+    out.push_str("\n");
+    out.table(table);
     for side in &report.sides {
         let lines = advice_lines(report, side);
         if !lines.is_empty() {
@@ -161,7 +168,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
     let degrees = ReadableNumber((shape?.window_deg * 10.0).round() / 10.0);
     let time = match report.driven().1 {
         Some(_) => "the larger of 8\u{b0} and 0.3 s",
-        None => "of an unknown feed; give `--feed` or a column `t`",
+        None => "of an unknown feed, which the feed or a column `t` gives",
     };
     Some(format!(
         "glitch: from 8\u{b0} before to {degrees}\u{b0} after a crossing, {time}; less the ellipse \
@@ -304,7 +311,7 @@ fn unit_force(test: &CircularTest) -> String {
 fn recorded_conditions(recording: &Recording) -> Vec<String> {
     let commanded = match recording.commanded.radius_mm {
         Some(radius) => format!("commanded diameter {} mm", 2.0 * radius),
-        None => "commanded diameter unknown (`--radius` for F and D)".to_owned(),
+        None => "commanded diameter unknown, which F and D need".to_owned(),
     };
     let mut lines = vec![format!("circular test, recorded: {commanded}")];
     for circle in &recording.circles {

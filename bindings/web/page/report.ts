@@ -1,0 +1,57 @@
+// A report of the engine: its verdict, its picture, then sentences and tables.
+
+import { h } from "./dom";
+import { withCode } from "./markdown";
+import { picture } from "./pictures";
+import { sentence, type Weight } from "./verdict";
+
+interface Table {
+  caption: string | null;
+  headings: string[];
+  alignments: ("left" | "right")[];
+  rows: string[][];
+}
+
+/** A report as `crates/report/src/report_text.rs` writes it. */
+export interface Report {
+  headline: { standing: "good" | "bad" | "open" | "plain"; text: string };
+  blocks: ({ line: string } | { table: Table })[];
+}
+
+export interface Drawn {
+  svg: string | null;
+  report: Report;
+}
+
+const WEIGHTS: Record<Report["headline"]["standing"], Weight> =
+  { good: "good", bad: "error", open: "warning", plain: "info" };
+
+/** The verdict of a report, in the colour of its standing. */
+export function lead({ headline }: Report): HTMLElement {
+  return h("p", { class: `lead notice ${WEIGHTS[headline.standing]}`, role: "status" },
+    ...withCode(sentence(headline.text)));
+}
+
+/** What follows the verdict of a report. */
+export function figures({ blocks }: Report): HTMLElement {
+  return h("div", { class: "figures" }, ...blocks.map((block) =>
+    "line" in block ? h("p", {}, ...withCode(block.line.trim())) : table(block.table)));
+}
+
+function table({ caption, headings, alignments, rows }: Table): HTMLElement {
+  const cells = (tag: "td" | "th", row: readonly string[]): HTMLElement[] => row.map((cell, at) =>
+    h(at === 0 ? "th" : tag, {
+      class: alignments[at] === "right" ? "num" : null,
+      scope: tag === "th" ? "col" : at === 0 ? "row" : null,
+    }, ...withCode(cell)));
+  return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": caption ?? headings.join(", ") },
+    h("table", {},
+      caption !== null && h("caption", {}, ...withCode(caption)),
+      headings.some((heading) => heading !== "") && h("thead", {}, h("tr", {}, ...cells("th", headings))),
+      h("tbody", {}, ...rows.filter((row) => row.length > 0).map((row) => h("tr", {}, ...cells("td", row))))));
+}
+
+/** Shows a picture between the verdict and the rest of its report. */
+export function showDrawn(root: HTMLElement, { svg, report }: Drawn, told: string, ...between: HTMLElement[]): void {
+  picture(root, svg, told, [lead(report)], [...between, figures(report)]);
+}

@@ -15,6 +15,7 @@ import { withCode } from "./markdown";
 import { messages } from "./messages";
 import { besides, download, picture } from "./pictures";
 import { recorded, recording, verify } from "./recording";
+import { refused } from "./report";
 import { Cancelled, Session } from "./session";
 import {
   circle, circleQuestion, contour, contourQuestion, FieldError, forgetContour, noted, positions, tune,
@@ -22,7 +23,7 @@ import {
 import { MEANINGS } from "./states";
 import { type Tab, Tabs } from "./tabs";
 import { Timeline } from "./timeline";
-import { type Given, isMissing, missing, sentence, verdict } from "./verdict";
+import { type Given, isMissing, missing, verdict } from "./verdict";
 
 /** Work that takes longer is shown with its progress, in ms. */
 const PATIENCE = 250;
@@ -109,13 +110,10 @@ function complain(error: unknown): void {
     return;
   }
   if (error instanceof Refused) {
-    const { message, help, said } = error.refusal;
-    fill(box, h("p", {}, ...withCode(sentence(message))), help !== null && h("p", {}, ...withCode(sentence(help))),
-      ...said.map((one) => h("p", {}, ...withCode(`${one.file}:${one.line}: ${one.message}`))));
-  } else if (error instanceof Cancelled) {
-    fill(box, h("p", {}, "Cancelled."));
+    fill(box, refused(error.refusal));
   } else {
-    fill(box, h("p", {}, error instanceof Error ? error.message : String(error)));
+    const message = error instanceof Cancelled ? "Cancelled." : error instanceof Error ? error.message : String(error);
+    fill(box, refused({ message, help: null, said: [] }));
   }
   box.hidden = false;
 }

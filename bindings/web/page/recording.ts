@@ -1,8 +1,9 @@
 // A dropped recording: its channels, its circle, and a value list against it.
 
 import { fill, h, part } from "./dom";
+import { Refused } from "./engine";
 import { withCode } from "./markdown";
-import { type Drawn, figures, lead, type Report, showDrawn } from "./report";
+import { type Drawn, figures, lead, refused, type Report, showDrawn } from "./report";
 import type { Session } from "./session";
 import { optional } from "./simulations";
 import { sentence } from "./verdict";
@@ -58,6 +59,13 @@ export async function recorded(session: Session, path: string): Promise<Recorded
 /** Compares a value list with a recording. */
 export async function verify(session: Session, path: string): Promise<void> {
   const [axis, velocity, torque, list] = ["recorded-axis", "velocity", "torque", "value-list"].map(optional);
-  const report = await session.json<Report>({ ask: "verify", path, list, axis, velocity, torque });
-  fill(part("verified"), lead(report), figures(report));
+  try {
+    const report = await session.json<Report>({ ask: "verify", path, list, axis, velocity, torque });
+    fill(part("verified"), lead(report), figures(report));
+  } catch (error) {
+    if (!(error instanceof Refused)) {
+      throw error;
+    }
+    fill(part("verified"), refused(error.refusal));
+  }
 }

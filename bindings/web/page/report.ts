@@ -1,6 +1,7 @@
 // A report of the engine: its verdict, its picture, then sentences and tables.
 
 import { h } from "./dom";
+import type { Refusal } from "./engine";
 import { withCode } from "./markdown";
 import { picture } from "./pictures";
 import { sentence, type Weight } from "./verdict";
@@ -30,6 +31,13 @@ const WEIGHTS: Record<Report["headline"]["standing"], Weight> =
 export function lead({ headline }: Report): HTMLElement {
   return h("p", { class: `lead notice ${WEIGHTS[headline.standing]}`, role: "status" },
     ...withCode(sentence(headline.text)));
+}
+
+/** Why there is no report. */
+export function refused({ message, help, said }: Refusal): HTMLElement {
+  return h("div", { class: "notice error", role: "alert" },
+    h("p", {}, ...withCode(sentence(message))), help !== null && h("p", {}, ...withCode(sentence(help))),
+    ...said.map((one) => h("p", {}, ...withCode(`${one.file}:${one.line}: ${one.message}`))));
 }
 
 /** What follows the verdict of a report. */

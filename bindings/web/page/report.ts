@@ -47,16 +47,16 @@ export function figures({ blocks }: Report): HTMLElement {
 }
 
 function table({ caption, headings, alignments, rows }: Table): HTMLElement {
-  const cells = (tag: "td" | "th", row: readonly string[]): HTMLElement[] => row.map((cell, at) =>
-    h(at === 0 ? "th" : tag, {
-      class: alignments[at] === "right" ? "num" : null,
-      scope: tag === "th" ? "col" : at === 0 ? "row" : null,
-    }, ...withCode(cell)));
+  const cells = (scope: "col" | "row", row: readonly string[]): HTMLElement[] => row.map((cell, at) => {
+    const isNumber = alignments[at] === "right";
+    const isHeading = scope === "col" || (at === 0 && !isNumber);
+    return h(isHeading ? "th" : "td", { class: isNumber && "num", scope: isHeading && scope }, ...withCode(cell));
+  });
   return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": caption ?? headings.join(", ") },
     h("table", {},
       caption !== null && h("caption", {}, ...withCode(caption)),
-      headings.some((heading) => heading !== "") && h("thead", {}, h("tr", {}, ...cells("th", headings))),
-      h("tbody", {}, ...rows.filter((row) => row.length > 0).map((row) => h("tr", {}, ...cells("td", row))))));
+      headings.some((heading) => heading !== "") && h("thead", {}, h("tr", {}, ...cells("col", headings))),
+      h("tbody", {}, ...rows.filter((row) => row.length > 0).map((row) => h("tr", {}, ...cells("row", row))))));
 }
 
 /** Shows a picture between the verdict and the rest of its report. */

@@ -345,10 +345,10 @@ const tests = {
     await example(page);
     await rows(page).first().waitFor();
     await showTab(page, "circle");
-    await page.getByLabel("feeds").fill("fast");
+    await page.locator("#feeds").fill("fast");
     await page.getByRole("button", { name: "Tune", exact: true }).click();
     await page.getByRole("alert").getByText(/Give from 1 to 8 feeds/).waitFor();
-    await page.getByLabel("feeds").fill("2000");
+    await page.locator("#feeds").fill("2000");
     await page.getByLabel("radius").fill("20");
     const before = Date.now();
     await page.getByRole("button", { name: "Tune", exact: true }).click();

@@ -115,7 +115,7 @@ pub fn report_text(report: &VerifyReport, detail: Detail) -> ReportText {
         out.table(table);
         let more = verified.reversals.len().saturating_sub(SHOWN);
         if more > 0 {
-            let _ = writeln!(out, "and {more} more, in the JSON");
+            let _ = writeln!(out, "and {more} more");
         }
     }
     for remark in &report.recording.remarks {

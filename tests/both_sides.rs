@@ -26,7 +26,7 @@ use frictcomp::interpreter::{
 };
 use frictcomp::machine::{Machine, Setting};
 use frictcomp::text::SourceFile;
-use frictcomp::{Code, SkipLevels};
+use frictcomp::{diagnostic::Code, syntax::SkipLevels};
 use frictcomp_testing::generator::{Choices, NcProgram, Profile, Style};
 use known::Tally;
 

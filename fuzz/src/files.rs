@@ -2,7 +2,7 @@
 
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::machine::{ListFiles, NoList};
-use frictcomp::session::{Finder, NoProgram};
+use frictcomp::interpreter::{Finder, NoProgram};
 use frictcomp::text::{LineSource, Place, SourceFile, TextLines};
 
 /// The name of the file that is run or read.

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use frictcomp::session::{Motions, Options, SessionOptions};
+use frictcomp::interpreter::{Motions, Options};
+use frictcomp::session::SessionOptions;
 use frictcomp_host::{
     ContourSetup, Disk, FileRegistry, LoadedMachine, MachineOptions, Naming, drive_contour,
     find_plant, read_value_list,

@@ -349,7 +349,7 @@ const tests = {
     await page.getByRole("button", { name: "Tune", exact: true }).click();
     await page.getByRole("alert").getByText(/Give from 1 to 8 feeds/).waitFor();
     await page.locator("#feeds").fill("2000");
-    await page.getByLabel("radius").fill("20");
+    await page.locator("#radius").fill("20");
     const before = Date.now();
     await page.getByRole("button", { name: "Tune", exact: true }).click();
     await page.locator("#progress").getByText(/tune: \[[#.]+\] \d+ %/).waitFor({ timeout: 60_000 });

@@ -4,7 +4,7 @@
 //! writer is kept and ends the dry run; a closed pipe is not an error for the caller.
 //!
 //! ```
-//! use frictcomp::{Machine, SourceFile};
+//! use frictcomp::{machine::Machine, text::SourceFile};
 //! use frictcomp_report::{Ndjson, View};
 //!
 //! let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");

@@ -15,16 +15,20 @@ enum ReportPart {
     Table(Table),
 }
 
-/// A line of a report, or a table under its caption.
+/// A table under its caption.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct CaptionedTable<'a> {
+    pub(crate) caption: Option<&'a str>,
+    #[serde(flatten)]
+    pub(crate) table: &'a Table,
+}
+
+/// A line of a report, or a table.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ReportBlock<'a> {
     Line(&'a str),
-    Table {
-        caption: Option<&'a str>,
-        #[serde(flatten)]
-        table: &'a Table,
-    },
+    Table(CaptionedTable<'a>),
 }
 
 /// A report: the verdict, then sentences and tables. A terminal shows it as it is displayed, a page renders its blocks.
@@ -71,7 +75,7 @@ fn blocks(parts: &[ReportPart]) -> Vec<ReportBlock<'_>> {
                     _ => None,
                 };
                 blocks.truncate(blocks.len() - usize::from(caption.is_some()));
-                blocks.push(ReportBlock::Table { caption, table });
+                blocks.push(ReportBlock::Table(CaptionedTable { caption, table }));
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
 use crate::language::{AxisWords, Group};
-use crate::machine::AxisType;
+use crate::lists::AxisType;
 use crate::text::Span;
 
 impl Interpreter {

@@ -16,7 +16,7 @@ use crate::language::{
     Simplification, Simplifications,
 };
 use crate::lists::ChannelSwitch;
-use crate::machine::{ChannelSettings, SlopeProfile};
+use crate::lists::{ChannelSettings, SlopeProfile};
 
 /// Whether a position is one of the machine, and if not, what separates it from one; what separates more
 /// comes later.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::contouring::Contouring;
 use crate::comp::AxisIndex;
 use crate::language::Simplifications;
-use crate::machine::SlopeProfile;
+use crate::lists::SlopeProfile;
 
 /// Whether blocks report their motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

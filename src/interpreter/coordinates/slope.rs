@@ -3,7 +3,7 @@
 //! PM/n is page n of the TF5200 programming manual, HSC/n one of the HSC package.
 
 use crate::language::SlopeForm;
-use crate::machine::SlopeProfile;
+use crate::lists::SlopeProfile;
 use crate::syntax::ast::{Argument, BracketArguments};
 
 /// A selection of the profile.

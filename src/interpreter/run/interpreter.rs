@@ -144,7 +144,7 @@ impl Interpreter {
         let occurred = machine
             .axes
             .iter()
-            .map(|axis| configured || axis.frict_comp_origin != crate::machine::Origin::Default)
+            .map(|axis| configured || axis.frict_comp_origin != crate::lists::Origin::Default)
             .collect();
         let modal = Modal::at_start(axes, &machine.channel);
         let state = State {

@@ -8,7 +8,8 @@ mod recording;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use frictcomp::session::{Motions, Options, SessionOptions};
+use frictcomp::interpreter::{Motions, Options};
+use frictcomp::session::SessionOptions;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
     Axes, Disk, FileRegistry, LoadedMachine, MachineOptions, Naming, SingleRun, read_value_list,

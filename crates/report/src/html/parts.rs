@@ -2,9 +2,8 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::report_text::{ReportBlock, ReportText};
+use crate::report_text::{CaptionedTable, ReportBlock, ReportText};
 use crate::svg::StartUpRelation;
-use crate::table::Table;
 use frictcomp::comp::State;
 
 /// A table with a heading in each row.
@@ -130,13 +129,13 @@ pub(super) fn prose(text: &ReportText) -> Markup {
         @for block in text.blocks() {
             @match block {
                 ReportBlock::Line(line) => p { (with_code(line.trim())) },
-                ReportBlock::Table { caption, table } => (text_table(table, caption)),
+                ReportBlock::Table(captioned) => (text_table(captioned)),
             }
         }
     }
 }
 
-fn text_table(table: &Table, caption: Option<&str>) -> Markup {
+fn text_table(CaptionedTable { caption, table }: CaptionedTable<'_>) -> Markup {
     let columns: Vec<ColumnHeading<'_>> = table
         .headings()
         .map(|(name, is_number)| {

@@ -163,7 +163,8 @@ fn run(text: &str, given: &[usize], skip: Option<SkipLevels>) -> Shown {
         &mut |event: Event<'_>| {
             if let Event::Executed(executed) = &event {
                 let errors = executed.diagnostics.iter();
-                let errors = errors.filter(|it| it.code.severity() == frictcomp::Severity::Error);
+                let errors = errors
+                    .filter(|it| it.code.severity() == frictcomp::diagnostic::Severity::Error);
                 for error in errors {
                     let place = (executed.file.to_string(), executed.line, error.code);
                     if STOPS.contains(&error.code) {

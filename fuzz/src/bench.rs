@@ -1,7 +1,7 @@
 //! A session with small budgets, so that an input costs milliseconds.
 
-use frictcomp::machine::Machine;
 use frictcomp::interpreter::{Limits, Options, StopPolicy};
+use frictcomp::machine::Machine;
 use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::syntax::SkipLevels;
 use frictcomp::text::TextLines;

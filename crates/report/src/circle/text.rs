@@ -33,24 +33,8 @@ pub fn report_text(report: &CircleReport, detail: Detail) -> ReportText {
     for line in detail.full(conditions(report)).unwrap_or(shown) {
         let _ = writeln!(out, "{line}");
     }
-    let columns = columns(report);
-    let mut table = columns
-        .iter()
-        .map(PathColumn::name)
-        .fold(Table::default().left("µm"), Table::right);
-    let decimals = match report.subject {
-        Subject::Simulated { .. } => SIMULATED,
-        Subject::Recorded(_) => RECORDED,
-    };
-    for row in figure_rows(&columns) {
-        table.cells(row.cells(decimals));
-    }
-    table.cells(Vec::new());
-    for row in shape_rows(&columns) {
-        table.cells(row.cells(decimals));
-    }
     out.push_str("\n");
-    out.table(table);
+    out.table(table(report));
     for side in &report.sides {
         let lines = advice_lines(report, side);
         if !lines.is_empty() {
@@ -67,30 +51,32 @@ pub fn report_text(report: &CircleReport, detail: Detail) -> ReportText {
 const SIMULATED: usize = 1;
 const RECORDED: usize = 3;
 
-/// The figures of all paths, in µm.
-pub(crate) struct FigureTable {
-    /// `off ccw`, `on cw`.
-    pub(crate) columns: Vec<String>,
-    /// The figures of ISO 230-4, then the glitches.
-    pub(crate) rows: Vec<FigureRow>,
-}
-
 /// One figure of all paths.
-pub(crate) struct FigureRow {
-    pub(crate) name: String,
+struct FigureRow {
+    name: String,
     /// One per path; a figure of both directions is in the first column of its side.
-    pub(crate) values: Vec<Option<f64>>,
+    values: Vec<Option<f64>>,
 }
 
-/// The figures as a table.
-pub(crate) fn table(report: &CircleReport) -> FigureTable {
+/// The figures of ISO 230-4, then the glitches, in µm.
+pub(crate) fn table(report: &CircleReport) -> Table {
     let columns = columns(report);
-    let mut rows = figure_rows(&columns);
-    rows.extend(shape_rows(&columns));
-    FigureTable {
-        columns: columns.iter().map(PathColumn::name).collect(),
-        rows,
+    let mut table = columns
+        .iter()
+        .map(PathColumn::name)
+        .fold(Table::default().left("µm"), Table::right);
+    let decimals = match report.subject {
+        Subject::Simulated { .. } => SIMULATED,
+        Subject::Recorded(_) => RECORDED,
+    };
+    for row in figure_rows(&columns) {
+        table.cells(row.cells(decimals));
     }
+    table.cells(Vec::new());
+    for row in shape_rows(&columns) {
+        table.cells(row.cells(decimals));
+    }
+    table
 }
 
 /// One path of the table.

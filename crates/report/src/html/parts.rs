@@ -135,7 +135,8 @@ pub(super) fn prose(text: &ReportText) -> Markup {
     }
 }
 
-fn text_table(CaptionedTable { caption, table }: CaptionedTable<'_>) -> Markup {
+/// Renders a table of a report; empty rows only part others in a terminal.
+pub(super) fn text_table(CaptionedTable { caption, table }: CaptionedTable<'_>) -> Markup {
     let columns: Vec<ColumnHeading<'_>> = table
         .headings()
         .map(|(name, is_number)| {
@@ -151,7 +152,8 @@ fn text_table(CaptionedTable { caption, table }: CaptionedTable<'_>) -> Markup {
         caption: caption.map_or(Caption::Heard(first), Caption::Shown),
         columns: &columns,
     };
-    shown.render(table.rows().iter().map(|row| {
+    let rows = table.rows().iter().filter(|row| !row.is_empty());
+    shown.render(rows.map(|row| {
         let cells: Vec<Markup> = row[1..].iter().map(|cell| with_code(cell)).collect();
         HtmlRow::new(&row[0], cells)
     }))

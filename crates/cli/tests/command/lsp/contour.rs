@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::client::{Client, uri};
-use crate::folder::{Bench, one_line};
+use crate::folder::Bench;
 
 const REQUEST_FAILED: i32 = -32803;
 const CANCELLED: i32 = -32800;

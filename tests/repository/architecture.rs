@@ -107,7 +107,10 @@ const ROOMS: [(&str, &[&str]); 28] = [
             "timeline",
         ],
     ),
-    ("facade", &["text", "machine", "timeline", "session"]),
+    (
+        "facade",
+        &["text", "machine", "interpreter", "timeline", "session"],
+    ),
     ("motion", &[]),
     ("current", &["motion"]),
     ("currents", &["current"]),

@@ -14,7 +14,7 @@ use frictcomp_report::pictures::circle;
 use frictcomp_report::svg::Frame;
 use serde::{Deserialize, Serialize};
 
-use crate::drawn::Drawn;
+use crate::drawn_report::DrawnReport;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::json;
@@ -34,7 +34,7 @@ pub(crate) struct CircleSettings {
 #[derive(Serialize)]
 struct CircleAnswer {
     #[serde(flatten)]
-    drawn: Drawn,
+    drawn: DrawnReport,
     /// Where the value lists come from.
     lists: String,
 }
@@ -106,7 +106,7 @@ fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
 pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
     let (report, lists) = simulate(dropped, settings)?;
     Ok(json(&CircleAnswer {
-        drawn: Drawn {
+        drawn: DrawnReport {
             svg: Some(circle(&report).render(Frame::Alone)),
             report: report_text(&report, Detail::Brief),
         },

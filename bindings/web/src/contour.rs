@@ -16,7 +16,7 @@ use frictcomp_report::svg::Frame;
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
-use crate::drawn::Drawn;
+use crate::drawn_report::DrawnReport;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::{RunSettings, Texts, json};
@@ -42,7 +42,7 @@ pub(crate) struct ContourSettings {
 #[derive(Serialize)]
 struct ContourAnswer {
     #[serde(flatten)]
-    drawn: Drawn,
+    drawn: DrawnReport,
     /// What stopped the program or the trace, and what the trace simplifies.
     notes: Vec<String>,
 }
@@ -118,7 +118,7 @@ pub(crate) fn answer(
     let report = report_text(&mut contour, &subject, Detail::Brief);
     let svg = chart.map(|chart| chart.render(Frame::Alone));
     Ok(json(&ContourAnswer {
-        drawn: Drawn { svg, report },
+        drawn: DrawnReport { svg, report },
         notes: notes(&contour, has_moved),
     }))
 }

@@ -18,7 +18,7 @@ use frictcomp_report::trace::{self, TraceReport};
 use frictcomp_report::verify::{self, VerifyReport};
 use serde::{Deserialize, Serialize};
 
-use crate::drawn::Drawn;
+use crate::drawn_report::DrawnReport;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::json;
@@ -46,11 +46,11 @@ pub(crate) struct VerifySettings {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct RecordingAnswer<'a> {
-    channels: Drawn,
+    channels: DrawnReport,
     /// The names of the channels.
     names: Vec<&'a str>,
     /// Where two axes circle.
-    circle: Option<Drawn>,
+    circle: Option<DrawnReport>,
     /// Why positions of two axes are no circle.
     no_circle: Option<String>,
 }
@@ -70,7 +70,7 @@ pub(crate) fn answer(
         name: settings.path.clone(),
         recording: &recording,
     };
-    let channels = Drawn {
+    let channels = DrawnReport {
         svg: Some(pictures::channels(&report).render(Frame::Alone)),
         report: trace::report_text(&report),
     };
@@ -91,7 +91,7 @@ pub(crate) fn answer(
         // It has no two axes.
         Err(_) => (None, None),
     };
-    let circle = circle.map(|report| Drawn {
+    let circle = circle.map(|report| DrawnReport {
         svg: Some(pictures::circle(&report).render(Frame::Alone)),
         report: circle::report_text(&report, Detail::Brief),
     });

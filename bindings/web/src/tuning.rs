@@ -16,7 +16,7 @@ use frictcomp_report::value_lists::render_tuned;
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
-use crate::drawn::Drawn;
+use crate::drawn_report::DrawnReport;
 use crate::refusal::Refusal;
 use crate::run::json;
 use crate::watched::Page;
@@ -37,7 +37,7 @@ pub(crate) struct TuneSettings {
 #[derive(Serialize)]
 struct TuningAnswer {
     #[serde(flatten)]
-    drawn: Drawn,
+    drawn: DrawnReport,
     /// The value list of the drives.
     list: String,
 }
@@ -48,7 +48,7 @@ pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     // Both drives of an example are equal, and so are their lists.
     let [axis, _] = &report.tuned.axes;
     Ok(json(&TuningAnswer {
-        drawn: Drawn {
+        drawn: DrawnReport {
             svg: Some(tuning(std::slice::from_ref(&report)).render(Frame::Alone)),
             report: report_text(&report, Detail::Brief),
         },

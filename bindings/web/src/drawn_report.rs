@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// A picture with its report.
 #[derive(Debug, Serialize)]
-pub(crate) struct Drawn {
+pub(crate) struct DrawnReport {
     /// The picture; none where nothing was driven.
     pub(crate) svg: Option<String>,
     pub(crate) report: ReportText,

@@ -4,8 +4,9 @@
 
 use frictcomp::check;
 use frictcomp::diagnostic::{Fix, Fixed, Safety};
+use frictcomp::interpreter::NoFiles;
 use frictcomp::machine::Machine;
-use frictcomp::session::{NoFiles, SessionOptions};
+use frictcomp::session::SessionOptions;
 use frictcomp::text::SourceFile;
 
 const PROGRAM: &str = "\

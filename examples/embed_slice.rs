@@ -1,19 +1,14 @@
-//! A host with its own interpreter passes only axis brackets to frictcomp.
+//! A host with its own interpreter loads the lists of the control, passes only axis brackets to frictcomp, and asks for
+//! the state of an axis where it moves.
 //!
 //! `cargo run --example embed_slice`
 
-use frictcomp::comp::CompensationError;
-use frictcomp::machine::Machine;
+use frictcomp::comp::{CompensationError, Kind};
+use frictcomp::machine::{Configuration, ListFiles, NoList};
 use frictcomp::syntax::parse_comp;
+use frictcomp::text::SourceFile;
 
-const MACHINE: &str = r#"
-[[axis]]
-name = "X"
-frict_comp = true
-value = { mode = 3, table = [[0, 126], [3000, 112]] }
-[[axis]]
-name = "Z"
-"#;
+const STARTUP: &str = "programs/demo/lists/hochlauf.lis";
 
 const PROGRAM: &str = "\
 N10 X[COMP OFF FRICT]
@@ -22,6 +17,16 @@ N30 X[COMP ON FRICT]
 N40 Z[COMP ON FRICT]
 N50 M30
 ";
+
+/// The lists on the disk. Each is named by its path, in the folder of the list that names it.
+struct Disk;
+
+impl ListFiles for Disk {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let text = std::fs::read_to_string(path).map_err(|_| NoList::Missing)?;
+        Ok(SourceFile::new(path, text))
+    }
+}
 
 /// The host's own idea of a block: where the axis brackets are.
 fn brackets(block: &str) -> impl Iterator<Item = &str> {
@@ -33,7 +38,13 @@ fn brackets(block: &str) -> impl Iterator<Item = &str> {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let machine = Machine::from_toml(MACHINE)?;
+    let startup = SourceFile::new(STARTUP, std::fs::read_to_string(STARTUP)?);
+    let configuration = Configuration::from_startup(startup, &mut Disk);
+    for said in &configuration.diagnostics {
+        say(&format!("{}: {}", said.code, said.message));
+    }
+    let machine = configuration.machine;
+    let x = machine.find("X").ok_or("the lists have no axis X")?;
     let mut compensation = machine.compensation();
     let mut refused = Vec::new();
     for block in PROGRAM.lines() {
@@ -59,6 +70,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     refused.push(error);
                 }
             }
+        }
+        if block.contains("G01") {
+            let state = compensation.state(x, Kind::Frict);
+            say(&format!("{block}: X moves {}", state.as_str()));
         }
     }
     compensation.program_end(); // Friction compensation stays as it is.

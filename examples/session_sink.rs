@@ -4,8 +4,9 @@
 
 use std::ops::ControlFlow;
 
+use frictcomp::interpreter::NoFiles;
 use frictcomp::machine::Machine;
-use frictcomp::session::{NoFiles, Program, Session, SessionOptions};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 

@@ -3,8 +3,9 @@
 
 use std::ops::ControlFlow;
 
+use crate::interpreter::{Finder, NoFiles, StopPolicy};
 use crate::machine::Machine;
-use crate::session::{Finder, Findings, NoFiles, Program, Session, SessionOptions, StopPolicy};
+use crate::session::{Findings, Program, Session, SessionOptions};
 use crate::text::SourceFile;
 use crate::timeline::Sink;
 
@@ -34,7 +35,8 @@ pub fn run(program: SourceFile, machine: Machine, sink: &mut dyn Sink) -> Sessio
 ///
 /// ```
 /// use frictcomp::machine::Machine;
-/// use frictcomp::session::{NoFiles, SessionOptions};
+/// use frictcomp::interpreter::NoFiles;
+/// use frictcomp::session::SessionOptions;
 /// use frictcomp::text::SourceFile;
 ///
 /// let program = SourceFile::new("a.nc", "N10 Y[COMP ON FRICT]\nN20 M30\n");

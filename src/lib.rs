@@ -10,7 +10,8 @@
 //! changes or the control's own error:
 //!
 //! ```
-//! use frictcomp::{Machine, parse_comp};
+//! use frictcomp::machine::Machine;
+//! use frictcomp::syntax::parse_comp;
 //!
 //! let machine = Machine::enabled(["X"]);
 //! let mut compensation = machine.compensation();
@@ -31,8 +32,11 @@
 //! way: [`Advice`](diagnostic::Advice) in words, a [`Fix`](diagnostic::Fix) as a change to the text.
 //!
 //! ```
-//! use frictcomp::session::{NoFiles, SessionOptions};
-//! use frictcomp::{Machine, SourceFile, diagnostic::Fixed};
+//! use frictcomp::diagnostic::Fixed;
+//! use frictcomp::interpreter::NoFiles;
+//! use frictcomp::machine::Machine;
+//! use frictcomp::session::SessionOptions;
+//! use frictcomp::text::SourceFile;
 //!
 //! let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRIKT]\nN20 M30\n");
 //! let (machine, options) = (Machine::enabled(["X"]), SessionOptions::default());
@@ -46,14 +50,17 @@
 //!
 //! # Programs one after the other
 //!
-//! A [`Session`] keeps the state from program to program and passes the [records](timeline) of what happens to a
-//! [`Sink`](timeline::Sink), for example a closure:
+//! A [`Session`](session::Session) keeps the state from program to program and passes the [records](timeline) of what
+//! happens to a [`Sink`](timeline::Sink), for example a closure:
 //!
 //! ```
 //! use std::ops::ControlFlow;
 //!
-//! use frictcomp::session::{NoFiles, Program, SessionOptions};
-//! use frictcomp::{Machine, Record, Session, SourceFile};
+//! use frictcomp::interpreter::NoFiles;
+//! use frictcomp::machine::Machine;
+//! use frictcomp::session::{Program, Session, SessionOptions};
+//! use frictcomp::text::SourceFile;
+//! use frictcomp::timeline::Record;
 //!
 //! let mut session = Session::new(Machine::enabled(["X"]), SessionOptions::default());
 //! let mut changes = Vec::new();
@@ -73,7 +80,7 @@
 //! # More
 //!
 //! [`interpreter::Interpreter`] runs a program block by block, and can be stopped, saved and resumed.
-//! A [`Machine`] comes from the control's lists or from `frictcomp.toml`.
+//! A [`Machine`](machine::Machine) comes from the control's lists or from `frictcomp.toml`.
 //!
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are passed to it. Its users
 //! are separate packages: `frictcomp-physics` turns the records of a session into commanded traces and currents and
@@ -107,12 +114,5 @@ pub mod syntax;
 pub mod text;
 pub mod timeline;
 
-pub use comp::{CompCommand, Compensation, CompensationError};
-pub use diagnostic::{Code, Diagnostic, Severity};
 pub use facade::{check, run};
 pub use language::{ControlError, ControlErrorCheck};
-pub use machine::Machine;
-pub use session::Session;
-pub use syntax::{NoSkipLevels, SkipLevels, parse_comp};
-pub use text::SourceFile;
-pub use timeline::{Record, Row};

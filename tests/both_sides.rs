@@ -26,7 +26,7 @@ use frictcomp::interpreter::{
 };
 use frictcomp::machine::{Machine, Setting};
 use frictcomp::text::SourceFile;
-use frictcomp::{Code, SkipLevels};
+use frictcomp::{diagnostic::Code, syntax::SkipLevels};
 use frictcomp_testing::generator::{Choices, NcProgram, Profile, Style};
 use known::Tally;
 
@@ -163,7 +163,8 @@ fn run(text: &str, given: &[usize], skip: Option<SkipLevels>) -> Shown {
         &mut |event: Event<'_>| {
             if let Event::Executed(executed) = &event {
                 let errors = executed.diagnostics.iter();
-                let errors = errors.filter(|it| it.code.severity() == frictcomp::Severity::Error);
+                let errors = errors
+                    .filter(|it| it.code.severity() == frictcomp::diagnostic::Severity::Error);
                 for error in errors {
                     let place = (executed.file.to_string(), executed.line, error.code);
                     if STOPS.contains(&error.code) {

@@ -4,8 +4,9 @@
 use std::num::NonZeroUsize;
 
 use frictcomp::comp::{AxisIndex, Kind, State};
+use frictcomp::interpreter::{NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
-use frictcomp::session::{NoFiles, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::{diagnostic::Code, session::Findings};
 

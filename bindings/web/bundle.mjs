@@ -37,8 +37,8 @@ const page = await script("page.ts", {
   WORKER: JSON.stringify(worker),
   VERSION: JSON.stringify(version),
 });
-const style = [join(here, "../../crates/report/src/colours.css"), join(here, "page", "style.css")]
-  .map((file) => readFileSync(file, "utf8"))
+const style = [...["colours", "states", "bars"].map((name) => `../../crates/report/src/${name}.css`), "page/style.css"]
+  .map((file) => readFileSync(join(here, file), "utf8"))
   .join("");
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 const policy = [

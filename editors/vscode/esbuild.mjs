@@ -30,7 +30,7 @@ const colours = report("colours.css").replace(
   /@media screen and \(prefers-color-scheme: dark\) \{\s*:root/,
   `@media screen {\n  ${dark}`,
 );
-writeFileSync("dist/picture.css", colours + report("svg/style.css"));
+writeFileSync("dist/picture.css", colours + report("bars.css") + report("svg/style.css"));
 
 /** The folder of the npm package that a bundled file belongs to, if there is one. */
 function packageOf(file) {

@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::session::{Session, StopPolicy};
+use frictcomp::interpreter::StopPolicy;
+use frictcomp::session::Session;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_fuzz::{Bench, Files, Profile, machine, text_of};
 use frictcomp_report::{Listing, ListingFormat, Look, Paint, render};

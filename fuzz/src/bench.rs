@@ -1,7 +1,8 @@
 //! A session with small budgets, so that an input costs milliseconds.
 
+use frictcomp::interpreter::{Limits, Options, StopPolicy};
 use frictcomp::machine::Machine;
-use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::syntax::SkipLevels;
 use frictcomp::text::TextLines;
 use frictcomp::timeline::Sink;

@@ -1,8 +1,8 @@
 //! An input as a user's files, and the places in them.
 
 use frictcomp::diagnostic::Diagnostic;
+use frictcomp::interpreter::{Finder, NoProgram};
 use frictcomp::machine::{ListFiles, NoList};
-use frictcomp::session::{Finder, NoProgram};
 use frictcomp::text::{LineSource, Place, SourceFile, TextLines};
 
 /// The name of the file that is run or read.

@@ -33,5 +33,3 @@ pub use outline::Outline;
 pub(crate) use programs::canonical_word;
 pub use programs::{ConfiguredPrograms, Keeps};
 pub use setting::Setting;
-
-pub use crate::lists::{AxisType, ChannelSettings, FeedUnit, Origin, SlopeProfile};

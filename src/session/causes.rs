@@ -50,7 +50,8 @@ impl CauseKey {
 ///
 /// ```
 /// use frictcomp::machine::Machine;
-/// use frictcomp::session::{Causes, NoFiles, SessionOptions};
+/// use frictcomp::session::{Causes, SessionOptions};
+/// use frictcomp::interpreter::NoFiles;
 /// use frictcomp::text::SourceFile;
 ///
 /// let mut causes = Causes::default();

@@ -1,8 +1,9 @@
 //! Counts the feed moves that axes make without friction compensation (R13.12).
 
 use crate::comp::{AxisIndex, Kind, State};
+use crate::interpreter::PositionFrame;
 use crate::interpreter::{Certainty, Executed, PathForm};
-use crate::timeline::{FeedMoves, PositionFrame};
+use crate::timeline::FeedMoves;
 
 /// An axis whose friction compensation is not active.
 struct Watched {

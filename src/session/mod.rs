@@ -27,17 +27,13 @@ pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
 use crate::diagnostic::{Diagnostic, Levels, MAX_MESSAGES, Severity, Wording};
-pub use crate::interpreter::{
-    Finder, Limits, Motions, NoFiles, NoProgram, NoSearchedBlock, NoteKind, Notes, Options,
-    SearchedBlock, StopPolicy,
-};
-use crate::interpreter::{Interpreter, RunOutcome, Value};
+use crate::interpreter::{EndedBy, Finder, Interpreter, NoteKind, Options, RunOutcome, Value};
 pub use crate::lint::Maker;
 use crate::lint::{LeftAwayNotice, Linter, SessionStates};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::syntax::VariableName;
 use crate::text::{LineSource, Place, SourceFile};
-use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
+use crate::timeline::{AxisSummary, Record, Sink, StateView, Summary};
 use message_dedup::MessageDedup;
 use recorder::{NoteBook, Recorder};
 use saved::{fingerprint, storable};
@@ -133,7 +129,8 @@ impl Program<'_> {
 /// ```
 /// use std::ops::ControlFlow;
 /// use frictcomp::machine::Machine;
-/// use frictcomp::session::{NoFiles, Program, Session, SessionOptions};
+/// use frictcomp::interpreter::NoFiles;
+/// use frictcomp::session::{Program, Session, SessionOptions};
 /// use frictcomp::text::SourceFile;
 /// use frictcomp::timeline::{Record, Sink};
 ///

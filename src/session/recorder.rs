@@ -7,13 +7,14 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
+use crate::interpreter::EndedBy;
 use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
 use crate::lint::{LeftAwayNotice, Linter};
 use crate::machine::Machine;
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span, lines_of};
-use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Join, Record, Row, Sink, StateView};
+use crate::timeline::{ChangedBy, End, EndNote, Join, Record, Row, Sink, StateView};
 
 use super::message_dedup::{DedupVerdict, MessageDedup};
 use super::totals::SessionTotals;

@@ -11,7 +11,8 @@ use crate::interpreter::Unknown;
 use crate::interpreter::{ArrayShape, Carried, CarriedWays, Value};
 use crate::lint::Maker;
 use crate::lists::FrictionList;
-use crate::machine::{Axis, AxisSet, Machine, Origin};
+use crate::lists::Origin;
+use crate::machine::{Axis, AxisSet, Machine};
 
 /// The number of the format that is written.
 pub const STATE_SCHEMA: u32 = 4;

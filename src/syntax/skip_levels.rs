@@ -6,12 +6,12 @@ use std::str::FromStr;
 /// The skip levels whose switch is on: their blocks are not executed, those of all others are (R2.90).
 ///
 /// ```
-/// use frictcomp::SkipLevels;
+/// use frictcomp::syntax::SkipLevels;
 ///
 /// let levels: SkipLevels = "1,3-5".parse()?;
 /// assert!(levels.has(4) && !levels.has(2));
 /// assert_eq!("none".parse(), Ok(SkipLevels::NONE));
-/// # Ok::<(), frictcomp::NoSkipLevels>(())
+/// # Ok::<(), frictcomp::syntax::NoSkipLevels>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct SkipLevels(u16);

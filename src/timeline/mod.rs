@@ -13,7 +13,6 @@ mod possible;
 mod record;
 mod serial;
 
-pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
 pub use feed_moves::FeedMoves;
 pub use in_force::{ReadingInForce, ReadingsInForce};

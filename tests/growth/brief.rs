@@ -4,10 +4,9 @@ use std::ops::ControlFlow;
 
 use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::interpreter::EndedBy;
+use frictcomp::interpreter::{Limits, NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
-use frictcomp::session::{
-    Findings, Limits, NoFiles, Options, Program, Session, SessionOptions, StopPolicy,
-};
+use frictcomp::session::{Findings, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 
 /// The result of a check.

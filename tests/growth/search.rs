@@ -10,8 +10,9 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use fastrand::Rng;
+use frictcomp::interpreter::{Limits, Options, StopPolicy};
 use frictcomp::machine::{Machine, NoLists, check_list};
-use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 

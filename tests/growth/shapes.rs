@@ -10,11 +10,12 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use frictcomp::interpreter::{Limits, Options, StopPolicy};
 use frictcomp::machine::{Machine, NoLists, check_list};
-use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
-use frictcomp_host::read_axis;
+use frictcomp_host::{Disk, read_axis};
 use frictcomp_recordings::identify::{IdentifyOptions, identify};
 use frictcomp_recordings::trace::ChannelSelection;
 
@@ -365,7 +366,7 @@ fn a_recording_takes_at_most_three_times_the_columns_that_are_used() {
         let selection = ChannelSelection::default();
         let mut track = None;
         let read = allocation_counter::measure(|| {
-            let recording = read_axis(&path, &selection, None);
+            let recording = read_axis(&path, &selection, None, &Disk::default());
             track = Some(recording.expect("a recording").track);
         });
         let track = track.expect("a track");

@@ -6,12 +6,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use frictcomp::diagnostic::{Code, Diagnostic, Fix, Fixed, Safety, Severity};
+use frictcomp::interpreter::{NoFiles, Options, StopPolicy};
 use frictcomp::machine::{
     Configuration, ListFiles, Machine, NoList, check_configuration, check_list,
 };
-use frictcomp::session::{
-    NoFiles, Options, Program, Session, SessionOptions, StopPolicy, allow_here,
-};
+use frictcomp::session::{Program, Session, SessionOptions, allow_here};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 

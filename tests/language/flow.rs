@@ -1,6 +1,6 @@
 //! 2.5 and 2.8: flow and budgets.
 
-use frictcomp::session::Limits;
+use frictcomp::interpreter::Limits;
 use insta::assert_snapshot;
 
 use crate::support::Bench;

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use frictcomp::diagnostic::Severity;
+use frictcomp::interpreter::NoFiles;
 use frictcomp::machine::Machine;
-use frictcomp::session::{Causes, NoFiles, SavedState, Session, SessionOptions};
+use frictcomp::session::{Causes, SavedState, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::Record;
 

@@ -107,7 +107,10 @@ const ROOMS: [(&str, &[&str]); 28] = [
             "timeline",
         ],
     ),
-    ("facade", &["text", "machine", "timeline", "session"]),
+    (
+        "facade",
+        &["text", "machine", "interpreter", "timeline", "session"],
+    ),
     ("motion", &[]),
     ("current", &["motion"]),
     ("currents", &["current"]),
@@ -534,6 +537,33 @@ fn a_type_name_means_one_thing() {
         if places.len() > 1 && (is_public || is_twice) {
             let files: Vec<String> = places.into_iter().map(|(_, file, _)| file).collect();
             found.push(format!("`{name}`: {}", files.join(", ")));
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn an_item_of_the_library_has_one_public_path() {
+    let sources = sources_of(".", None);
+    let lib = sources.iter().find(|file| file.path == "lib.rs");
+    let modules =
+        code(lib.expect("the library")).filter_map(|(_, line)| line.strip_prefix("pub mod "));
+    let modules: BTreeSet<&str> = modules.map(|name| name.trim_end_matches(';')).collect();
+    assert!(modules.contains("machine"));
+    let mut found = Vec::new();
+    for file in &sources {
+        for (number, line) in code(file) {
+            let shown = line
+                .trim_start()
+                .strip_prefix("pub use ")
+                .unwrap_or_default();
+            let path = shown.strip_prefix("crate::");
+            let path = path
+                .or((file.path == "lib.rs").then_some(shown))
+                .unwrap_or_default();
+            if modules.contains(path.split("::").next().unwrap_or_default()) {
+                found.push(format!("{}:{number}: {line}", file.shown()));
+            }
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));

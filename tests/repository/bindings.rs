@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use frictcomp::{Machine, SourceFile};
+use frictcomp::{machine::Machine, text::SourceFile};
 use frictcomp_report::{Csv, Positions, View};
 
 use crate::{read, root};

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+#[cfg(unix)]
+use std::process::Command;
 
 use crate::{read, root};
 
@@ -243,6 +245,32 @@ fn the_owner_of_the_repository_is_set_in_one_place() {
     let workflow = read(".github/workflows/release.yml");
     assert!(workflow.contains("test \"$(dist/owner)\" = \"$GITHUB_REPOSITORY_OWNER\""));
     assert!(read("dist/try").contains("names no owner of the repository"));
+}
+
+#[cfg(unix)]
+#[test]
+fn bash_reads_every_script() {
+    // R13.20
+    let mut read = 0;
+    for folder in [
+        "dist",
+        "scripts",
+        "bindings/c",
+        "bindings/python",
+        "bindings/web",
+    ] {
+        for entry in fs::read_dir(root().join(folder)).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let text = fs::read_to_string(&path).unwrap_or_default();
+            if text.starts_with("#!/usr/bin/env bash") {
+                let output = Command::new("bash").arg("-n").arg(&path).output();
+                let said = String::from_utf8_lossy(&output.expect("bash").stderr).into_owned();
+                assert!(said.is_empty(), "{said}");
+                read += 1;
+            }
+        }
+    }
+    assert!(read > 10, "{read}");
 }
 
 #[test]

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use frictcomp::comp::{CncBuild, Kind, KindSet};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::drive_interface::{Evidence, Presence, TorqueScale, check_drive};
+use frictcomp::lists::{AxisType, Origin};
 use frictcomp::lists::{Entries, Entry, ListKind};
 use frictcomp::machine::{
-    Axis, AxisSet, AxisType, Configuration, ListsReport, Origin, Parameterisation,
-    check_configuration, check_list,
+    Axis, AxisSet, Configuration, ListsReport, Parameterisation, check_configuration, check_list,
 };
 use frictcomp::text::SourceFile;
 use frictcomp_report::lists::render_parameters;

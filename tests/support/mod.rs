@@ -9,8 +9,9 @@ use std::path::Path;
 
 use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::interpreter::{Branches, Event, Interpreter, Options, PositionFrame, Value};
+use frictcomp::interpreter::{Limits, StopPolicy};
 use frictcomp::machine::{Configuration, ListFiles, Machine, NoList, Setting};
-use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::{SourceFile, TextLines};
 use frictcomp::timeline::{Record, Sink, StateView};
 

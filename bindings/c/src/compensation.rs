@@ -3,8 +3,8 @@
 use std::ffi::CString;
 use std::path::Path;
 
-use frictcomp::Session;
 use frictcomp::comp::{AxisIndex, Change, Compensation, Coupling, Kind, State};
+use frictcomp::session::Session;
 use frictcomp::session::SessionOptions;
 use frictcomp::syntax::parse_comp;
 use frictcomp_host::StateFile;

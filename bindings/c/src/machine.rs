@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::machine::Machine;
-use frictcomp::parse_comp;
+use frictcomp::syntax::parse_comp;
 use frictcomp_host::{ConfigurationChoice, FileRegistry, LoadedMachine, MachineOptions, Machines};
 
 use crate::failure::{Failure, c_text, line};

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use frictcomp::Severity;
-use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
+use frictcomp::diagnostic::Severity;
+use frictcomp::interpreter::{Options, StopPolicy};
+use frictcomp::session::{Causes, Findings, SessionOptions};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
     Axes, Disk, ExecutedProgram, FileRegistry, FolderOptions, FoundPrograms, HostError,

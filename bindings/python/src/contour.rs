@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use frictcomp::session::{Motions, Options, SessionOptions};
+use frictcomp::interpreter::{Motions, Options};
+use frictcomp::session::SessionOptions;
 use frictcomp_host::{
-    ContourSetup, FileRegistry, LoadedMachine, MachineOptions, Naming, drive_contour, find_plant,
-    read_value_list,
+    ContourSetup, Disk, FileRegistry, LoadedMachine, MachineOptions, Naming, drive_contour,
+    find_plant, read_value_list,
 };
 use frictcomp_physics::contour::{ContourLimits, ContourOptions};
 use frictcomp_physics::motion::PlannerOptions;
@@ -157,7 +158,7 @@ impl ContourJob {
     fn setup(&self, loaded: &LoadedMachine) -> Result<ContourSetup, Failure> {
         let registry = FileRegistry::default();
         let lists = self.value_lists.iter().map(|(axis, path)| {
-            let list = read_value_list(path, &registry)?.list;
+            let list = read_value_list(path, &registry, &Disk::default())?.list;
             Ok((axis.clone(), frictcomp::text::shown_path(path), list))
         });
         let usual = PlannerOptions::default();

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use frictcomp::Diagnostic;
+use frictcomp::diagnostic::Diagnostic;
 use frictcomp::session::StateError;
 use frictcomp::text::shown_path;
 use frictcomp_host::{HostError, NoDrivenContour};

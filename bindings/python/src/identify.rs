@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
-use frictcomp_host::read_axis;
+use frictcomp_host::{Disk, read_axis};
 use frictcomp_physics::current::Switched;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_recordings::identify::Measured;
@@ -170,7 +170,7 @@ impl AxisRecordings {
             return Err(Failure::new(format!("{count} traces were given"))
                 .with_help("give one trace of constant speeds, or `circles=True` for circles"));
         };
-        let recording = read_axis(trace, &self.selection, self.cycle_s)?;
+        let recording = read_axis(trace, &self.selection, self.cycle_s, &Disk::default())?;
         let mut options = *options;
         options.measured = self.said.about(recording.measured);
         let report = IdentifyReport {
@@ -192,10 +192,14 @@ impl AxisRecordings {
 
     /// Circles at several feeds.
     fn on_circles(self) -> Result<PyIdentified, Failure> {
-        let recordings = self
-            .traces
-            .iter()
-            .map(|trace| Ok::<_, Failure>(read_axis(trace, &self.selection, self.cycle_s)?));
+        let recordings = self.traces.iter().map(|trace| {
+            Ok::<_, Failure>(read_axis(
+                trace,
+                &self.selection,
+                self.cycle_s,
+                &Disk::default(),
+            )?)
+        });
         let recordings: Vec<_> = recordings.collect::<Result<_, _>>()?;
         let tracks: Vec<_> = recordings.iter().map(|it| it.track.clone()).collect();
         let measured = recordings.iter().map(|it| self.said.about(it.measured));

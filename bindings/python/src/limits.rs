@@ -1,7 +1,7 @@
 //! What limits a dry run.
 
-use frictcomp::SkipLevels;
-use frictcomp::session::{Limits, Options};
+use frictcomp::interpreter::{Limits, Options};
+use frictcomp::syntax::SkipLevels;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -9,7 +9,7 @@ use arrow_array::builder::{ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, StringArray, UInt32Array, UInt64Array};
 use frictcomp::diagnostic::{Advice, Fix, ReachedFrom};
 use frictcomp::text::Place;
-use frictcomp::{Diagnostic, Severity};
+use frictcomp::{diagnostic::Diagnostic, diagnostic::Severity};
 use frictcomp_host::LoadedMachine;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;

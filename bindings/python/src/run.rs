@@ -1,7 +1,8 @@
 //! `frictcomp.run`: programs one after the other in one session.
 
-use frictcomp::session::{Options, SessionOptions, StopPolicy};
-use frictcomp::{Diagnostic, Session};
+use frictcomp::interpreter::{Options, StopPolicy};
+use frictcomp::session::SessionOptions;
+use frictcomp::{diagnostic::Diagnostic, session::Session};
 use frictcomp_host::{
     self, MachineOptions, Naming, RunContext, expect_axes, open_session, run_programs,
     switched_axes,

@@ -8,8 +8,8 @@ use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ListHead, Points};
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    CircleChannels, FileRegistry, Watch, compare, find_plant, memory_for_simulation, read_circles,
-    read_value_list, tune as search,
+    CircleChannels, Disk, FileRegistry, Watch, compare, find_plant, memory_for_simulation,
+    read_circles, read_value_list, tune as search,
 };
 use frictcomp_physics::circle::TuningAim;
 use frictcomp_physics::circle::{
@@ -164,8 +164,9 @@ impl Simulated {
 }
 
 fn read(lists: Lists) -> Result<([FrictionList; 2], ListOrigin), Failure> {
-    let list =
-        |path: &PathBuf| Ok::<_, Failure>(read_value_list(path, &FileRegistry::default())?.list);
+    let list = |path: &PathBuf| {
+        Ok::<_, Failure>(read_value_list(path, &FileRegistry::default(), &Disk::default())?.list)
+    };
     let name = |path: &PathBuf| shown_path(path);
     match &lists {
         Lists::Both(path) => {

@@ -2,7 +2,7 @@
 
 export type State = "active" | "inactive" | "ineffective" | "unconfigured" | "unknown";
 export type Severity = "error" | "warning" | "info";
-export type FileKind = "program" | "list" | "startup" | "configuration" | "recording" | "picture" | "foreign" | "other";
+export type FileKind = "program" | "list" | "values" | "startup" | "configuration" | "recording" | "picture" | "foreign" | "other";
 export type View = "all" | "notable";
 
 /** A change to a text that does what a message advises; columns count letters from 1. */

@@ -2,6 +2,7 @@
 
 import type { Audit, AuditCell } from "./answers";
 import { counted, fill, h } from "./dom";
+import type { Weight } from "./verdict";
 
 const CURES: Record<string, string> = {
   none: "none needed",
@@ -15,7 +16,7 @@ export function audit(root: HTMLElement, found: Audit, open: (file: string, line
     h("li", {}, `${failure.message}${failure.help === null ? "" : `: ${failure.help}`}`));
   fill(
     root,
-    h("p", { class: "lead" }, lead(found)),
+    lead(found),
     found.notChecked !== null && h("p", { class: "notice warning" }, `Not checked: ${found.notChecked}. `
       + "Pick such a file by itself, or add its extension to frictcomp.toml."),
     failures.length > 0 && h("div", { class: "notice error" },
@@ -34,22 +35,25 @@ export function audit(root: HTMLElement, found: Audit, open: (file: string, line
   );
 }
 
-function lead(found: Audit): string {
+/** The verdict, in its colour. */
+function lead(found: Audit): HTMLElement {
   const programs = counted(found.programs, "program");
+  const said = (weight: Weight, text: string): HTMLElement => h("p", { class: `lead notice ${weight}` }, text);
   if (found.programs === 0) {
-    return "No program was audited.";
+    return said("warning", "No program was audited.");
   }
   if (found.hazards > 0) {
-    return `${programs}. ${counted(found.hazards, "pair")} of programs in which one leaves an axis away from `
-      + "its start-up state and the other moves it in that state, if it is run next.";
+    return said("error", `${programs}. ${counted(found.hazards, "pair")} of programs in which one leaves an axis away `
+      + "from its start-up state and the other moves it in that state, if it is run next.");
   }
   if (found.warnings) {
-    return `${programs}; of some it is not known what they leave.`;
+    return said("warning", `${programs}; of some it is not known what they leave.`);
   }
   if (found.machines.every((machine) => machine.axes.length === 0)) {
-    return `${programs}; nothing could be audited.`;
+    return said("warning", `${programs}; nothing could be audited.`);
   }
-  return `${programs}; no axis moves outside its start-up state because of what another program left.`;
+  const weight = found.failures.length > 0 || found.notChecked !== null ? "warning" : "good";
+  return said(weight, `${programs}; no axis moves outside its start-up state because of what another program left.`);
 }
 
 /** A name of a table that is unique among those of several machines. */

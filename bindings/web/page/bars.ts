@@ -1,7 +1,7 @@
 // The states of each axis over the executed blocks.
 
 import type { Axis, Overview, Stretch } from "./answers";
-import { grouped, h, svg } from "./dom";
+import { grouped, h } from "./dom";
 import { isAway, listed } from "./states";
 
 /** A stretch in words, at most the first few. */
@@ -28,29 +28,21 @@ export function bars(overview: Overview, jump: (block: number) => void): HTMLEle
 }
 
 function row(axis: Axis, total: number, jump: (block: number) => void): HTMLElement {
-  const stretches = axis.bar.map((stretch) => rectangle(stretch, axis, total));
-  const picture = svg(
-    "svg",
-    {
-      role: "img", "aria-label": told(axis), viewBox: `0 0 ${Math.max(total, 1)} 10`,
-      preserveAspectRatio: "none",
-    },
-    ...stretches,
-  );
-  picture.addEventListener("click", (event) => {
-    const box = picture.getBoundingClientRect();
+  const track = h("div", { class: "track", role: "img", "aria-label": told(axis) },
+    ...axis.bar.map((stretch) => bar(stretch, axis, total)));
+  track.addEventListener("click", (event) => {
+    const box = track.getBoundingClientRect();
     const share = (event.clientX - box.left) / Math.max(box.width, 1);
     jump(Math.min(total, Math.max(1, Math.ceil(share * total))));
   });
-  return h("div", { class: "bar" }, h("span", { class: "axis", "aria-hidden": true }, axis.name), picture);
+  return h("div", { class: "bar" }, h("span", { class: "axis", "aria-hidden": true }, axis.name), track);
 }
 
-function rectangle([from, to, state]: Stretch, axis: Axis, total: number): SVGElement {
+function bar([from, to, state]: Stretch, axis: Axis, total: number): HTMLElement {
   const away = isAway(state, axis) ? " away" : "";
   const title = `${axis.name} ${state}, blocks ${grouped(from)} to ${grouped(to)} of ${grouped(total)}`;
-  return svg(
-    "rect",
-    { class: `stretch ${state}${away}`, x: from - 1, y: 0, width: to - from + 1, height: 10 },
-    svg("title", {}, title),
-  );
+  const made = h("span", { class: `stretch ${state}${away}`, title });
+  made.style.left = `${(from - 1) / total * 100}%`;
+  made.style.width = `${(to - from + 1) / total * 100}%`;
+  return made;
 }

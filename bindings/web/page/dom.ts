@@ -4,8 +4,6 @@ export type Child = Node | string | null | undefined | false;
 
 type Attributes = Readonly<Record<string, string | number | boolean | EventListener | null | undefined>>;
 
-const SVG = "http://www.w3.org/2000/svg";
-
 /** Builds an element; an attribute that begins with `on` is a listener, `false` and `null` leave one out. */
 export function h<K extends keyof HTMLElementTagNameMap>(
   tag: K,
@@ -13,14 +11,6 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
-  dress(element, attributes);
-  append(element, children);
-  return element;
-}
-
-/** Builds an element of a picture. */
-export function svg(tag: string, attributes: Attributes = {}, ...children: Child[]): SVGElement {
-  const element = document.createElementNS(SVG, tag as keyof SVGElementTagNameMap);
   dress(element, attributes);
   append(element, children);
   return element;

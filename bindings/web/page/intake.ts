@@ -17,13 +17,13 @@ export interface Intake {
 /** More files of folders are left out. */
 export const MOST_FILES = 5000;
 
-/** Larger files of folders are left out unless they are programs or lists. */
+/** Larger files of folders are left out unless they are programs, lists or recordings. */
 const LARGE = 1 << 20;
 
 /** Larger files are not accepted. */
 const LARGEST = 1 << 29;
 
-const TEXT = /\.(nc|cnc|mpf|spf|sub|cyc|iso|ngc|tap|lis|toml)$/i;
+const TEXT = /\.(nc|cnc|mpf|spf|sub|cyc|iso|ngc|tap|lis|toml|csv|tsv)$/i;
 
 /** Folders that contain no programs. */
 const SKIPPED = /^(\.|node_modules$|target$)/;

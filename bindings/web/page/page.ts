@@ -14,14 +14,16 @@ import { described, parameters } from "./machine";
 import { withCode } from "./markdown";
 import { messages } from "./messages";
 import { besides, download, picture } from "./pictures";
+import { recorded, recording, verify } from "./recording";
+import { refused } from "./report";
 import { Cancelled, Session } from "./session";
 import {
-  circle, circleQuestion, contour, contourQuestion, FieldError, figures, forgetContour, noted, positions, tune,
+  circle, circleQuestion, contour, contourQuestion, FieldError, forgetContour, noted, positions, tune,
 } from "./simulations";
 import { MEANINGS } from "./states";
 import { type Tab, Tabs } from "./tabs";
 import { Timeline } from "./timeline";
-import { type Given, isMissing, missing, sentence, verdict } from "./verdict";
+import { type Given, isMissing, missing, verdict } from "./verdict";
 
 /** Work that takes longer is shown with its progress, in ms. */
 const PATIENCE = 250;
@@ -39,6 +41,8 @@ const edits = new Edits();
 let foundLine = 0;
 const settings: Settings = { enable: [], keepGoing: false };
 let program: string | null = null;
+/** The recording that is shown in place of the program. */
+let shownRecording: string | null = null;
 let overview: Overview | null = null;
 let kinds: [path: string, kind: FileKind][] = [];
 /** How many pieces of work are pending. */
@@ -106,13 +110,10 @@ function complain(error: unknown): void {
     return;
   }
   if (error instanceof Refused) {
-    const { message, help, said } = error.refusal;
-    fill(box, h("p", {}, ...withCode(sentence(message))), help !== null && h("p", {}, ...withCode(sentence(help))),
-      ...said.map((one) => h("p", {}, ...withCode(`${one.file}:${one.line}: ${one.message}`))));
-  } else if (error instanceof Cancelled) {
-    fill(box, h("p", {}, "Cancelled."));
+    fill(box, refused(error.refusal));
   } else {
-    fill(box, h("p", {}, error instanceof Error ? error.message : String(error)));
+    const message = error instanceof Cancelled ? "Cancelled." : error instanceof Error ? error.message : String(error);
+    fill(box, refused({ message, help: null, said: [] }));
   }
   box.hidden = false;
 }
@@ -138,7 +139,7 @@ async function arrived(paths: readonly string[]): Promise<void> {
   kinds = await session.json<typeof kinds>({ ask: "files" });
   part("welcome").hidden = kinds.length > 0;
   part("work").hidden = kinds.length === 0;
-  const programs = programsOf(kinds);
+  const programs = pathsOf("program");
   // Files that the program on display asked for are for that program.
   const shown = overview;
   const isNew = (path: string): boolean =>
@@ -147,16 +148,18 @@ async function arrived(paths: readonly string[]): Promise<void> {
   const first = programs.find((path) => isNew(path) && !/\.(spf|sub|cyc)$/i.test(path))
     ?? programs.find(isNew);
   const meant = first ?? program ?? programs[0] ?? null;
+  const recordings = pathsOf("recording");
+  const chosen = recordings.find(isNew) ?? shownRecording ?? (meant === null ? recordings[0] : undefined);
   files();
+  if (first === undefined && chosen !== undefined && recordings.includes(chosen)) {
+    await attempt(openRecording(chosen));
+    return;
+  }
   if (meant === null) {
     program = null;
     part("program").hidden = true;
     part("recording").hidden = true;
     part("no-program").hidden = kinds.length === 0;
-    const first = kinds.find(([, kind]) => kind === "recording");
-    if (first) {
-      await attempt(recording(first[0]));
-    }
     return;
   }
   await open(meant);
@@ -167,13 +170,12 @@ async function arrived(paths: readonly string[]): Promise<void> {
   }
 }
 
-function programsOf(all: typeof kinds): string[] {
-  return all.flatMap(([path, kind]) => (kind === "program" ? [path] : []));
+function pathsOf(wanted: FileKind): string[] {
+  return kinds.flatMap(([path, kind]) => (kind === wanted ? [path] : []));
 }
 
-/** What files are that are no programs. */
+/** What files are that nothing is done with. */
 const OTHERS = {
-  recording: "recording",
   picture: "picture",
   foreign: "foreign program",
   other: "other file",
@@ -181,40 +183,42 @@ const OTHERS = {
 
 /** The list of files. */
 function files(): void {
-  const programs = programsOf(kinds);
-  const lists = kinds.filter(([, kind]) => ["list", "startup", "configuration"].includes(kind));
-  const others = (["recording", "picture", "foreign", "other"] as const).map((kind) =>
-    [kind, kinds.filter(([, one]) => one === kind)] as const);
+  const [programs, recordings] = [pathsOf("program"), pathsOf("recording")];
+  const lists = kinds.filter(([, kind]) => ["list", "values", "startup", "configuration"].includes(kind));
+  const others = (["picture", "foreign", "other"] as const).map((kind) => [kind, pathsOf(kind)] as const);
+  const choices = (paths: readonly string[], open: (path: string) => void): HTMLElement =>
+    h("ul", {}, ...paths.map((path) => h("li", {}, h("button", {
+      "aria-current": path === (shownRecording ?? program) ? "true" : null,
+      title: path,
+      onclick: () => { open(path); },
+    }, ...pathParts(path)))));
   fill(
     part("files"),
     h("h2", {}, counted(programs.length, "program")),
-    h("ul", {}, ...programs.map((path) => h("li", {}, h("button", {
-      "aria-current": path === program ? "true" : null,
-      title: path,
-      onclick: () => { void openTimeline(path); },
-    }, ...pathParts(path))))),
+    choices(programs, (path) => { void openTimeline(path); }),
+    recordings.length > 0 && h("h2", {}, counted(recordings.length, "recording")),
+    recordings.length > 0 && choices(recordings, (path) => { void attempt(openRecording(path)); }),
     lists.length === 0 ? h("h2", {}, "No list") : h("details", { open: window.innerWidth > NARROW },
       h("summary", {}, h("h2", {}, counted(lists.length, "list"))),
       h("ul", {}, ...lists.map(([path]) => h("li", { title: path }, ...pathParts(path))))),
     ...others.map(([kind, all]) => all.length > 0 && h("details", {},
       h("summary", { class: "quiet" }, counted(all.length, OTHERS[kind])),
-      h("ul", {}, ...all.map(([path]) => h("li", { title: path }, kind === "recording"
-        ? h("button", { onclick: () => { void attempt(recording(path)); } }, ...pathParts(path))
-        : h("span", {}, ...pathParts(path))))))),
+      h("ul", {}, ...all.map((path) => h("li", { title: path }, ...pathParts(path)))))),
   );
   const needed = overview ? missing(overview) : [];
   fill(part("missing"), needed.length > 0 && h("div", { class: "notice warning" },
     h("h2", {}, "Not dropped"), h("ul", {}, ...needed.map((name) => h("li", {}, name)))));
 }
 
-/** Shows the channels of a recording in place of a program. */
-async function recording(path: string): Promise<void> {
-  const answer = await session.json<{ svg: string; text: string }>({ ask: "recording", path });
+/** Shows a recording in place of a program. */
+async function openRecording(path: string): Promise<void> {
+  part("complaint").hidden = true;
+  shownRecording = path;
+  files();
   part("program").hidden = true;
   part("no-program").hidden = true;
   part("recording").hidden = false;
-  part("recording-title").textContent = path;
-  picture(part("channels"), answer.svg, `The channels of ${path} over time`, figures(answer.text));
+  await recording(session, path, pathsOf("values"));
 }
 
 /** A path that may be broken after each folder. */
@@ -236,6 +240,7 @@ async function openTimeline(path: string, line?: number): Promise<void> {
 async function open(path: string): Promise<void> {
   const isOther = path !== program;
   program = path;
+  shownRecording = null;
   part("no-program").hidden = true;
   part("program").hidden = false;
   part("recording").hidden = true;
@@ -281,7 +286,7 @@ async function run(): Promise<void> {
 function given(): Given {
   return {
     enable: settings.enable,
-    startups: kinds.filter(([, kind]) => kind === "startup").length,
+    startups: pathsOf("startup").length,
   };
 }
 
@@ -301,7 +306,7 @@ async function result(found: Overview): Promise<void> {
     void attempt(timeline.jump(block));
   }));
   part("tab-messages").textContent = `Messages (${grouped(found.messages.length)})`;
-  part("tab-audit").textContent = `Audit (${grouped(programsOf(kinds).length)})`;
+  part("tab-audit").textContent = `Audit (${grouped(pathsOf("program").length)})`;
   fill(part("panel-messages"), messages(found, {
     jump: (message) => {
       tabs.show("timeline");
@@ -344,7 +349,7 @@ async function show(tab: Tab): Promise<void> {
       const answer = await session.json<{ svg: string | null; notes: string[] }>(
         { ask: "current", program, settings, start: positions("start") });
       const notes = noted(answer.notes);
-      picture(part("current"), answer.svg, `Additive current of ${program} over time`, ...notes ? [notes] : []);
+      picture(part("current"), answer.svg, `Additive current of ${program} over time`, [], [notes]);
       break;
     }
     case "contour":
@@ -493,6 +498,7 @@ function listen(): void {
     void attempt(session.clear().then(() => {
       edits.forgetAll();
       program = null;
+      shownRecording = null;
       overview = null;
       timeline.forget();
       part("editor").hidden = true;
@@ -538,6 +544,8 @@ function listen(): void {
     "circle-form": (): Promise<void> => circle(session, program),
     "contour-form": (): Promise<void> => show("contour"),
     "tune-form": (): Promise<void> => tune(session),
+    "circle-form-recorded": async (): Promise<void> => { await recorded(session, shownRecording ?? ""); },
+    "verify-form": (): Promise<void> => verify(session, shownRecording ?? ""),
   };
   for (const [form, simulate] of Object.entries(simulations)) {
     on(form, "submit", (event) => {

@@ -1,24 +1,26 @@
 // Pictures of the engine. They are shown as images, in which nothing can become active.
 
-import { fill, h } from "./dom";
+import { type Child, fill, h } from "./dom";
 
 /** The object URLs of the pictures on display, to be released. */
 const shown = new WeakMap<Element, string>();
 
-/** Shows a picture with its notes in place of the current one. */
-export function picture(root: HTMLElement, svg: string | null, told: string, ...below: HTMLElement[]): void {
+/** Shows a picture in place of the current one, with its verdict above and its notes below. */
+export function picture(
+  root: HTMLElement, svg: string | null, told: string, above: Child[] = [], below: Child[] = [],
+): void {
   const before = shown.get(root);
   if (before !== undefined) {
     URL.revokeObjectURL(before);
     shown.delete(root);
   }
   if (svg === null) {
-    fill(root, ...below);
+    fill(root, ...above, ...below);
     return;
   }
   const address = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   shown.set(root, address);
-  fill(root, h("img", { class: "picture", src: address, alt: told }), ...below);
+  fill(root, ...above, h("img", { class: "picture", src: address, alt: told }), ...below);
 }
 
 /** Offers a file to the user. */

@@ -2,7 +2,8 @@
 
 import { fill, h, part } from "./dom";
 import { withCode } from "./markdown";
-import { download, picture } from "./pictures";
+import { download } from "./pictures";
+import { type Drawn, showDrawn } from "./report";
 import type { Settings } from "./answers";
 import type { Session } from "./session";
 import { sentence } from "./verdict";
@@ -30,18 +31,13 @@ export class FieldError extends Error {
   }
 }
 
-interface Drawn {
-  svg: string | null;
-  text: string;
-}
-
 function value(id: string): string {
   return (part(id) as HTMLInputElement | HTMLSelectElement).value;
 }
 
-/** Figures as the command prints them. */
-export function figures(text: string): HTMLElement {
-  return h("pre", { class: "figures", tabindex: 0, role: "region", "aria-label": "Figures" }, text);
+/** What a field holds; `null` where it is empty. */
+export function optional(id: string): string | null {
+  return value(id).trim() || null;
 }
 
 /** Notes below a picture. */
@@ -85,8 +81,9 @@ export function contourQuestion(program: string | null, settings: Settings): obj
 export async function contour(session: Session, program: string, settings: Settings): Promise<void> {
   const answer = await session.json<Drawn & { notes: string[] }>(
     { ask: "contour", ...contourQuestion(program, settings) });
-  picture(part("contour"), answer.svg, `Contour of ${program}: the path with its magnified deviation`,
-    ...[noted(answer.notes), figures(answer.text)].filter((one) => one !== null));
+  const notes = noted(answer.notes);
+  showDrawn(part("contour"), answer, `Contour of ${program}: the path with its magnified deviation`,
+    ...notes ? [notes] : []);
 }
 
 /** The question for a circular test on the machine of a program. */
@@ -102,8 +99,7 @@ export function circleQuestion(program: string | null): object {
 /** Drives a circle. */
 export async function circle(session: Session, program: string | null): Promise<void> {
   const answer = await session.json<Drawn & { lists: string }>({ ask: "circle", ...circleQuestion(program) });
-  picture(part("circle"), answer.svg, "Simulated circular test, compensation off and on",
-    h("p", {}, answer.lists), figures(answer.text));
+  showDrawn(part("circle"), answer, "Simulated circular test, compensation off and on", h("p", {}, answer.lists));
 }
 
 /** Searches the value list with the smallest glitch at all feeds. */
@@ -118,8 +114,8 @@ export async function tune(session: Session): Promise<void> {
   const save = (): void => {
     download(`${plant}.lis`, new TextEncoder().encode(answer.list), "text/plain");
   };
-  picture(part("tuned"), answer.svg, "The glitch before and after tuning",
-    h("p", {}, h("button", { onclick: save }, "Download value list")), figures(answer.text));
+  showDrawn(part("tuned"), answer, "The glitch before and after tuning",
+    h("p", {}, h("button", { onclick: save }, "Download value list")));
 }
 
 /** Clears what belongs to a program that is no longer shown. */

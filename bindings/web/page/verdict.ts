@@ -139,7 +139,7 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
 
 /** A clause in lower case as a sentence. */
 export function sentence(text: string): string {
-  const first = text.charAt(0);
-  const whole = first === "`" ? text : first.toUpperCase() + text.slice(1);
+  // A name keeps its letters.
+  const whole = /^[a-z]+( |$)/.test(text) ? text.charAt(0).toUpperCase() + text.slice(1) : text;
   return /[.!?]$/.test(whole) ? whole : `${whole}.`;
 }

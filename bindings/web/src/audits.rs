@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use frictcomp::audit::AxisAudit;
-use frictcomp::session::Options;
+use frictcomp::interpreter::Options;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, LeftOutFiles, Machines};
 use frictcomp_report::audit::{AuditReport, MachineAudit, Word};
 use frictcomp_report::html::render_audit;

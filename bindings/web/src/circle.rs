@@ -7,13 +7,14 @@ use frictcomp_host::{Watch, compare};
 use frictcomp_physics::circle::{Circle, CircularTest, Method};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Preset};
-use frictcomp_report::circle::{CircleReport, ListOrigin, render_text};
+use frictcomp_report::Detail;
+use frictcomp_report::circle::{CircleReport, ListOrigin, report_text};
 use frictcomp_report::html::render_circle;
 use frictcomp_report::pictures::circle;
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 use serde::{Deserialize, Serialize};
 
+use crate::drawn_report::DrawnReport;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::json;
@@ -32,9 +33,8 @@ pub(crate) struct CircleSettings {
 
 #[derive(Serialize)]
 struct CircleAnswer {
-    svg: String,
-    /// The figures, as on the command line.
-    text: String,
+    #[serde(flatten)]
+    drawn: DrawnReport,
     /// Where the value lists come from.
     lists: String,
 }
@@ -106,8 +106,10 @@ fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
 pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
     let (report, lists) = simulate(dropped, settings)?;
     Ok(json(&CircleAnswer {
-        svg: circle(&report).render(Frame::Alone),
-        text: fitted(&render_text(&report, Detail::Brief), FALLBACK_WIDTH),
+        drawn: DrawnReport {
+            svg: Some(circle(&report).render(Frame::Alone)),
+            report: report_text(&report, Detail::Brief),
+        },
         lists,
     }))
 }

@@ -8,14 +8,15 @@ use frictcomp_host::{ContourSetup, LoadedMachine, Naming, NoDrivenContour, Watch
 use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, render_text};
+use frictcomp_report::Detail;
+use frictcomp_report::contour::{ContourRecorder, ContourSubject, report_text};
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
+use crate::drawn_report::DrawnReport;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::{RunSettings, Texts, json};
@@ -40,10 +41,8 @@ pub(crate) struct ContourSettings {
 
 #[derive(Serialize)]
 struct ContourAnswer {
-    /// The picture; none where nothing was driven.
-    svg: Option<String>,
-    /// The figures, as on the command line.
-    text: String,
+    #[serde(flatten)]
+    drawn: DrawnReport,
     /// What stopped the program or the trace, and what the trace simplifies.
     notes: Vec<String>,
 }
@@ -116,13 +115,10 @@ pub(crate) fn answer(
     let has_moved = contour.machine_time_s() > 0.0;
     let picture = contour.sink().take_picture().filter(|_| has_moved);
     let chart = picture.map(|picture| picture.chart(&subject.heading(&contour)));
-    let text = fitted(
-        &render_text(&mut contour, &subject, Detail::Brief),
-        FALLBACK_WIDTH,
-    );
+    let report = report_text(&mut contour, &subject, Detail::Brief);
+    let svg = chart.map(|chart| chart.render(Frame::Alone));
     Ok(json(&ContourAnswer {
-        svg: chart.map(|chart| chart.render(Frame::Alone)),
-        text,
+        drawn: DrawnReport { svg, report },
         notes: notes(&contour, has_moved),
     }))
 }

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use frictcomp::comp::State;
+use frictcomp::interpreter::Motions;
 use frictcomp::machine::{Machine, Parameterisation};
-use frictcomp::session::{Motions, SessionOptions};
+use frictcomp::session::SessionOptions;
 use frictcomp_host::{Axes, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{
     CurrentCycle, CurrentOptions, CurrentSink, FollowError, ProgramCurrents, axes_to_follow,

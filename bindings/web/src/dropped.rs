@@ -12,6 +12,7 @@ use frictcomp_host::{
     Disk, FileRegistry, Input, LeftOutFile, LoadedMachine, MachineOptions, Machines, OpenText,
     check_list_file, is_program, nearest_config,
 };
+use frictcomp_recordings::trace::{Choice, TraceReader};
 use serde::Serialize;
 
 use crate::refusal::Refusal;
@@ -22,6 +23,8 @@ use crate::refusal::Refusal;
 pub(crate) enum Kind {
     Program,
     List,
+    /// A list with the compensation values of an axis.
+    Values,
     Startup,
     Configuration,
     /// A table of samples.
@@ -182,13 +185,12 @@ fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
         let list = SourceFile::new(path.display().to_string(), text);
         return match check_list(list, None, &mut NoLists).kind {
             Some(ListKind::Startup) => Kind::Startup,
+            Some(ListKind::Value) => Kind::Values,
             _ => Kind::List,
         };
     }
-    if ["csv", "tsv"]
-        .iter()
-        .any(|it| extension.eq_ignore_ascii_case(it))
-    {
+    let is_one_of = |known: &[&str]| known.iter().any(|it| extension.eq_ignore_ascii_case(it));
+    if is_one_of(&RECORDINGS) || is_one_of(&["txt", "xml"]) && is_table(text) {
         return Kind::Recording;
     }
     if is_for_another_control(text) {
@@ -199,6 +201,21 @@ fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
     } else {
         Kind::Other
     }
+}
+
+/// Extensions of files that hold samples, or are known to hide them.
+const RECORDINGS: [&str; 7] = ["csv", "tsv", "svdx", "svd", "svb", "tdms", "tcscopex"];
+
+/// Whether a text has columns of samples.
+fn is_table(text: &str) -> bool {
+    let mut is_table = false;
+    let mut reader = TraceReader::new(1, |_| {
+        is_table = true;
+        Ok(Choice::default())
+    });
+    // It ends at the second row of samples.
+    let _ = reader.feed(text.as_bytes()).and_then(|()| reader.finish());
+    is_table
 }
 
 /// Beginnings of pictures and of documents to be printed.
@@ -243,10 +260,20 @@ mod tests {
         dropped.put("b.png", b"\x89PNG\r\n".to_vec(), true);
         dropped.put("c.h", b"0 BEGIN PGM C MM\n".to_vec(), true);
         dropped.put("d.nc", b"BMX=1\nM30\n".to_vec(), true);
+        dropped.put("e.txt", b"t;x\n0;1\n0,1;2\n".to_vec(), true);
+        dropped.put("f.txt", b"N10 X1\nN20 M30\n".to_vec(), true);
+        dropped.put("g.svdx", b"PK\0".to_vec(), true);
         let kinds: Vec<Kind> = dropped.files().into_iter().map(|(_, kind)| kind).collect();
-        let wanted = [Kind::Recording, Kind::Picture, Kind::Foreign, Kind::Program];
+        let wanted = [
+            Kind::Recording,
+            Kind::Picture,
+            Kind::Foreign,
+            Kind::Program,
+            Kind::Recording,
+            Kind::Program,
+            Kind::Recording,
+        ];
         assert_eq!(kinds, wanted);
-        assert!(crate::recording::answer(&mut dropped, "a.csv").is_ok());
     }
 
     #[test]

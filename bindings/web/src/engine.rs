@@ -74,7 +74,8 @@ impl Engine {
             PageQuestion::Parameters { program, enable } => {
                 parameters::answer(dropped, &program, &enable)?
             }
-            PageQuestion::Recording { path } => recording::answer(dropped, &path)?,
+            PageQuestion::Recording(settings) => recording::answer(dropped, &settings)?,
+            PageQuestion::Verify(settings) => recording::verify(dropped, &settings)?,
             PageQuestion::Explain { code } => {
                 let code: Result<Code, _> = code.parse();
                 let code = code.map_err(|_| Refusal::new("there is no page about this code"))?;

@@ -10,6 +10,7 @@ mod border;
 mod circle;
 mod contour;
 mod current;
+mod drawn_report;
 mod dropped;
 mod engine;
 mod lines;

@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use crate::circle::CircleSettings;
 use crate::contour::ContourSettings;
+use crate::recording::{RecordingSettings, VerifySettings};
 use crate::run::{RunSettings, ShownBlocks};
 use crate::tuning::TuneSettings;
 
@@ -78,8 +79,10 @@ pub(crate) enum PageQuestion {
         #[serde(default)]
         enable: Vec<String>,
     },
-    /// The channels of a recording: picture and table, in JSON.
-    Recording { path: String },
+    /// The channels of a recording and its circle: pictures and reports, in JSON.
+    Recording(RecordingSettings),
+    /// The fit of a value list to a recording: the report, in JSON.
+    Verify(VerifySettings),
     /// The page about a code, as text.
     Explain { code: String },
     /// A simulated circular test: picture and figures, in JSON.

@@ -1,45 +1,135 @@
-//! The channels of a dropped recording.
+//! A dropped recording: its channels, its circle, and a value list against it.
 
 use std::path::Path;
 
-use frictcomp_recordings::trace::{Choice, TraceReader};
-use frictcomp_report::pictures::channels;
+use frictcomp_host::{
+    CircleChannels, FileRegistry, HostError, TraceError, read_axis, read_trace, read_turns,
+    read_value_list,
+};
+use frictcomp_physics::circle::{CommandedCircle, PathCentre, Recording};
+use frictcomp_physics::current::Reading;
+use frictcomp_recordings::identify::{Predictor, verify_followed};
+use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
+use frictcomp_report::Detail;
+use frictcomp_report::circle::{self, CircleReport};
+use frictcomp_report::pictures;
 use frictcomp_report::svg::Frame;
-use frictcomp_report::trace::{TraceReport, render_text};
-use frictcomp_report::{FALLBACK_WIDTH, fitted};
-use serde::Serialize;
+use frictcomp_report::trace::{self, TraceReport};
+use frictcomp_report::verify::{self, VerifyReport};
+use serde::{Deserialize, Serialize};
 
+use crate::drawn_report::DrawnReport;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::json;
 
-/// Samples of a channel that are kept.
-const MOST_ROWS: usize = 5_000_000;
-
-#[derive(Serialize)]
-struct RecordingAnswer {
-    svg: String,
-    /// The channels, as on the command line.
-    text: String,
+/// A recording to be shown.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct RecordingSettings {
+    path: String,
+    /// The commanded radius of the circle, if it is known.
+    radius_mm: Option<f64>,
 }
 
-/// The picture of a recording and the table of its channels.
-pub(crate) fn answer(dropped: &mut Dropped, path: &str) -> Result<Vec<u8>, Refusal> {
+/// A value list to be compared with a recording.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct VerifySettings {
+    path: String,
+    list: String,
+    axis: Option<String>,
+    velocity: Option<String>,
+    torque: Option<String>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct RecordingAnswer<'a> {
+    channels: DrawnReport,
+    /// The names of the channels.
+    names: Vec<&'a str>,
+    /// Where two axes circle.
+    circle: Option<DrawnReport>,
+    /// Why positions of two axes are no circle.
+    no_circle: Option<String>,
+}
+
+/// The channels of a recording, and its circle.
+pub(crate) fn answer(
+    dropped: &mut Dropped,
+    settings: &RecordingSettings,
+) -> Result<Vec<u8>, Refusal> {
     let disk = dropped.disk();
-    let text = disk.text(Path::new(path));
-    let text = text.ok_or_else(|| Refusal::new(format!("there is no file `{path}`")))?;
-    let refused = |error: frictcomp_recordings::trace::TraceProblem| {
-        Refusal::new(format!("`{path}` is not read as a recording: {error}"))
-    };
-    let mut reader = TraceReader::new(MOST_ROWS, |channels| Ok(Choice::all(channels, None)));
-    reader.feed(text.as_bytes()).map_err(refused)?;
-    let recording = reader.finish().map_err(refused)?;
+    let path = Path::new(&settings.path);
+    let recording = read_trace(path, &disk, |channels| {
+        let time = ChannelSelection::default().find(ChannelQuantity::Time, channels)?;
+        Ok(Choice::all(channels, time))
+    })?;
     let report = TraceReport {
-        name: path.to_owned(),
+        name: settings.path.clone(),
         recording: &recording,
     };
+    let channels = DrawnReport {
+        svg: Some(pictures::channels(&report).render(Frame::Alone)),
+        report: trace::report_text(&report),
+    };
+    let turns = read_turns(path, &CircleChannels::default(), settings.radius_mm, &disk);
+    let circle = turns.and_then(|circles| {
+        let commanded = CommandedCircle {
+            radius_mm: settings.radius_mm,
+            ..CommandedCircle::default()
+        };
+        let circle = Recording::new(circles, commanded, PathCentre::default());
+        Ok(CircleReport::recorded(circle.map_err(TraceError::Circles)?))
+    });
+    let (circle, no_circle) = match circle {
+        Ok(report) => (Some(report), None),
+        Err(HostError::Trace(error @ (TraceError::Circle { .. } | TraceError::Circles(_)))) => {
+            (None, Some(error.to_string()))
+        }
+        // It has no two axes.
+        Err(_) => (None, None),
+    };
+    let circle = circle.map(|report| DrawnReport {
+        svg: Some(pictures::circle(&report).render(Frame::Alone)),
+        report: circle::report_text(&report, Detail::Brief),
+    });
     Ok(json(&RecordingAnswer {
-        svg: channels(&report).render(Frame::Alone),
-        text: fitted(&render_text(&report), FALLBACK_WIDTH),
+        channels,
+        names: recording
+            .channels()
+            .iter()
+            .map(|it| it.name.as_str())
+            .collect(),
+        circle,
+        no_circle,
     }))
+}
+
+/// The fit of a value list to a recording.
+pub(crate) fn verify(dropped: &mut Dropped, settings: &VerifySettings) -> Result<Vec<u8>, Refusal> {
+    let disk = dropped.disk();
+    let list = read_value_list(Path::new(&settings.list), &FileRegistry::default(), &disk)?.list;
+    let selection = ChannelSelection {
+        axis: settings.axis.clone(),
+        velocity: settings.velocity.clone(),
+        torque: settings.torque.clone(),
+        ..ChannelSelection::default()
+    };
+    let recording = read_axis(Path::new(&settings.path), &selection, None, &disk)?;
+    let predictor = Predictor {
+        list: &list,
+        reading: Reading::default(),
+        cycle_s: None,
+    };
+    let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)
+        .map_err(|error| Refusal::new(error.to_string()))?;
+    let report = VerifyReport {
+        trace: settings.path.clone(),
+        list: settings.list.clone(),
+        recording,
+        verified,
+    };
+    Ok(json(&verify::report_text(&report, Detail::Brief)))
 }

@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::interpreter::EndedBy;
 use frictcomp::lists::AxisType;
 use frictcomp::machine::AxisSet;
-use frictcomp::timeline::{AxisSummary, EndedBy, Record, Sink};
+use frictcomp::timeline::{AxisSummary, Record, Sink};
 
 use crate::rows::ExecutedRows;
 use crate::watched::show_progress;

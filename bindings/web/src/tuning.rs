@@ -7,15 +7,16 @@ use frictcomp_host::{Watch, tune};
 use frictcomp_physics::circle::{Circle, Ranges, Shaping, Task, TuningAim};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_report::Detail;
 use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::pictures::tuning;
 use frictcomp_report::svg::Frame;
-use frictcomp_report::tune::{TuneReport, render_text};
+use frictcomp_report::tune::{TuneReport, report_text};
 use frictcomp_report::value_lists::render_tuned;
-use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
+use crate::drawn_report::DrawnReport;
 use crate::refusal::Refusal;
 use crate::run::json;
 use crate::watched::Page;
@@ -35,9 +36,8 @@ pub(crate) struct TuneSettings {
 
 #[derive(Serialize)]
 struct TuningAnswer {
-    svg: String,
-    /// The figures, as on the command line.
-    text: String,
+    #[serde(flatten)]
+    drawn: DrawnReport,
     /// The value list of the drives.
     list: String,
 }
@@ -45,12 +45,13 @@ struct TuningAnswer {
 /// The list, its figures and the glitch over the feed.
 pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let report = tuned(settings)?;
-    let reports = std::slice::from_ref(&report);
     // Both drives of an example are equal, and so are their lists.
     let [axis, _] = &report.tuned.axes;
     Ok(json(&TuningAnswer {
-        svg: tuning(reports).render(Frame::Alone),
-        text: fitted(&render_text(reports, Detail::Brief), FALLBACK_WIDTH),
+        drawn: DrawnReport {
+            svg: Some(tuning(std::slice::from_ref(&report)).render(Frame::Alone)),
+            report: report_text(&report, Detail::Brief),
+        },
         list: render_tuned(&report, axis, None, &ListHead::default()),
     }))
 }

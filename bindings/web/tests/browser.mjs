@@ -80,6 +80,16 @@ const look = async (page, name) => {
   }
 };
 
+/** Words as the command prints them, whatever their layout. */
+const bare = (text) => text.replace(/[\s`]/g, "").toLowerCase();
+
+/** The verdict and the figures in a part of the page. */
+async function told(page, id) {
+  const [lead, figures] = await Promise.all(["lead", "figures"].map((part) =>
+    page.locator(`#${id} .${part}`).textContent()));
+  return bare(lead.replace(/\.$/, "") + figures);
+}
+
 /** Every part of the page that is shown at once. */
 const TABS = ["timeline", "messages", "audit", "current", "contour", "circle", "machine"];
 
@@ -311,7 +321,7 @@ const tests = {
     await page.locator("#contour img").waitFor();
     const wanted = spawnSync(command, ["contour", "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
     assert.match(wanted.stdout.toString(), /largest deviation +38/);
-    assert.equal(await page.locator("#contour .figures").textContent(), wanted.stdout.toString());
+    assert.equal(await told(page, "contour"), bare(wanted.stdout.toString()));
     await look(page, "contour");
     const [download] = await Promise.all([
       page.waitForEvent("download"),
@@ -321,8 +331,8 @@ const tests = {
     const report = join(folder, "contour.html");
     spawnSync(command, ["contour", "--html", report, "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
     // The last bit of a sine is that of the system, and may move a curve by a tenth of a pixel.
-    const told = (path) => readFileSync(path, "utf8").replaceAll(/ d="[^"]*"/g, "");
-    assert.equal(told(await download.path()), told(report));
+    const written = (path) => readFileSync(path, "utf8").replaceAll(/ d="[^"]*"/g, "");
+    assert.equal(written(await download.path()), written(report));
     await page.locator("#panel-contour").getByLabel("axes start at").fill("Q0");
     await page.getByRole("button", { name: "Drive", exact: true }).click();
     await page.getByRole("alert").getByText("no axis Q").waitFor();
@@ -335,11 +345,11 @@ const tests = {
     await example(page);
     await rows(page).first().waitFor();
     await showTab(page, "circle");
-    await page.getByLabel("feeds").fill("fast");
+    await page.locator("#feeds").fill("fast");
     await page.getByRole("button", { name: "Tune", exact: true }).click();
     await page.getByRole("alert").getByText(/Give from 1 to 8 feeds/).waitFor();
-    await page.getByLabel("feeds").fill("2000");
-    await page.getByLabel("radius").fill("20");
+    await page.locator("#feeds").fill("2000");
+    await page.locator("#radius").fill("20");
     const before = Date.now();
     await page.getByRole("button", { name: "Tune", exact: true }).click();
     await page.locator("#progress").getByText(/tune: \[[#.]+\] \d+ %/).waitFor({ timeout: 60_000 });
@@ -354,7 +364,7 @@ const tests = {
     ]);
     const list = join(folder, "tuned.lis");
     const wanted = spawnSync(command, ["tune", "--feeds", "2000", "--radii", "20", "--write-list", list]);
-    assert.equal(await page.locator("#tuned .figures").textContent(), wanted.stdout.toString());
+    assert.equal(await told(page, "tuned"), bare(wanted.stdout.toString()));
     assert.equal(readFileSync(await download.path(), "utf8"), readFileSync(list, "utf8"));
     await close(page);
   },
@@ -398,6 +408,39 @@ const tests = {
     await page.locator("#contour-start").fill("X0, there");
     await page.getByRole("button", { name: "Drive", exact: true }).click();
     await page.locator("#contour-form .field-error").getByText("Give positions").waitFor();
+    await close(page);
+  },
+
+  async "a recording is read as on the command line"() {
+    // R13.18
+    const page = await open();
+    const demo = join(root, "programs/demo");
+    const printed = (folder, ...args) =>
+      bare(spawnSync(command, args, { cwd: join(demo, folder) }).stdout.toString());
+    await drop(page, join(demo, "recorded/learning/round-1/F2000-1.csv"));
+    await page.locator("#recorded-circle img").waitFor();
+    const wanted = (...args) => printed("recorded/learning/round-1", ...args);
+    assert.equal(await told(page, "channels"), wanted("trace", "F2000-1.csv"));
+    assert.equal(await told(page, "recorded-circle"), wanted("circle", "--trace", "F2000-1.csv"));
+    await page.getByLabel("commanded radius").fill("20");
+    await page.getByRole("button", { name: "Evaluate the circle" }).click();
+    await page.locator("#recorded-circle").getByText("mean radial deviation").waitFor();
+    assert.equal(await told(page, "recorded-circle"), wanted("circle", "--trace", "F2000-1.csv", "--radius", "20"));
+    await look(page, "recorded-circle");
+    await page.locator("#no-value-list").waitFor();
+    await drop(page, join(demo, "recordings/friction_x.csv"), join(demo, "lists/comp_x.lis"));
+    await page.locator("#verified").getByText("perhaps ActTorque is the torque").waitFor();
+    assert.equal(await page.locator("#recorded-circle").textContent(), "");
+    await page.locator("#velocity").selectOption("SetVelo");
+    await page.locator("#torque").selectOption("ActTorque");
+    await page.getByRole("button", { name: "Verify" }).click();
+    await page.locator("#verified .lead").waitFor();
+    const verified = printed("lists", "verify", "../recordings/friction_x.csv", "--velocity", "SetVelo",
+      "--torque", "ActTorque", "--value-list", "comp_x.lis");
+    assert.equal(await told(page, "verified"), verified);
+    await look(page, "verified");
+    await dropTexts(page, { "a.svdx": "PK" });
+    await page.getByRole("alert").getByText("TC3ScopeExportTool").waitFor();
     await close(page);
   },
 

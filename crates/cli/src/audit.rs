@@ -24,7 +24,8 @@ use super::severities::SeverityArgs;
 use frictcomp::audit::{Archive, MendedEnd, Selected, WhyMissed};
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp::session::{Causes, StopPolicy};
+use frictcomp::interpreter::StopPolicy;
+use frictcomp::session::Causes;
 use frictcomp::text::shown_path;
 use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{

@@ -16,7 +16,7 @@ use super::result::{ResultArgs, ResultFormat};
 use super::settings;
 use super::simulated::{SimulationArgs, Tolerance};
 use frictcomp::comp::KindSet;
-use frictcomp::session::StopPolicy;
+use frictcomp::interpreter::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     Axes, FileRegistry, Input, LoadedMachine, MachineOfVersions, MachineOwner, Naming, SingleRun,

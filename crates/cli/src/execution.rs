@@ -4,7 +4,8 @@ use std::num::NonZeroU64;
 
 use clap::Args;
 
-use frictcomp::session::{Limits, Options, SessionOptions, StopPolicy};
+use frictcomp::interpreter::{Limits, Options, StopPolicy};
+use frictcomp::session::SessionOptions;
 use frictcomp::syntax::SkipLevels;
 use frictcomp_host::LoadedMachine;
 use frictcomp_report::command_line;

@@ -16,7 +16,7 @@ use super::machine::MachineArgs;
 use super::painted::difference;
 use super::severities::SeverityArgs;
 use super::simulated::{SimulationArgs, Tolerance};
-use frictcomp::session::StopPolicy;
+use frictcomp::interpreter::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     Axes, FileRegistry, GoldenDrift, GoldenFile, GoldenKind, GoldenResults, HostError, Input,

@@ -5,7 +5,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
-use frictcomp::timeline::{EndedBy, Record, Sink};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::timeline::{Record, Sink};
 use frictcomp_report::Report;
 use frictcomp_report::html::RunDigest;
 

@@ -16,7 +16,7 @@ use frictcomp::machine::Machine;
 use frictcomp::session::undescribed;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    ConfigurationChoice, FileRegistry, Input, LoadedMachine, MachineOptions, Machines,
+    ConfigurationChoice, Disk, FileRegistry, Input, LoadedMachine, MachineOptions, Machines,
     OutsidePolicy, read_value_list, switched_axes, unread_variables,
 };
 use frictcomp_report::{command_line, counted};
@@ -151,7 +151,7 @@ pub(super) fn undescribed_remark<'a>(
 
 /// Returns the values that a list would give the control.
 pub(super) fn value_list(path: &Path, registry: &FileRegistry) -> Result<FrictionList, Failure> {
-    let read = read_value_list(path, registry)?;
+    let read = read_value_list(path, registry, &Disk::default())?;
     let count = read.diagnostics.len();
     if count > 0 {
         let name = shown_path(path);

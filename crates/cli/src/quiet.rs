@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use super::console::DataTarget;
 use super::fail_on::FailOn;
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::timeline::{EndedBy, Record, Sink};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::timeline::{Record, Sink};
 use frictcomp_report::{Listing, ListingFormat, Report, headline};
 
 /// Lists the diagnostics that give the exit status, then the verdict.

@@ -22,7 +22,8 @@ use super::values;
 use super::watch::FileWatch;
 use frictcomp::comp::KindSet;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
-use frictcomp::session::{SearchedBlock, Session, StopPolicy, undescribed};
+use frictcomp::interpreter::{SearchedBlock, StopPolicy};
+use frictcomp::session::{Session, undescribed};
 use frictcomp_host::{
     ChangedPrograms, FileRegistry, Input, LoadedMachine, Naming, Programs, RunContext, RunSummary,
     StateFile, expect_axes, is_source, open_session, processors, run_programs, switched_axes,

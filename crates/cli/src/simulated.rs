@@ -13,7 +13,7 @@ use super::quantities;
 use super::start::StartArgs;
 use super::tool_radius::ToolArgs;
 use super::values;
-use frictcomp::session::StopPolicy;
+use frictcomp::interpreter::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     ContourSetup, FileRegistry, LoadedMachine, Naming, NoDrivenContour, find_plant,

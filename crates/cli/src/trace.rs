@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::outputs::{Outputs, write_text};
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
-use frictcomp_host::{FileRegistry, read_trace};
+use frictcomp_host::{Disk, FileRegistry, read_trace};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
 use frictcomp_report::html::render_trace;
 use frictcomp_report::pictures::channels;
@@ -52,7 +52,7 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
         time: args.time.clone(),
         ..ChannelSelection::default()
     };
-    let recording = read_trace(&args.file, |channels| {
+    let recording = read_trace(&args.file, &Disk::default(), |channels| {
         let time = selection.find(ChannelQuantity::Time, channels)?;
         Ok(Choice::all(channels, time))
     })?;

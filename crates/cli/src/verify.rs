@@ -14,7 +14,7 @@ use super::outputs::Outputs;
 use super::readings::CurrentReadingArgs;
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
-use frictcomp_host::{FileRegistry, read_axis};
+use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{Predictor, verify_followed};
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::fitted;
@@ -65,7 +65,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
         following_error: args.following_error.clone(),
         ..args.channels.selection(&args.trace, &registry)?
     };
-    let recording = read_axis(&args.trace, &selection, cycle_s)?;
+    let recording = read_axis(&args.trace, &selection, cycle_s, &Disk::default())?;
     let predictor = Predictor {
         list: &list,
         reading: args.reading.reading,

@@ -5,7 +5,7 @@
 //! [`check_drive`](frictcomp::drive_interface::check_drive) judges whether the torque reaches the drive.
 //!
 //! ```
-//! use frictcomp::SourceFile;
+//! use frictcomp::text::SourceFile;
 //! use frictcomp_drives::read_network;
 //!
 //! let eni = "<EtherCATConfig><Config><Slave><Info><Name>Drive 1</Name></Info></Slave></Config></EtherCATConfig>";

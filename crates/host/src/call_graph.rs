@@ -14,9 +14,9 @@ use super::input::{Input, Naming};
 use super::main_programs::{callers_first, may_end};
 use super::open_text::OpenText;
 use super::workers::in_order;
+use frictcomp::interpreter::NoProgram;
 use frictcomp::interpreter::{CallSite, call_sites};
 use frictcomp::machine::ConfiguredPrograms;
-use frictcomp::session::NoProgram;
 
 /// The programs of several paths and all files that they call, with their calls.
 #[derive(Debug, Default)]

@@ -10,8 +10,9 @@ use super::dry_run::{Axes, SingleRun, run_alone};
 use super::error::HostError;
 use super::input::{Input, Naming};
 use super::watch::{Done, Watch};
+use frictcomp::interpreter::Motions;
 use frictcomp::lists::FrictionList;
-use frictcomp::session::{Motions, SessionOptions};
+use frictcomp::session::SessionOptions;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_physics::contour::{
     ContourOptions, ContourSink, MovingAxes, NoContour, ProgramContour, parameterise,

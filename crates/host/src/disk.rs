@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -11,7 +11,7 @@ use super::input::reopen;
 use super::memory_disk::MemoryDisk;
 use super::open_text::OpenText;
 use super::paths::{FolderEntry, normal, or_here, relative};
-use super::read::read_bytes;
+use super::read::{open_regular, read_bytes};
 use super::shared_map::SharedMap;
 use crate::decode::decode;
 use frictcomp::text::{LineSource, TextLines};
@@ -221,6 +221,17 @@ impl Disk {
         names.sort();
         names.dedup();
         names
+    }
+
+    /// Opens a regular file, to be read piece by piece.
+    ///
+    /// # Errors
+    /// It does not exist, cannot be read, or is not a regular file.
+    pub(super) fn open(&self, path: &Path) -> io::Result<Box<dyn Read + '_>> {
+        Ok(match self.text(path) {
+            Some(text) => Box::new(text.as_bytes()),
+            None => Box::new(open_regular(path)?.0),
+        })
     }
 
     /// Reads the text of a regular file.

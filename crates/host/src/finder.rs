@@ -12,7 +12,7 @@ use super::input::{Input, Naming};
 use super::open_text::OpenText;
 use super::paths::{FolderEntry, normal, spelt_as};
 use super::registry::{FileRegistry, PROGRAM};
-use frictcomp::session::{Finder, NoProgram};
+use frictcomp::interpreter::{Finder, NoProgram};
 use frictcomp::text::SourceFile;
 
 /// Folders of called programs besides the folder of the caller.

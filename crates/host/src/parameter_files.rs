@@ -10,16 +10,20 @@ use super::registry::FileRegistry;
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ReadList, is_xml};
 use frictcomp::machine::{ListsReport, check_configuration, check_list};
-use frictcomp::text::{SourceFile, shown_path};
+use frictcomp::text::SourceFile;
 use frictcomp_physics::simulation::{Plant, Preset};
 
 /// Reads the values that a list alone would give the control.
 ///
 /// # Errors
 /// The file cannot be read, or the control would reject it.
-pub fn read_value_list(path: &Path, registry: &FileRegistry) -> Result<ReadList, HostError> {
+pub fn read_value_list(
+    path: &Path,
+    registry: &FileRegistry,
+    disk: &Disk,
+) -> Result<ReadList, HostError> {
     registry.reads("value list", path);
-    let source = SourceFile::new(shown_path(path), read_text(path)?);
+    let source = read_list(path, disk)?;
     FrictionList::read(source).map_err(|refused| HostError::ValueList {
         path: path.to_owned(),
         reason: refused.reason,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::disk::Disk;
 use super::error::HostError;
 use super::trace_error::TraceError;
 use super::traces::read_trace;
@@ -33,7 +34,7 @@ pub fn signatures_of(
     cycle_s: Option<f64>,
 ) -> Result<Vec<SignedAt>, HostError> {
     let mut motion: Option<(ChannelQuantity, Pick)> = None;
-    let recording = read_trace(path, |channels| {
+    let recording = read_trace(path, &Disk::default(), |channels| {
         let find = |quantity| selection.find(quantity, channels);
         let named = |quantity| Ok::<_, SelectError>(find(quantity)?.map(|pick| (quantity, pick)));
         motion = match named(ChannelQuantity::Position)? {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::disk::Disk;
 use super::error::HostError;
 use super::traces::read_trace;
 use frictcomp_physics::current::Switched;
@@ -19,7 +20,7 @@ pub fn switches_of(
     cycle_s: Option<f64>,
 ) -> Result<Vec<(f64, Switched)>, HostError> {
     let mut state: Option<Pick> = None;
-    let recording = read_trace(path, |channels| {
+    let recording = read_trace(path, &Disk::default(), |channels| {
         state = state_channel(selection, channels);
         let time = selection.find(ChannelQuantity::Time, channels)?;
         Ok(Choice {

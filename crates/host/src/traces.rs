@@ -1,11 +1,10 @@
 //! Recorded traces in files: which of their channels are which columns of a circle or of a commanded
 //! trace. The module `trace` handles the file layouts.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use super::disk::Disk;
 use super::error::HostError;
-use super::read::open_regular;
 use super::trace_error::TraceError;
 use frictcomp_physics::circle::{
     CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
@@ -41,14 +40,16 @@ const SCOPE_CONFIGURATION: &str = "tcscopex";
 /// The file cannot be read, is not a trace, or lacks the requested channels.
 pub fn read_trace(
     path: &Path,
+    disk: &Disk,
     choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
 ) -> Result<TraceRecording, HostError> {
-    read(path, MAX_ROWS, choose)
+    read(path, MAX_ROWS, disk, choose)
 }
 
 fn read(
     path: &Path,
     most_rows: usize,
+    disk: &Disk,
     choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
 ) -> Result<TraceRecording, HostError> {
     let problem = |problem| TraceError::Problem {
@@ -56,7 +57,6 @@ fn read(
         problem,
     };
     let failed = |error| HostError::read(path, error);
-    let (mut file, _) = open_regular(path).map_err(failed)?;
     let extension = path
         .extension()
         .map(|it| it.to_string_lossy().to_lowercase());
@@ -66,6 +66,7 @@ fn read(
     if extension.is_some_and(|it| CLOSED.contains(&it.as_str())) {
         return Err(TraceError::Closed(path.to_owned()).into());
     }
+    let mut file = disk.open(path).map_err(failed)?;
     let mut reader = TraceReader::new(most_rows, choose);
     let mut piece = vec![0; PIECE];
     loop {
@@ -92,7 +93,7 @@ pub fn read_commanded(
 ) -> Result<CommandedTrace, HostError> {
     let mut found: [Option<Pick>; 3] = [None; 3];
     let mut switch = None;
-    let recording = read(path, MAX_ROWS, |channels| {
+    let recording = read(path, MAX_ROWS, &Disk::default(), |channels| {
         let find = |quantity| selection.find(quantity, channels);
         found = [
             find(ChannelQuantity::Time)?,
@@ -242,7 +243,12 @@ pub fn read_circles(
     Circles::check(paths.len(), commanded).map_err(TraceError::Circles)?;
     let mut circles = Vec::new();
     for path in paths {
-        circles.extend(read_turns(path, channels, commanded.radius_mm)?);
+        circles.extend(read_turns(
+            path,
+            channels,
+            commanded.radius_mm,
+            &Disk::default(),
+        )?);
     }
     Ok(Circles::new(circles, commanded, centre).map_err(TraceError::Circles)?)
 }
@@ -256,8 +262,9 @@ pub fn read_turns(
     path: &Path,
     channels: &CircleChannels,
     commanded_mm: Option<f64>,
+    disk: &Disk,
 ) -> Result<Vec<RecordedCircle>, HostError> {
-    let trace = read_positions(path, channels)?;
+    let trace = read_positions(path, channels, disk)?;
     let found = RecordedCircle::find(&trace, commanded_mm);
     Ok(found.map_err(|reason| TraceError::Circle {
         path: path.to_owned(),
@@ -273,8 +280,9 @@ pub fn read_axis(
     path: &Path,
     selection: &ChannelSelection,
     cycle_s: Option<f64>,
+    disk: &Disk,
 ) -> Result<AxisRecording, HostError> {
-    read_channels(path, cycle_s, |described| {
+    read_channels(path, cycle_s, disk, |described| {
         AxisChannels::find(selection, described)
     })
 }
@@ -288,7 +296,7 @@ pub fn read_motion(
     selection: &ChannelSelection,
     cycle_s: Option<f64>,
 ) -> Result<AxisRecording, HostError> {
-    read_channels(path, cycle_s, |described| {
+    read_channels(path, cycle_s, &Disk::default(), |described| {
         AxisChannels::of_motion(selection, described)
     })
 }
@@ -296,10 +304,11 @@ pub fn read_motion(
 fn read_channels(
     path: &Path,
     cycle_s: Option<f64>,
+    disk: &Disk,
     find: impl Fn(&[Channel]) -> Result<AxisChannels, SelectError> + Send + Sync,
 ) -> Result<AxisRecording, HostError> {
     let mut channels = None;
-    let recording = read_trace(path, |described| {
+    let recording = read_trace(path, disk, |described| {
         let found = find(described)?;
         let choice = found.choice();
         channels = Some(found);
@@ -326,13 +335,17 @@ pub struct CircleChannels {
 
 /// Returns the actual positions of two axes, in the order of the rows. Times that are not in seconds are
 /// ignored.
-fn read_positions(path: &Path, wanted: &CircleChannels) -> Result<RecordedTrace, HostError> {
-    let timed = read_points(path, wanted, Times::Read);
+fn read_positions(
+    path: &Path,
+    wanted: &CircleChannels,
+    disk: &Disk,
+) -> Result<RecordedTrace, HostError> {
+    let timed = read_points(path, wanted, Times::Read, disk);
     match timed {
         Err(HostError::Trace(TraceError::Problem {
             problem: TraceProblem::Number { column, .. },
             ..
-        })) if column == "time" => read_points(path, wanted, Times::Ignored),
+        })) if column == "time" => read_points(path, wanted, Times::Ignored, disk),
         timed => timed,
     }
 }
@@ -348,9 +361,10 @@ fn read_points(
     path: &Path,
     wanted: &CircleChannels,
     times: Times,
+    disk: &Disk,
 ) -> Result<RecordedTrace, HostError> {
     let mut picks = [None; 2];
-    let recording = read(path, MAX_POINTS, |channels| {
+    let recording = read(path, MAX_POINTS, disk, |channels| {
         for (pick, (axis, name)) in picks.iter_mut().zip(["x", "y"].iter().zip(&wanted.names)) {
             let found = match name {
                 Some(name) => Some(wanted.selection.pick_named(
@@ -499,7 +513,11 @@ mod tests {
             ("z", None),
         ] {
             let text = format!("{header};y\n3;1\n4;1\n");
-            let points = read_positions(file(text.as_bytes()).path(), &CircleChannels::default());
+            let points = read_positions(
+                file(text.as_bytes()).path(),
+                &CircleChannels::default(),
+                &Disk::default(),
+            );
             let x = points.ok().map(|trace| trace.points_mm[0][0]);
             match (x, millimetres) {
                 (Some(x), Some(wanted)) => {
@@ -523,7 +541,11 @@ mod tests {
             &wide,
         ];
         for text in texts {
-            let trace = read_positions(file(text).path(), &CircleChannels::default());
+            let trace = read_positions(
+                file(text).path(),
+                &CircleChannels::default(),
+                &Disk::default(),
+            );
             let points = trace.unwrap().points_mm;
             assert_eq!(points, [[0.001, 0.002]]);
         }
@@ -579,7 +601,8 @@ mod tests {
         let said = |name: &str| {
             let path = folder.path().join(name);
             std::fs::write(&path, "<ScopeProject/>").expect("written");
-            let error = read_trace(&path, |_| panic!("no channels")).expect_err("no trace");
+            let error = read_trace(&path, &Disk::default(), |_| panic!("no channels"))
+                .expect_err("no trace");
             (error.to_string(), error.help().unwrap_or_default())
         };
         let (message, help) = said("a.svdx");

@@ -14,9 +14,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use frictcomp::comp::{AxisIndex, State};
+use frictcomp::interpreter::{Motions, NoFiles, Options};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::machine::Machine;
-use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_physics::current::{AdditiveCurrent, Commanded, Followers, Reading};

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use frictcomp::interpreter::{Motions, NoFiles, Options};
 use frictcomp::machine::Machine;
-use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 
 use crate::current::{CurrentCycle, CurrentOptions, FollowError, ProgramCurrents, axes_to_follow};

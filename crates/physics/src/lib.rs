@@ -1,6 +1,6 @@
 //! The motion of the axes in a CNC program, in numbers.
 //!
-//! The inputs are the records of a [session](frictcomp::Session), the parameters of a machine, and a plant. A
+//! The inputs are the records of a [session](frictcomp::session::Session), the parameters of a machine, and a plant. A
 //! [`motion::TrajectoryPlanner`] turns records into commanded traces, and a [`current::AdditiveCurrent`]
 //! traces into the currents that friction compensation adds; [`currents`] does both. On feed drives with
 //! friction ([`simulation`]), [`circle`] simulates and judges circular tests, and [`contour`] drives a
@@ -10,7 +10,7 @@
 //! ```
 //! use std::ops::ControlFlow;
 //!
-//! use frictcomp::{Machine, SourceFile};
+//! use frictcomp::{machine::Machine, text::SourceFile};
 //! use frictcomp_physics::current::CurrentCycle;
 //!
 //! let machine = r#"

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Code;
-use frictcomp::timeline::{AxisSummary, EndedBy};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::timeline::AxisSummary;
 
 use super::headline::{Headline, Standing};
 

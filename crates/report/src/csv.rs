@@ -4,7 +4,8 @@ use std::io::Write;
 use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Change, Kind};
-use frictcomp::timeline::{End, Join, PositionFrame, Record, Row, Sink, StateView};
+use frictcomp::interpreter::PositionFrame;
+use frictcomp::timeline::{End, Join, Record, Row, Sink, StateView};
 
 use super::output::{Gathered, Output};
 use super::strings::{KeptText, integer};

@@ -1,6 +1,6 @@
 //! The remarks on a recording, as text.
 
-use std::fmt::Write as _;
+use std::fmt::Write;
 
 use super::visible::visible_line;
 use frictcomp_recordings::identify::TraceFinding;
@@ -8,7 +8,7 @@ use frictcomp_recordings::identify::TraceFinding;
 /// Adds each finding with its severity, its code and what to do.
 pub(super) fn write_findings<'a>(
     findings: impl IntoIterator<Item = &'a TraceFinding>,
-    out: &mut String,
+    out: &mut impl Write,
 ) {
     for finding in findings {
         let _ = writeln!(

@@ -85,12 +85,12 @@ impl IdentifyReport {
 
 /// Speeds, curve and points, then the findings.
 pub fn render_text(report: &IdentifyReport) -> String {
-    format!("{}\n{}", report.headline(), report_text(report))
+    report_text(report).to_string()
 }
 
-/// Returns what follows the verdict as sentences and tables.
-pub(crate) fn report_text(report: &IdentifyReport) -> ReportText {
-    let mut out = ReportText::default();
+/// The verdict, then speeds, curve and points.
+pub fn report_text(report: &IdentifyReport) -> ReportText {
+    let mut out = ReportText::new(report.headline());
     let found = &report.identified;
     let track = &report.recording.track;
     let length = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);

@@ -4,7 +4,7 @@
 //! writer is kept and ends the dry run; a closed pipe is not an error for the caller.
 //!
 //! ```
-//! use frictcomp::{Machine, SourceFile};
+//! use frictcomp::{machine::Machine, text::SourceFile};
 //! use frictcomp_report::{Ndjson, View};
 //!
 //! let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
@@ -74,6 +74,7 @@ pub use messages::concise_line;
 pub use messages::{Listing, ListingFormat, ProgramResult, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;
+pub use report_text::ReportText;
 pub use strings::counted;
 pub use table::Table;
 pub use text::{MessageExtent, Runs, Text, TextOptions, headline};

@@ -1,6 +1,7 @@
 //! The records of chapter 9.2 as JSON objects, one after another in one buffer.
 
-use frictcomp::timeline::{EndedBy, Record, Row, States};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::timeline::{Record, Row, States};
 use serde::Serialize;
 
 use super::strings::{KeptText, append_json, append_json_text, integer};

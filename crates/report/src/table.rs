@@ -2,10 +2,12 @@
 
 use std::fmt::{self, Display};
 
+use serde::Serialize;
 use unicode_width::UnicodeWidthStr;
 
 /// Whether the cells of a column are aligned at their ends or at their beginnings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 enum Alignment {
     Left,
     Right,
@@ -13,7 +15,7 @@ enum Alignment {
 
 /// A table whose columns are as wide as their widest cell, two blanks apart, without trailing blanks. The
 /// first line has the headings, if there are any; a row may have fewer cells than there are columns.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Table {
     headings: Vec<String>,
     alignments: Vec<Alignment>,

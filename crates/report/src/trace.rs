@@ -32,12 +32,13 @@ impl TraceReport<'_> {
 
 /// The channels for people, one per line, then their oddities.
 pub fn render_text(report: &TraceReport<'_>) -> String {
-    format!("{}\n\n{}", report.headline(), report_text(report))
+    report_text(report).to_string()
 }
 
-/// Returns the channels as a table, with their oddities.
-pub(crate) fn report_text(report: &TraceReport<'_>) -> ReportText {
-    let mut out = ReportText::default();
+/// The verdict, the channels as a table, and their oddities.
+pub fn report_text(report: &TraceReport<'_>) -> ReportText {
+    let mut out = ReportText::new(report.headline());
+    out.push_str("\n");
     let recording = report.recording;
     let table = Table::of_numbers(["samples", "every ms", "length s", "least", "greatest"]);
     let mut table = table.left("unit").left("channel");

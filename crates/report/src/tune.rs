@@ -10,6 +10,7 @@ use super::diagnostics::Detail;
 use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::report_text::ReportText;
 use crate::table::Table;
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::RemainingGlitch;
@@ -127,13 +128,14 @@ pub fn render_text(reports: &[TuneReport], detail: Detail) -> String {
         if reports.len() > 1 {
             let _ = write!(out, "plant {}: ", visible_line(&report.plant));
         }
-        let _ = writeln!(out, "{}", report.headline());
-        push_report(&mut out, report, detail);
+        let _ = write!(out, "{}", report_text(report, detail));
     }
     out
 }
 
-fn push_report(out: &mut String, report: &TuneReport, detail: Detail) {
+/// The verdict, the parameters and the glitches before and after of one plant.
+pub fn report_text(report: &TuneReport, detail: Detail) -> ReportText {
+    let mut out = ReportText::new(report.headline());
     if detail == Detail::Full {
         let _ = writeln!(
             out,
@@ -151,10 +153,10 @@ fn push_report(out: &mut String, report: &TuneReport, detail: Detail) {
     }
     let [x, y] = &report.tuned.axes;
     if x == y {
-        parameters(out, "", x);
+        parameters(&mut out, "", x);
     } else {
-        parameters(out, "X: ", x);
-        parameters(out, "Y: ", y);
+        parameters(&mut out, "X: ", x);
+        parameters(&mut out, "Y: ", y);
     }
     if detail == Detail::Full {
         let _ = writeln!(
@@ -191,7 +193,9 @@ fn push_report(out: &mut String, report: &TuneReport, detail: Detail) {
             &format_args!("{:.1}", row.glitch_friction_plus20_um),
         ]);
     }
-    let _ = write!(out, "\n{table}");
+    out.push_str("\n");
+    out.table(table);
+    out
 }
 
 /// A feed or a radius with a decimal, if it has one.
@@ -199,7 +203,7 @@ fn short(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 
-fn parameters(out: &mut String, axis: &str, tuned: &TunedAxis) {
+fn parameters(out: &mut ReportText, axis: &str, tuned: &TunedAxis) {
     let line = match &tuned.compensation {
         Some(Method::Current(list)) => list_line(list, tuned),
         Some(Method::Stiction(stiction)) => stiction_line(stiction),

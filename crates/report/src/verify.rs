@@ -9,6 +9,7 @@ use super::findings::write_findings;
 use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::report_text::ReportText;
 use crate::table::Table;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::{AxisRecording, CONTACT_MM, Timing, TraceFinding, Verified};
@@ -57,8 +58,13 @@ impl VerifyReport {
 
 /// The verdict, then the figures that it is based on.
 pub fn render_text(report: &VerifyReport, detail: Detail) -> String {
+    report_text(report, detail).to_string()
+}
+
+/// The verdict, then the figures that it is based on.
+pub fn report_text(report: &VerifyReport, detail: Detail) -> ReportText {
     let verified = &report.verified;
-    let mut out = format!("{}\n", report.headline());
+    let mut out = ReportText::new(report.headline());
     for gap in &verified.not_judged {
         let _ = writeln!(
             out,
@@ -78,9 +84,11 @@ pub fn render_text(report: &VerifyReport, detail: Detail) -> String {
             &Rounded(range.scale, 3),
         ]);
     }
+    out.push_str("\n");
+    out.table(table);
     let _ = writeln!(
         out,
-        "\n{table}\nall speeds {}, offset {}, inertia {} per mm/s², residual {:.3}",
+        "\nall speeds {}, offset {}, inertia {} per mm/s², residual {:.3}",
         Rounded(verified.scale, 3),
         Rounded(verified.offset, 3),
         Rounded(verified.inertia, 6),
@@ -103,10 +111,11 @@ pub fn render_text(report: &VerifyReport, detail: Detail) -> String {
                 &Rounded(turn.predicted, 3),
             ]);
         }
-        let _ = write!(out, "\n{table}");
+        out.push_str("\n");
+        out.table(table);
         let more = verified.reversals.len().saturating_sub(SHOWN);
         if more > 0 {
-            let _ = writeln!(out, "and {more} more, in the JSON");
+            let _ = writeln!(out, "and {more} more");
         }
     }
     for remark in &report.recording.remarks {

@@ -1,3 +1,5 @@
+import type { Report as PageReport } from "../../../bindings/web/page/report";
+
 /** The answers of the language server beyond the protocol; `docs/editors.md` describes them. */
 
 /** The words of a state, as on the command line. */
@@ -53,7 +55,8 @@ export interface Contour {
   stretches: Stretch[];
   /** The worst reversals, the worst first. */
   worst: { file: number; line: number; words: string }[];
-  figures: string;
+  /** The verdict, then the figures in sentences and tables. */
+  report: PageReport;
   /** What the contour rests on, and what is missing from it. */
   remarks: string[];
 }

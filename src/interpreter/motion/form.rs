@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::comp::AxisIndex;
 use crate::interpreter::motion::contouring::Contouring;
 use crate::language::{Certainty, MotionKind, Simplifications};
-use crate::machine::SlopeProfile;
+use crate::lists::SlopeProfile;
 use crate::text::Span;
 
 /// Whether blocks report their motion.

@@ -12,8 +12,7 @@ use crate::language::{
     ChainStep, ContouringCommand, GAction, GFunction, Group, GroupSet, HashCommand, HashWords,
     Holds, OnOff, Simplification, Simplifications,
 };
-use crate::lists::ChannelSwitch;
-use crate::machine::{ChannelSettings, SlopeProfile};
+use crate::lists::{ChannelSettings, ChannelSwitch, SlopeProfile};
 
 /// Whether a position is one of the machine, and if not, what separates it from one; what separates more
 /// comes later.

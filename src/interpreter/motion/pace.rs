@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comp::AxisIndex;
 use crate::language::SlopeForm;
-use crate::machine::SlopeProfile;
+use crate::lists::SlopeProfile;
 use crate::syntax::ast::{Argument, BracketArguments};
 
 /// A programmed F.

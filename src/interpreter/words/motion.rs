@@ -19,7 +19,7 @@ use crate::language::{
     AxisAction, AxisCommand, AxisWords, Certainty, Group, HashAction, HashCommand, Holds,
     MotionKind, Moves, Simplification,
 };
-use crate::machine::AxisType;
+use crate::lists::AxisType;
 use crate::syntax::ast::{Argument, BracketArguments, Hash, SpindleWord};
 use crate::text::Span;
 

@@ -3,9 +3,9 @@
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::lists::TablePoint;
+use frictcomp::lists::{AxisType, Origin};
 use frictcomp::machine::{
-    AxisSet, AxisType, Configuration, Machine, NoLists, Origin, Parameterisation, Setting,
-    check_list,
+    AxisSet, Configuration, Machine, NoLists, Parameterisation, Setting, check_list,
 };
 use frictcomp::text::SourceFile;
 

@@ -1,8 +1,9 @@
 //! What lists give to motion and to later loads, and lists that are too long for a document.
 
 use frictcomp::diagnostic::Code;
+use frictcomp::lists::FeedUnit;
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
-use frictcomp::machine::{Axis, Configuration, FeedUnit, NoLists, check_list};
+use frictcomp::machine::{Axis, Configuration, NoLists, check_list};
 use frictcomp::text::SourceFile;
 use frictcomp_physics::current::{AdditiveCurrent, Reading};
 

@@ -8,10 +8,11 @@ mod recording;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use frictcomp::session::{Motions, Options, SessionOptions};
+use frictcomp::interpreter::{Motions, Options};
+use frictcomp::session::SessionOptions;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Axes, FileRegistry, LoadedMachine, MachineOptions, Naming, SingleRun, read_value_list,
+    Axes, Disk, FileRegistry, LoadedMachine, MachineOptions, Naming, SingleRun, read_value_list,
     run_alone,
 };
 use frictcomp_physics::current::{
@@ -129,7 +130,9 @@ impl ProgramsJob {
         let loaded = machine_of(self.machine.clone(), &self.programs, Vec::new())?;
         let mut loaded = loaded.as_ref().clone();
         let list = match &self.value_list {
-            Some(path) => Some(read_value_list(path, &FileRegistry::default())?.list),
+            Some(path) => {
+                Some(read_value_list(path, &FileRegistry::default(), &Disk::default())?.list)
+            }
             None => None,
         };
         let followed = axes_to_follow(&self.axes, &mut loaded.machine, list.as_ref())

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 use frictcomp::comp::State;
-use frictcomp_host::{FileRegistry, read_commanded, read_value_list};
+use frictcomp_host::{Disk, FileRegistry, read_commanded, read_value_list};
 use frictcomp_physics::current::{
     AdditiveCurrent, Commanded, DeadBand, Reading, Resampling, Switched, TraceOptions,
 };
@@ -108,7 +108,8 @@ fn standstill_up_to(velocity: Option<f64>) -> PyResult<DeadBand> {
 
 impl RecordingJob {
     fn done(self) -> Result<RecordingCurrents, Failure> {
-        let list = read_value_list(&self.value_list, &FileRegistry::default())?.list;
+        let list =
+            read_value_list(&self.value_list, &FileRegistry::default(), &Disk::default())?.list;
         let trace = read_commanded(&self.trace, &self.selection, self.options)?;
         let mut current = AdditiveCurrent::new(&list, self.reading);
         let (mut t, mut cycles) = (Vec::new(), AxisCycles::default());

@@ -12,7 +12,8 @@ use arrow_array::{
 use arrow_buffer::OffsetBuffer;
 use arrow_schema::{DataType, Field, Fields, Schema, SchemaRef};
 use frictcomp::comp::{AxisIndex, Kind, KindSet};
-use frictcomp::timeline::{PositionFrame, Row, StateView};
+use frictcomp::interpreter::PositionFrame;
+use frictcomp::timeline::{Row, StateView};
 
 use crate::arrow::ArrowTable;
 use crate::states;

@@ -6,7 +6,7 @@ use super::channels::ReadingArgs;
 use super::run::plan_of;
 use crate::failure::Failure;
 use crate::machine::value_list;
-use frictcomp_host::{FileRegistry, read_axis, read_motion, sha256_of};
+use frictcomp_host::{Disk, FileRegistry, read_axis, read_motion, sha256_of};
 use frictcomp_recordings::commission::{
     CirclesFound, FollowedPosition, RecordingResult, ShareOfList, Stage, recorded_apart,
     torque_of_list,
@@ -21,7 +21,7 @@ impl ReadingArgs {
         let mut followed = Vec::new();
         for (at, axis) in plan.plan.axes.iter().take(2).enumerate() {
             let channels = self.followed(&axis.name);
-            let recording = read_axis(path, &channels, cycle);
+            let recording = read_axis(path, &channels, cycle, &Disk::default());
             let Ok(recording) = recording.or_else(|_| read_motion(path, &channels, cycle)) else {
                 continue;
             };
@@ -78,7 +78,7 @@ impl ReadingArgs {
             return Ok(());
         }
         let cycle = self.cycle.seconds()?;
-        let recording = read_axis(&path, &self.followed(&used.axis), cycle).ok();
+        let recording = read_axis(&path, &self.followed(&used.axis), cycle, &Disk::default()).ok();
         let list = value_list(list, registry)?;
         let kind = self.kind.torque_kind;
         shown.shares.push(ShareOfList {

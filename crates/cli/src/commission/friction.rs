@@ -6,7 +6,7 @@ use super::channels::ReadingArgs;
 use super::recorded::RecordedProgram;
 use crate::failure::Failure;
 use crate::identify::refusal;
-use frictcomp_host::read_axis;
+use frictcomp_host::{Disk, read_axis};
 use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, actual_elsewhere};
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyOptions, Measured, RequestedPoints, Track, identify,
@@ -89,7 +89,8 @@ impl ReadingArgs {
         let mut without = self.selection(axis);
         without.torque = torque;
         // An actual position in addition to the commanded one is only a check, and may be missing here.
-        Ok(read_axis(path, &with, cycle).or_else(|_| read_axis(path, &without, cycle))?)
+        let read = |selection| read_axis(path, selection, cycle, &Disk::default());
+        Ok(read(&with).or_else(|_| read(&without))?)
     }
 
     /// Identifies the friction in the torque of one motor.

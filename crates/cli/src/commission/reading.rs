@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use super::channels::ReadingArgs;
 use super::recorded::RecordedProgram;
 use crate::failure::Failure;
-use frictcomp_host::{SignedAt, read_circles, read_motion, read_turns, signatures_of, switches_of};
+use frictcomp_host::{
+    Disk, SignedAt, read_circles, read_motion, read_turns, signatures_of, switches_of,
+};
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
@@ -236,7 +238,12 @@ impl ReadingArgs {
         plan: &Plan,
         radius: f64,
     ) -> Result<Vec<RecordedCircle>, Failure> {
-        Ok(read_turns(path, &self.circle_channels(plan), Some(radius))?)
+        Ok(read_turns(
+            path,
+            &self.circle_channels(plan),
+            Some(radius),
+            &Disk::default(),
+        )?)
     }
 
     /// Returns the circles of a recorded program.

@@ -14,7 +14,7 @@ use crate::outputs::{Outputs, write_text};
 use crate::recorded_files::{copies_among, recordings_in};
 use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
-use frictcomp_host::{FileRegistry, read_axis};
+use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
 use frictcomp_report::fitted;
 use frictcomp_report::pictures::friction_trend;
@@ -122,7 +122,12 @@ impl TrendArgs {
     ) -> Result<(DatedFriction, String), Failure> {
         let (date, day) = date_of(path).unwrap_or_default();
         let cycle = self.cycle.seconds()?;
-        let recording = read_axis(path, &self.channels.selection(path, registry)?, cycle)?;
+        let recording = read_axis(
+            path,
+            &self.channels.selection(path, registry)?,
+            cycle,
+            &Disk::default(),
+        )?;
         let options = IdentifyOptions {
             measured: self.torque.measured(recording.measured),
             ..IdentifyOptions::default()

@@ -14,7 +14,7 @@ use crate::outputs::{Outputs, write_text};
 use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
-use frictcomp_host::{FileRegistry, OutputFile, read_axis};
+use frictcomp_host::{Disk, FileRegistry, OutputFile, read_axis};
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, Measured, RequestedPoints, Track,
     identify_measured_circles,
@@ -52,6 +52,7 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
             path,
             &args.channels.selection(path, &registry)?,
             cycle,
+            &Disk::default(),
         )?)
     };
     if args.circles {

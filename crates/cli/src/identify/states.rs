@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
-use frictcomp_host::{FileRegistry, read_axis};
+use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
 use frictcomp_report::fitted;
 use frictcomp_report::pictures::friction_states;
@@ -43,7 +43,12 @@ pub(super) fn run(
     refuse_copies(&paths)?;
     let cycle = args.cycle.seconds()?;
     let states = args.recording.iter().map(|(name, path)| {
-        let recording = read_axis(path, &args.channels.selection(path, &registry)?, cycle)?;
+        let recording = read_axis(
+            path,
+            &args.channels.selection(path, &registry)?,
+            cycle,
+            &Disk::default(),
+        )?;
         Ok((name.clone(), args.identified(path, recording, options)?))
     });
     let states = states.collect::<Result<Vec<_>, Failure>>()?;

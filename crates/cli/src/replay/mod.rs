@@ -17,7 +17,7 @@ use super::outputs::Outputs;
 use super::result::{ResultArgs, ResultFormat};
 use super::simulated::Tolerance;
 use super::start::StartArgs;
-use frictcomp::session::StopPolicy;
+use frictcomp::interpreter::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
 use frictcomp_host::{FileRegistry, Input};

@@ -16,7 +16,7 @@ use crate::machine::MachineArgs;
 use crate::outputs::Outputs;
 use crate::painted::parts;
 use crate::result::ResultArgs;
-use frictcomp::session::NoProgram;
+use frictcomp::interpreter::NoProgram;
 use frictcomp_host::{
     CallGraph, FileRegistry, GraphProgram, MissingCall, find_programs, processors,
 };

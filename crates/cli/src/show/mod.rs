@@ -8,7 +8,7 @@ use clap::Subcommand;
 
 use super::console::Console;
 use super::failure::Failure;
-use frictcomp::session::NoteKind;
+use frictcomp::interpreter::NoteKind;
 
 /// Show what is there: files, calls, values, words passed over
 #[derive(Debug, Subcommand)]

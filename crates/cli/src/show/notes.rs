@@ -16,7 +16,8 @@ use crate::folders::FolderArgs;
 use crate::machine::MachineArgs;
 use crate::outputs::Outputs;
 use crate::result::{RecordsFormat, ResultArgs};
-use frictcomp::session::{Findings, NoteKind, Notes};
+use frictcomp::interpreter::{NoteKind, Notes};
+use frictcomp::session::Findings;
 use frictcomp::text::{Position, shown_json};
 use frictcomp_host::{
     Axes, FileRegistry, Input, LoadedMachine, Naming, SingleRun, find_programs, run_alone,

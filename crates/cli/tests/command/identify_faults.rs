@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use crate::folder::answer;
 use crate::workspace::root;
 use frictcomp::diagnostic::Code;
-use frictcomp_host::read_axis;
+use frictcomp_host::{Disk, read_axis};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{
     Identified, IdentifyError, IdentifyOptions, Measured, TorqueKind, Track, identify,
@@ -24,7 +24,7 @@ fn demo() -> Track {
         torque: Some("ActTorque".to_owned()),
         ..ChannelSelection::default()
     };
-    let axis = read_axis(&root().join(DEMO), &selection, None).expect("an axis");
+    let axis = read_axis(&root().join(DEMO), &selection, None, &Disk::default()).expect("an axis");
     assert_eq!(axis.measured.kind, Some(TorqueKind::Actual));
     axis.track
 }

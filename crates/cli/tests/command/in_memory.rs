@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 use crate::folder::call;
 use crate::workspace::root;
-use frictcomp::session::{Limits, Options, SessionOptions};
+use frictcomp::interpreter::{Limits, Options};
+use frictcomp::session::SessionOptions;
 use frictcomp_host::decode;
 use frictcomp_host::{
     Axes, Disk, FileRegistry, FolderSelection, HostError, Input, MachineOptions, Machines, Naming,

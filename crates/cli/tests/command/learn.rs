@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use crate::folder::{answer, call, document};
 use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
-use frictcomp_host::{FileRegistry, Watch, read_value_list, tune};
+use frictcomp_host::{Disk, FileRegistry, Watch, read_value_list, tune};
 use frictcomp_physics::circle::TooMuchCurrent;
 use frictcomp_physics::simulation::plant_list;
 use frictcomp_testing::layouts::{
@@ -67,7 +67,8 @@ impl Bench {
     }
 
     fn list(&self, name: &str) -> FrictionList {
-        let read = read_value_list(&self.path(name), &FileRegistry::default()).expect("a list");
+        let read = read_value_list(&self.path(name), &FileRegistry::default(), &Disk::default())
+            .expect("a list");
         assert!(read.diagnostics.is_empty(), "{name}");
         read.list
     }

@@ -94,7 +94,7 @@ fn a_control_of_either_kind_is_read_rightly() {
             assert!(written.starts_with(MACHINE), "{written}");
             let line = format!("\"{}\" = \"{name}\"", facts.rule);
             assert!(written.contains(&line), "{written}");
-            let readings = frictcomp::Machine::from_toml(&written)
+            let readings = frictcomp::machine::Machine::from_toml(&written)
                 .expect("TOML")
                 .readings;
             let confirmed = readings.confirmation(question).expect("a confirmation");

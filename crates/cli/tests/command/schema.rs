@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::folder::{Bench, json};
 use crate::workspace::{files, root};
-use frictcomp::SourceFile;
 use frictcomp::machine::{Configuration, NoLists};
+use frictcomp::text::SourceFile;
 use frictcomp_physics::simulation::Plant;
 use jsonschema::Validator;
 use serde_json::Value;

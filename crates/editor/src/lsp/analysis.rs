@@ -11,8 +11,10 @@ use super::wording::editor;
 use super::worker::Cancel;
 use frictcomp::comp::{CncBuild, State};
 use frictcomp::diagnostic::{Code, Diagnostic};
-use frictcomp::session::{Findings, Limits, Options, SessionOptions, StopPolicy};
-use frictcomp::timeline::{EndedBy, Record, Sink};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::interpreter::{Limits, Options, StopPolicy};
+use frictcomp::session::{Findings, SessionOptions};
+use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
     AllowedRoots, Axes, Disk, FileRegistry, HostError, Input, LoadedMachine, MachineOptions,
     Machines, Naming, SingleRun, check_list_file, run_alone,

@@ -12,7 +12,8 @@ use super::uri::path_of;
 use super::view::RequestView;
 use super::wording::editor;
 use frictcomp::comp::{Kind, KindSet};
-use frictcomp::session::{Options, SessionOptions};
+use frictcomp::interpreter::Options;
+use frictcomp::session::SessionOptions;
 use frictcomp::text::{LineSource, shown_path};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{

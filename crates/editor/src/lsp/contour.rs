@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use gen_lsp_types::{LspRequestMethod, MessageDirection, Request, TextDocumentIdentifier, Uri};
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use super::analysis::options;
 use super::documents::{Document, Documents};
@@ -22,10 +23,10 @@ use frictcomp_host::{
 use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::{FrictionModel, Preset};
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, render_text};
+use frictcomp_report::Detail;
+use frictcomp_report::contour::{ContourRecorder, ContourSubject, report_text};
 use frictcomp_report::pictures::{ContourPicture, FollowedContour};
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{Detail, FALLBACK_WIDTH, fitted};
 
 /// Cycles of the control that are driven as the user types: half an hour of cycles of 1 ms.
 const MOST_CYCLES: u64 = 2_000_000;
@@ -59,8 +60,8 @@ pub(super) struct Contour {
     stretches: Vec<BlockPath>,
     /// The worst reversals, the worst first.
     worst: Vec<Worst>,
-    /// The figures, as on the command line.
-    figures: String,
+    /// The verdict, then the figures in sentences and tables.
+    report: Value,
     /// What the contour is based on, and what it lacks.
     remarks: Vec<String>,
 }
@@ -129,12 +130,9 @@ pub(super) fn contour(view: &RequestView, params: &ContourParams) -> Result<Cont
     let has_moved = driven.machine_time_s() > 0.0;
     let heading = subject.heading(&driven);
     let picture = driven.sink().take_picture().filter(|_| has_moved);
-    let figures = fitted(
-        &render_text(&mut driven, &subject, Detail::Full),
-        FALLBACK_WIDTH,
-    );
+    let report = json!(report_text(&mut driven, &subject, Detail::Full));
     let shown = picture.map(|picture| picture.followed(&heading));
-    Ok(Contour::of(view, shown, (figures, remarks)))
+    Ok(Contour::of(view, shown, (report, remarks)))
 }
 
 fn name(document: &Document) -> String {
@@ -225,14 +223,14 @@ impl Contour {
     fn of(
         view: &RequestView,
         shown: Option<FollowedContour>,
-        (figures, remarks): (String, Vec<String>),
+        (report, remarks): (Value, Vec<String>),
     ) -> Self {
         let mut contour = Self {
             svg: None,
             files: Vec::new(),
             stretches: Vec::new(),
             worst: Vec::new(),
-            figures,
+            report,
             remarks,
         };
         let Some(shown) = shown else {

@@ -10,7 +10,7 @@ use super::documents::{Document, Kind};
 use super::encoding::whole_line;
 use super::hints::left;
 use super::view::RequestView;
-use frictcomp::session::Options;
+use frictcomp::interpreter::Options;
 use frictcomp::text::shown_path;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, MachineOptions, Machines};
 

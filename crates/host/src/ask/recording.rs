@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::answers::{Answer, AnswerVerdict};
 use super::axis::AskedAxis;
+use crate::disk::Disk;
 use crate::error::HostError;
 use crate::replay::axis_of;
 use crate::trace_error::TraceError;
@@ -67,7 +68,7 @@ pub fn read_recorded_answers(
     asked: RecordedQuestions<'_>,
 ) -> Result<Vec<Answer>, HostError> {
     let mut found = AskedChannels::default();
-    let recording = read_trace(path, |described| {
+    let recording = read_trace(path, &Disk::default(), |described| {
         found = asked.find(described)?;
         let time = asked.selection.find(ChannelQuantity::Time, described)?;
         let values = found.motion.into_iter().chain([found.current]).flatten();

@@ -13,11 +13,12 @@ use crate::input::{Input, Naming};
 use crate::switched_axes::switched_axes;
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+use frictcomp::interpreter::{EndedBy, PositionFrame};
 use frictcomp::readings::{Basis, Question};
 use frictcomp::session::{Session, SessionOptions};
 use frictcomp::syntax::ast::{Address, Block, Item, Word};
 use frictcomp::syntax::parse_block;
-use frictcomp::timeline::{EndedBy, PositionFrame, Record, Row, StateView};
+use frictcomp::timeline::{Record, Row, StateView};
 
 /// Largest number of executed blocks; they are kept until the recording is compared with them.
 const MAX_STEPS: usize = 4_000_000;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::disk::Disk;
 use crate::error::HostError;
 use crate::trace_error::TraceError;
 use crate::traces::{lacks, numbers_of, position_column, read_trace};
@@ -115,7 +116,7 @@ pub fn read_states(
     machine: &Machine,
 ) -> Result<StateRecording, HostError> {
     let mut found = RecordedChannels::default();
-    let recording = read_trace(path, |described| {
+    let recording = read_trace(path, &Disk::default(), |described| {
         found = channels.find(described, machine)?;
         let time = channels.selection.find(ChannelQuantity::Time, described)?;
         let axes = found.axes.iter();

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use frictcomp::diagnostic::Code;
-use frictcomp_host::read_axis;
+use frictcomp_host::{Disk, read_axis};
 use frictcomp_physics::simulation::{
     Drive, FrictionModel, POSITION_LOOP_S, Preset, SPEED_LOOP_S, STEP_S, Setpoint,
 };
@@ -110,7 +110,7 @@ fn the_recording_is_that_of_the_plant() {
         torque: Some("0x10017".to_owned()),
         ..ChannelSelection::default()
     };
-    let axis = read_axis(Path::new(FRICTION), &selection, None).expect("an axis");
+    let axis = read_axis(Path::new(FRICTION), &selection, None, &Disk::default()).expect("an axis");
     assert!(axis.findings.is_empty(), "{:?}", axis.findings);
     let found = identify(&axis.track, &IdentifyOptions::default()).expect("friction");
     let friction = &Preset::Stiff.plant().x.friction;
@@ -136,7 +136,7 @@ fn a_unit_that_nobody_names_is_said() {
         ..ChannelSelection::default()
     };
     let said = |selection: &ChannelSelection| {
-        let axis = read_axis(&file, selection, None).expect("an axis");
+        let axis = read_axis(&file, selection, None, &Disk::default()).expect("an axis");
         let findings = axis.findings.into_iter();
         findings.map(|it| (it.code, it.message)).collect::<Vec<_>>()
     };

@@ -8,7 +8,7 @@
 //! ```
 //! use frictcomp::comp::{Kind, KindSet};
 //! use frictcomp_physics::compare::{Agreement, Version, VersionComparison};
-//! use frictcomp::{Machine, SourceFile};
+//! use frictcomp::{machine::Machine, text::SourceFile};
 //!
 //! let version = |text: &str| {
 //!     let mut version = Version::new(KindSet::of(Kind::Frict));

@@ -7,7 +7,8 @@ use super::obstacle::{Obstacle, Reason};
 use super::switch::Switch;
 use frictcomp::comp::{Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic};
-use frictcomp::timeline::{EndedBy, Record, Row, Sink};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::timeline::{Record, Row, Sink};
 
 /// Switches of one version of a program: a sink for the records of a session that runs it.
 #[derive(Debug, Clone)]

@@ -114,7 +114,7 @@ pub fn axes_to_follow(
 }
 
 /// Makes currents from the rows of a session, which must include the motions of blocks
-/// ([`Motions::Taken`](frictcomp::session::Motions::Taken)).
+/// ([`Motions::Taken`](frictcomp::interpreter::Motions::Taken)).
 pub struct ProgramCurrents<S> {
     trace: ProgramTrace<Cycles<S>>,
     /// The open questions on the currents of the lists.

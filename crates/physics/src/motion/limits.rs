@@ -1,7 +1,8 @@
 //! The limits of each axis, and the values assumed where the configuration has none.
 
 use super::trace::Movement;
-use frictcomp::machine::{Axis, AxisType, Machine, SlopeProfile};
+use frictcomp::lists::{AxisType, SlopeProfile};
+use frictcomp::machine::{Axis, Machine};
 
 /// The bounds of one axis: mm or degrees, per second.
 #[derive(Debug, Clone, Copy, PartialEq)]

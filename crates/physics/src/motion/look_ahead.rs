@@ -12,7 +12,7 @@ use super::segment::PathSegment;
 use super::share::Share;
 use super::trace::{Dwell, Movement, TraceSink};
 use frictcomp::interpreter::BlockEnd;
-use frictcomp::machine::SlopeProfile;
+use frictcomp::lists::SlopeProfile;
 
 /// Number of segments planned together. The path is planned to a stop after the last one; half of
 /// the plan is kept, the rest is planned again when more segments are known.

@@ -20,7 +20,8 @@ use frictcomp::timeline::{Record, Sink};
 ///
 /// use frictcomp::machine::Machine;
 /// use frictcomp_physics::motion::{Cause, PlannerOptions, ProgramTrace, Sample, TraceSink};
-/// use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
+/// use frictcomp::interpreter::{Motions, NoFiles, Options};
+/// use frictcomp::session::{Program, Session, SessionOptions};
 /// use frictcomp::text::SourceFile;
 ///
 /// /// The highest velocity of the path, and the line where it is reached.

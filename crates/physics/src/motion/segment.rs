@@ -9,7 +9,7 @@ use super::profile::{Bounds, RampForm};
 use super::share::Share;
 use super::trace::Cause;
 use frictcomp::interpreter::{BlockEnd, CircularArc, SAME_PLACE};
-use frictcomp::machine::SlopeProfile;
+use frictcomp::lists::SlopeProfile;
 
 /// Share of the acceleration for the circle itself: the rest speeds up and slows down.
 const CIRCLE_ACCELERATION: f64 = 0.9;

@@ -8,7 +8,7 @@ use super::request::{Installed, MeasuredAxis, PlanRequest};
 use super::room::Room;
 use super::runs::{RoomPrograms, circle_radius};
 use super::signature::Signature;
-use frictcomp::machine::AxisType;
+use frictcomp::lists::AxisType;
 
 /// The fewest and the most feeds of a plan.
 const FEEDS: std::ops::RangeInclusive<usize> = 4..=12;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use frictcomp::machine::AxisType;
+use frictcomp::lists::AxisType;
 
 /// Requirements on a plan, and the machine that it is made for.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use frictcomp::diagnostic::{Code, UnknownCode};
+use frictcomp::interpreter::EndedBy;
 use frictcomp::machine::AxisSet;
-use frictcomp::timeline::EndedBy;
 
 /// Assumptions about one subject.
 #[derive(Debug, Clone, Deserialize)]

@@ -9,4 +9,4 @@ pub use csv::render_csv;
 pub use json::render_json;
 pub use subject::{CircleReport, ListOrigin, NamedSide, Subject};
 pub(super) use text::{advice_lines, conditions, stiction_line, table};
-pub use text::{render_text, words};
+pub use text::{render_text, report_text, words};

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::super::assumptions::{not_modelled, not_modelled_line};
 use super::super::diagnostics::Detail;
+use super::super::report_text::ReportText;
 use super::super::stiction::guideline;
 use super::super::table::Table;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
@@ -17,7 +18,12 @@ use frictcomp_physics::stiction::StictionParameters;
 
 /// The report for people: the verdict, then the figures.
 pub fn render_text(report: &CircleReport, detail: Detail) -> String {
-    let mut out = format!("{}\n", report.headline());
+    report_text(report, detail).to_string()
+}
+
+/// The verdict, then the figures and what the shapes suggest.
+pub fn report_text(report: &CircleReport, detail: Detail) -> ReportText {
+    let mut out = ReportText::new(report.headline());
     let shown = match &report.subject {
         Subject::Recorded(recording) => recorded_conditions(recording),
         Subject::Simulated {
@@ -27,23 +33,8 @@ pub fn render_text(report: &CircleReport, detail: Detail) -> String {
     for line in detail.full(conditions(report)).unwrap_or(shown) {
         let _ = writeln!(out, "{line}");
     }
-    let columns = columns(report);
-    let mut table = columns
-        .iter()
-        .map(PathColumn::name)
-        .fold(Table::default().left("µm"), Table::right);
-    let decimals = match report.subject {
-        Subject::Simulated { .. } => SIMULATED,
-        Subject::Recorded(_) => RECORDED,
-    };
-    for row in figure_rows(&columns) {
-        table.cells(row.cells(decimals));
-    }
-    table.cells(Vec::new());
-    for row in shape_rows(&columns) {
-        table.cells(row.cells(decimals));
-    }
-    let _ = write!(out, "\n{table}");
+    out.push_str("\n");
+    out.table(table(report));
     for side in &report.sides {
         let lines = advice_lines(report, side);
         if !lines.is_empty() {
@@ -60,30 +51,32 @@ pub fn render_text(report: &CircleReport, detail: Detail) -> String {
 const SIMULATED: usize = 1;
 const RECORDED: usize = 3;
 
-/// The figures of all paths, in µm.
-pub(crate) struct FigureTable {
-    /// `off ccw`, `on cw`.
-    pub(crate) columns: Vec<String>,
-    /// The figures of ISO 230-4, then the glitches.
-    pub(crate) rows: Vec<FigureRow>,
-}
-
 /// One figure of all paths.
-pub(crate) struct FigureRow {
-    pub(crate) name: String,
+struct FigureRow {
+    name: String,
     /// One per path; a figure of both directions is in the first column of its side.
-    pub(crate) values: Vec<Option<f64>>,
+    values: Vec<Option<f64>>,
 }
 
-/// The figures as a table.
-pub(crate) fn table(report: &CircleReport) -> FigureTable {
+/// The figures of ISO 230-4, then the glitches, in µm.
+pub(crate) fn table(report: &CircleReport) -> Table {
     let columns = columns(report);
-    let mut rows = figure_rows(&columns);
-    rows.extend(shape_rows(&columns));
-    FigureTable {
-        columns: columns.iter().map(PathColumn::name).collect(),
-        rows,
+    let mut table = columns
+        .iter()
+        .map(PathColumn::name)
+        .fold(Table::default().left("µm"), Table::right);
+    let decimals = match report.subject {
+        Subject::Simulated { .. } => SIMULATED,
+        Subject::Recorded(_) => RECORDED,
+    };
+    for row in figure_rows(&columns) {
+        table.cells(row.cells(decimals));
     }
+    table.cells(Vec::new());
+    for row in shape_rows(&columns) {
+        table.cells(row.cells(decimals));
+    }
+    table
 }
 
 /// One path of the table.
@@ -161,7 +154,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
     let degrees = ReadableNumber((shape?.window_deg * 10.0).round() / 10.0);
     let time = match report.driven().1 {
         Some(_) => "the larger of 8\u{b0} and 0.3 s",
-        None => "of an unknown feed; give `--feed` or a column `t`",
+        None => "of an unknown feed, which the feed or a column `t` gives",
     };
     Some(format!(
         "glitch: from 8\u{b0} before to {degrees}\u{b0} after a crossing, {time}; less the ellipse \
@@ -304,7 +297,7 @@ fn unit_force(test: &CircularTest) -> String {
 fn recorded_conditions(recording: &Recording) -> Vec<String> {
     let commanded = match recording.commanded.radius_mm {
         Some(radius) => format!("commanded diameter {} mm", 2.0 * radius),
-        None => "commanded diameter unknown (`--radius` for F and D)".to_owned(),
+        None => "commanded diameter unknown, which F and D need".to_owned(),
     };
     let mut lines = vec![format!("circular test, recorded: {commanded}")];
     for circle in &recording.circles {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::summary::{PlanReport, minutes};
 use super::words::told;
-use frictcomp::machine::AxisType;
+use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{Installed, Stage};
 
 /// One page in ASCII letters, at most 78 columns wide: the programs, and how to run and record them.

@@ -11,7 +11,7 @@ use crate::headline::{Headline, Standing};
 use crate::strings::{counted, to_pretty};
 use crate::table::Table;
 use crate::visible::visible_line;
-use frictcomp::machine::AxisType;
+use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{
     BeforeAfter, FrictionFound, Plan, PlantFound, RecordingOutcome, RecordingResult, Shows, Stage,
 };

@@ -15,5 +15,4 @@ pub use golden::{GoldenContour, agreed_contour};
 pub use recorder::ContourRecorder;
 pub use records::{CSV_HEADER, csv_row, reversal_record};
 pub use remarks::{contour_remarks, exceeded, why_not_judged};
-pub(crate) use text::report_text;
-pub use text::{ContourSubject, headline, render_text};
+pub use text::{ContourSubject, headline, render_text, report_text};

@@ -122,20 +122,16 @@ pub fn render_text(
     subject: &ContourSubject,
     detail: Detail,
 ) -> String {
-    format!(
-        "{}\n{}",
-        headline(contour),
-        report_text(contour, subject, detail)
-    )
+    report_text(contour, subject, detail).to_string()
 }
 
-/// Returns what follows the verdict as sentences and tables.
-pub(crate) fn report_text(
+/// The verdict, then the figures and the reversals.
+pub fn report_text(
     contour: &mut ProgramContour<ContourRecorder<'_>>,
     subject: &ContourSubject,
     detail: Detail,
 ) -> ReportText {
-    let mut out = ReportText::default();
+    let mut out = ReportText::new(headline(contour));
     let axes = &contour.options().axes;
     let _ = writeln!(
         out,

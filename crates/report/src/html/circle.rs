@@ -5,11 +5,11 @@ use std::io::{self, Write};
 use maud::{Markup, html};
 
 use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, with_code};
+use super::parts::{figure, text_table, with_code};
 use crate::circle::{CircleReport, Subject, advice_lines, conditions, table};
 use crate::pictures::{circle, value_curve};
+use crate::report_text::CaptionedTable;
 use crate::svg::Frame;
-use frictcomp::diagnostic::Rounded;
 use frictcomp::lists::{AxisType, FrictionList};
 use frictcomp::machine::AcceptedList;
 use frictcomp_physics::circle::Method;
@@ -34,7 +34,11 @@ pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<(
     }
     let mut page = Page::open(out, &chart.title, &report.headline(), &parts)?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("circle"))))?;
-    page.part(FIGURES, &figures(report))?;
+    let figures = CaptionedTable {
+        caption: Some("Figures of ISO 230-4 and glitches at reversals"),
+        table: &table(report),
+    };
+    page.part(FIGURES, &text_table(figures))?;
     page.part(ADVICE, &advice(report))?;
     if !lists.is_empty() {
         page.part(CURVES, &curves(&lists))?;
@@ -44,25 +48,6 @@ pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<(
         &html! { @for line in &told { p { (with_code(line)) } } },
     )?;
     page.close()
-}
-
-fn figures(report: &CircleReport) -> Markup {
-    let figures = table(report);
-    let names = figures.columns.iter();
-    let mut columns = vec![ColumnHeading::Text("figure")];
-    columns.extend(names.map(|name| ColumnHeading::Number(name)));
-    let table = HtmlTable {
-        caption: Caption::Shown("Figures of ISO 230-4 and glitches at reversals, in µm"),
-        columns: &columns,
-    };
-    table.render(figures.rows.iter().map(|row| {
-        let values = row.values.iter();
-        let shown = values.map(|value| value.map(|value| Rounded(value, 3).to_string()));
-        let cells: Vec<Markup> = shown
-            .map(|value| html! { @if let Some(it) = value { (it) } })
-            .collect();
-        HtmlRow::new(&row.name, cells)
-    }))
 }
 
 fn advice(report: &CircleReport) -> Markup {

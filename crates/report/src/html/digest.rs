@@ -10,11 +10,12 @@ use crate::lists::selector_origin;
 use crate::svg::StartUpRelation;
 use frictcomp::comp::{AxisIndex, Change, CncBuild, Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+use frictcomp::interpreter::EndedBy;
 use frictcomp::lists::AxisType;
 use frictcomp::machine::{AcceptedList, AxisSet, Parameterisation};
 use frictcomp::readings::Readings;
 use frictcomp::text::{Place, Position};
-use frictcomp::timeline::{AxisSummary, End, EndedBy, Join, Record, Row, Sink, StateView, Summary};
+use frictcomp::timeline::{AxisSummary, End, Join, Record, Row, Sink, StateView, Summary};
 
 /// Number of characters shown of a source line.
 pub(super) const LINE_ROOM: usize = 400;

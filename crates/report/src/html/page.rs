@@ -25,8 +25,8 @@ const HEAD: &str = concat!(
     "\"/>\n",
 );
 
-/// The style of a page.
-const STYLE: &str = include_str!("style.css");
+/// The style of states, and that of a page.
+const STYLE: &str = concat!(include_str!("../states.css"), include_str!("style.css"));
 
 /// A page that is being written.
 pub(super) struct Page<'a> {

@@ -2,9 +2,8 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::report_text::{ReportPart, ReportText};
+use crate::report_text::{CaptionedTable, ReportBlock, ReportText};
 use crate::svg::StartUpRelation;
-use crate::table::Table;
 use frictcomp::comp::State;
 
 /// A table with a heading in each row.
@@ -124,41 +123,20 @@ pub(super) fn with_code(text: &str) -> Markup {
     }
 }
 
-/// Renders a report: its lines as paragraphs, a line before a table as its caption.
+/// Renders what follows the verdict of a report: lines as paragraphs, and tables.
 pub(super) fn prose(text: &ReportText) -> Markup {
-    let parts = text.parts();
     html! {
-        @for (at, part) in parts.iter().enumerate() {
-            @match part {
-                ReportPart::Lines(lines) => {
-                    @let tabled = matches!(parts.get(at + 1), Some(ReportPart::Table(_)));
-                    @let caption = caption(lines).filter(|_| tabled);
-                    @let lines = lines.trim_end_matches('\n');
-                    @let lines = caption.map_or(lines, |it| lines.strip_suffix(it).unwrap_or(lines));
-                    @for line in lines.lines().filter(|line| !line.trim().is_empty()) {
-                        p { (with_code(line.trim())) }
-                    }
-                }
-                ReportPart::Table(table) => {
-                    @let before = at.checked_sub(1).and_then(|it| parts.get(it));
-                    @let caption = match before {
-                        Some(ReportPart::Lines(lines)) => caption(lines),
-                        _ => None,
-                    };
-                    (text_table(table, caption))
-                }
+        @for block in text.blocks() {
+            @match block {
+                ReportBlock::Line(line) => p { (with_code(line.trim())) },
+                ReportBlock::Table(captioned) => (text_table(captioned)),
             }
         }
     }
 }
 
-/// Returns the last line of a text if it stands right above what follows.
-fn caption(lines: &str) -> Option<&str> {
-    let above = lines.strip_suffix('\n').filter(|it| !it.ends_with('\n'))?;
-    above.lines().next_back()
-}
-
-fn text_table(table: &Table, caption: Option<&str>) -> Markup {
+/// Renders a table of a report; empty rows only part others in a terminal.
+pub(super) fn text_table(CaptionedTable { caption, table }: CaptionedTable<'_>) -> Markup {
     let columns: Vec<ColumnHeading<'_>> = table
         .headings()
         .map(|(name, is_number)| {
@@ -174,7 +152,8 @@ fn text_table(table: &Table, caption: Option<&str>) -> Markup {
         caption: caption.map_or(Caption::Heard(first), Caption::Shown),
         columns: &columns,
     };
-    shown.render(table.rows().iter().map(|row| {
+    let rows = table.rows().iter().filter(|row| !row.is_empty());
+    shown.render(rows.map(|row| {
         let cells: Vec<Markup> = row[1..].iter().map(|cell| with_code(cell)).collect();
         HtmlRow::new(&row[0], cells)
     }))

@@ -21,9 +21,13 @@ pub fn circle(report: &CircleReport) -> PolarChart {
             "off" | "on" => format!("compensation {}", side.name),
             name => name.to_owned(),
         };
-        let paths = side.side.paths.iter();
-        let series = paths.map(|(direction, profile)| PolarSeries {
-            name: format!("{name} (clockwise in fine dashes)"),
+        let paths = &side.side.paths;
+        let dashes = match paths.get(Direction::Cw) {
+            Some(_) => " (clockwise in fine dashes)",
+            None => "",
+        };
+        let series = paths.iter().map(|(direction, profile)| PolarSeries {
+            name: format!("{name}{dashes}"),
             look: match side.name {
                 "on" => 0,
                 "off" => 1,

@@ -3,6 +3,7 @@
 use super::bands::{self, BandRow, BandRows};
 use super::canvas::{
     Anchor, Area, Canvas, Head, MARGIN, PictureRole, SERIES, WIDTH, curve_class, text_width,
+    widest_text,
 };
 use super::frame::Frame;
 use super::legend::{Legend, LegendSample};
@@ -173,8 +174,10 @@ impl LineChart {
             .map(|panel| panel.scale(self.ticks()))
             .collect();
         let labels = y.iter().flat_map(|scale| &scale.ticks);
-        let widest = labels.map(|(_, text)| text_width(text)).fold(0.0, f64::max);
-        let left = (widest + 22.0).max(MIN_LEFT).max(if self.bands.is_empty() {
+        let widest = labels
+            .map(|(_, text)| widest_text(text))
+            .fold(0.0, f64::max);
+        let left = (widest + 12.0).max(MIN_LEFT).max(if self.bands.is_empty() {
             0.0
         } else {
             MARGIN + bands::label_width(&self.bands)

@@ -105,6 +105,9 @@ pub(super) struct Scale {
     pub(super) ticks: Vec<(f64, String)>,
 }
 
+/// A range that no unit of a machine resolves: values differ only by rounding.
+const NOTHING: f64 = 1e-12;
+
 /// Maximum number of ticks.
 const MAX_TICKS: u32 = 60;
 
@@ -134,9 +137,8 @@ impl Scale {
         if spacing == Spacing::LogarithmicFromZero && low >= 0.0 && bend > 1e-300 && bend < high {
             return Self::logarithmic_from_zero(bend, high);
         }
-        if high - low <= (low.abs().max(high.abs()) * 1e-9).max(1e-300) {
-            // Next to the smallest numbers nothing can be distinguished.
-            let is_zero = low.abs() < 1e-290;
+        if high - low <= (low.abs().max(high.abs()) * 1e-9).max(NOTHING) {
+            let is_zero = low.abs() <= NOTHING;
             let room = if is_zero { 1.0 } else { low.abs() * 0.1 };
             (low, high) = (low - room, high + room);
         }
@@ -343,6 +345,19 @@ mod tests {
         assert!((minutes.share(6.0) - scale.share(100.0)).abs() < 1e-12);
         assert!((minutes.share(600.0) - scale.share(10_000.0)).abs() < 1e-12);
         assert_eq!(minutes.ticks[0].1, "0");
+    }
+
+    #[test]
+    fn rounding_has_no_scale_of_its_own() {
+        // R18.25
+        let values = [-1e-30, 0.0, 2e-17].into_iter();
+        let scale = Scale::over(values, Spacing::Linear, Ends::Round, 5);
+        let labels: Vec<&str> = scale
+            .ticks
+            .iter()
+            .map(|(_, label)| label.as_str())
+            .collect();
+        assert_eq!(labels.first(), Some(&"−1.0"), "{labels:?}");
     }
 
     #[test]

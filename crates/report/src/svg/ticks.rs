@@ -1,6 +1,6 @@
 //! The x axis of a chart: its line, and the values at its ticks.
 
-use super::canvas::{Anchor, Canvas, WIDTH, text_width};
+use super::canvas::{Anchor, Canvas, WIDTH, widest_text};
 use super::scale::Scale;
 
 /// The room between the values.
@@ -29,7 +29,7 @@ pub(super) fn draw_ticks(
     for (value, text) in &scale.ticks {
         let x = left + scale.share(*value) * width;
         canvas.line("fc-axis", (x, y.min(tick)), (x, y.max(tick)));
-        let half = text_width(text) / 2.0;
+        let half = widest_text(text) / 2.0;
         // The last value would be cut off at the edge.
         let middle = x.min(WIDTH - half - 4.0);
         if middle - half > free {

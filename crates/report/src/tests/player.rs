@@ -5,10 +5,11 @@ use std::ops::ControlFlow;
 
 use frictcomp::comp::{Change, Compensation, Kind, KindSet, Selection};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+use frictcomp::interpreter::{EndedBy, Modal};
 use frictcomp::machine::{AxisSet, Machine};
 use frictcomp::text::{SourceFile, Span};
 use frictcomp::timeline::{
-    AxisSummary, ChangedBy, End, EndNote, EndedBy, Modal, Record, Row, Sink, StateView, Summary,
+    AxisSummary, ChangedBy, End, EndNote, Record, Row, Sink, StateView, Summary,
 };
 
 /// The documented example (1.5), with a loop after it that changes nothing.

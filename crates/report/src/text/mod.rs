@@ -12,7 +12,8 @@ use std::ops::ControlFlow;
 
 use frictcomp::comp::{Change, Kind, State};
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::timeline::{End, EndedBy, Record, Row, Sink, StateView};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::timeline::{End, Record, Row, Sink, StateView};
 
 use super::advice::listed;
 use super::diagnostics::{Detail, Look, render, wrap};

@@ -12,7 +12,8 @@ use crate::strings::grouped;
 use crate::visible::last_part;
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Severity;
-use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, ReadingsInForce, Summary};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::timeline::{AxisSummary, ChangedBy, ReadingsInForce, Summary};
 
 use super::line::{BOLD, DIM, Paragraph, TextLine, style};
 

@@ -1,4 +1,5 @@
 /** The page of the contour: the picture, the block of the cursor on it, and the figures. */
+import { figures, lead } from "../../../../bindings/web/page/report";
 import type { Contour, Stretch } from "../protocol";
 import type { FromPage, ToPage } from "./messages";
 import { find, machineTime, nearest, type Place } from "./places";
@@ -57,16 +58,15 @@ function draw(name: string, shown: Contour): void {
   here.setAttribute("role", "status");
   const remarks = element("ul", "remarks");
   remarks.append(...shown.remarks.map((remark) => element("li", "", remark)));
-  const figures = element("pre", "figures", shown.figures);
-  figures.tabIndex = 0;
   page.replaceChildren(
+    lead(shown.report),
     ...(picture ? [here, picture] : [element("h1", "name", name), here]),
     ...(shown.remarks.length > 0 ? [remarks] : []),
     ...(shown.worst.length > 0 ? [worst(shown)] : []),
-    figures,
+    figures(shown.report),
   );
   if (picture) {
-    lead(picture, shown.stretches);
+    listen(picture, shown.stretches);
   }
 }
 
@@ -88,7 +88,7 @@ function group(id: string): SVGElement {
 }
 
 /** A pointer near the path leads to its block. */
-function lead(svg: SVGSVGElement, stretches: readonly Stretch[]): void {
+function listen(svg: SVGSVGElement, stretches: readonly Stretch[]): void {
   const at = (event: MouseEvent): Stretch | undefined => {
     const matrix = svg.getScreenCTM()?.inverse();
     if (matrix === undefined) {

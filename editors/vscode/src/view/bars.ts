@@ -3,7 +3,7 @@ import type { State, Timeline } from "../protocol";
 import { inWords } from "../statusText";
 
 /** The data that a bar is drawn from. */
-export type Look = State | "several";
+export type Look = State | "changing";
 
 export interface Bar {
   look: Look;
@@ -42,7 +42,7 @@ export function columns(timeline: Timeline): Column[] {
 
 function look(states: readonly State[]): Look {
   const [first, ...others] = states;
-  return first === undefined || others.length > 0 ? "several" : first;
+  return first === undefined || others.length > 0 ? "changing" : first;
 }
 
 /** The line, counted from 0, at a height between 0 and 1. */

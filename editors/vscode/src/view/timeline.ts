@@ -38,7 +38,7 @@ function draw(name: string, timeline: Timeline): void {
     const track = element("div", "track");
     for (const bar of bars) {
       const part = document.createElement("button");
-      part.className = `bar ${bar.look}`;
+      part.className = `stretch ${bar.look}`;
       part.style.top = `${(bar.top * 100).toFixed(4)}%`;
       part.style.height = `max(${(bar.height * 100).toFixed(4)}%, 2px)`;
       const where = bar.first === bar.last ? `line ${bar.first.toString()}` : `lines ${bar.first.toString()} to ${bar.last.toString()}`;
@@ -80,8 +80,8 @@ function legend(shown: readonly Column[]): HTMLElement {
   const list = element("ul", "legend");
   const looks = new Set(shown.flatMap(({ bars }) => bars.map(({ look }) => look)));
   for (const look of looks) {
-    const item = element("li", "", look === "several" ? "differs between runs" : look);
-    item.prepend(element("span", `sample ${look}`));
+    const item = element("li", "", look === "changing" ? "differs between runs" : look);
+    item.prepend(element("span", `sample stretch ${look}`));
     list.append(item);
   }
   return list;

@@ -159,13 +159,13 @@ async function session(page) {
 
   await command(page, "frictcomp: Focus on Compensation View");
   const view = await inner(page, 0);
-  await view.locator(".bar").first().waitFor();
+  await view.locator(".track .stretch").first().waitFor();
   for (const name of THEMES) {
     theme(name);
     await page.waitForTimeout(1500);
     await shot(page, `timeline-${name.split(" ")[1].toLowerCase()}`);
   }
-  await view.locator(".column").first().locator(".bar.inactive").click();
+  await view.locator(".column").first().locator(".stretch.inactive").click();
   // In the middle of the bar, which covers lines 5 to 7.
   await page.locator("#status\\.editor\\.selection").filter({ hasText: /Ln 6,/ }).waitFor();
   await page.locator(".editor-instance .monaco-editor.focused").waitFor();

@@ -21,7 +21,7 @@ test("bars fill the height in the order of the lines", () => {
       axis: "X",
       bars: [
         { look: "active", words: "active", first: 1, last: 4, top: 0, height: 0.4 },
-        { look: "several", words: "inactive or active", first: 5, last: 10, top: 0.4, height: 0.6 },
+        { look: "changing", words: "inactive or active", first: 5, last: 10, top: 0.4, height: 0.6 },
       ],
     },
   ]);

@@ -7,7 +7,7 @@ use super::args::LearnArgs;
 use super::folder::LearningFolder;
 use crate::failure::{Failure, shown};
 use crate::machine::value_list;
-use frictcomp_host::{CircleChannels, FileRegistry, in_order, processors, read_turns};
+use frictcomp_host::{CircleChannels, Disk, FileRegistry, in_order, processors, read_turns};
 use frictcomp_physics::circle::{Circle, LearnedRound, LearningProgress};
 use frictcomp_recordings::commission::{LearnError, LearnedCircles, RecordedTurn};
 use frictcomp_recordings::trace::ChannelSelection;
@@ -71,7 +71,12 @@ impl LearnArgs {
         };
         let mut turns = Vec::new();
         let mut failed = None;
-        let read = |path: &PathBuf| (shown(path), read_turns(path, &channels, None));
+        let read = |path: &PathBuf| {
+            (
+                shown(path),
+                read_turns(path, &channels, None, &Disk::default()),
+            )
+        };
         in_order(
             paths.iter(),
             processors(),

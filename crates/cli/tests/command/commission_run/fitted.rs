@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use frictcomp::lists::FrictionList;
-use frictcomp_host::{FileRegistry, read_value_list};
+use frictcomp_host::{Disk, FileRegistry, read_value_list};
 use frictcomp_physics::simulation::{Plant, Preset};
 use frictcomp_report::svg::style;
 use frictcomp_testing::planned_circles;
@@ -93,7 +93,7 @@ fn names_in(folder: &Path, begin: &str) -> Vec<String> {
 }
 
 pub(super) fn list(path: &Path) -> FrictionList {
-    let read = read_value_list(path, &FileRegistry::default()).expect("a list");
+    let read = read_value_list(path, &FileRegistry::default(), &Disk::default()).expect("a list");
     assert!(read.diagnostics.is_empty(), "{}", path.display());
     read.list
 }

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use frictcomp::interpreter::{Motions, NoFiles, Options};
 use frictcomp::machine::Machine;
-use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::Sink;
 use frictcomp_physics::contour::{

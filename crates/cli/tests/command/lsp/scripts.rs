@@ -6,9 +6,10 @@ use std::ops::ControlFlow;
 
 use fastrand::Rng;
 use frictcomp::comp::Kind;
-use frictcomp::session::{NoFiles, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::interpreter::{NoFiles, Options, StopPolicy};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::timeline::{Record, StateView};
-use frictcomp::{Machine, SourceFile};
+use frictcomp::{machine::Machine, text::SourceFile};
 use serde_json::{Value, json};
 
 use super::client::{Client, uri};

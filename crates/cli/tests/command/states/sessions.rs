@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use frictcomp::comp::KindSet;
+use frictcomp::interpreter::{NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
-use frictcomp::session::{
-    NoFiles, Options, Program as Text, SavedState, Session, SessionOptions, StopPolicy,
-};
+use frictcomp::session::{Program as Text, SavedState, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_report::{Ndjson, Report, View};

@@ -14,8 +14,9 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use frictcomp::comp::AxisIndex;
+use frictcomp::interpreter::{Motions, NoFiles, Options};
 use frictcomp::machine::Machine;
-use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_physics::motion::{

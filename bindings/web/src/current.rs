@@ -86,21 +86,9 @@ pub(crate) fn answer(
     settings: &RunSettings,
 ) -> Result<Vec<u8>, Refusal> {
     let input = dropped.program(program)?;
-    let mut loaded = dropped.machine(&input, &settings.enable)?.as_ref().clone();
+    let loaded = dropped.machine(&input, &settings.enable)?;
     expect_axes(&loaded, &start)?;
-    let with_list = loaded.machine.axes.iter();
-    let with_list = with_list.filter(|axis| matches!(axis.friction, Parameterisation::Accepted(_)));
-    let names: Vec<String> = with_list.map(|axis| axis.name.clone()).collect();
-    if names.is_empty() {
-        return Err(Refusal::new(
-            "no axis has an accepted compensation value list, so there is no current",
-        )
-        .with_help(
-            "drop the start-up list with its axis lists and value lists, or frictcomp.toml",
-        ));
-    }
-    let followed =
-        axes_to_follow(&names, &mut loaded.machine, None).map_err(|error| refused(&error))?;
+    let followed = axes_to_follow(&[], &loaded.machine).map_err(|error| refused(&error))?;
     let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
     let usual = PlannerOptions::default().cycle_s;
     let cycle_s = check_cycle(of_machine.unwrap_or(usual))
@@ -189,5 +177,8 @@ fn refused(error: &FollowError) -> Refusal {
     match error {
         FollowError::NoAxis(unknown) => Refusal::unknown(error.to_string(), unknown),
         FollowError::Assumed(_) => Refusal::new(error.to_string()),
+        FollowError::NoList => Refusal::new(error.to_string()).with_help(
+            "drop the start-up list with its axis lists and value lists, or frictcomp.toml",
+        ),
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::plan::{named, plan_name};
+use super::plan::plan_name;
 use super::plants::Fitting;
 use super::run_args::CommissionRunArgs;
 use super::sources::{source_of, stage_of, write_list};
@@ -28,7 +28,7 @@ use frictcomp_report::commission::{
 };
 use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on};
-use frictcomp_report::{TextChange, fitted, render_unified, visible_line};
+use frictcomp_report::{TextChange, fitted, render_unified};
 
 /// Runs the command.
 pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Failure> {
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     let plans = plans(&args.folder, &registry)?;
     let paths = recordings_in(&args.folder.join("recordings"))?;
     for path in &paths {
-        registry.reads("trace", path);
+        registry.reads("recording", path);
     }
     args.reading.check_roles(&paths)?;
     let known = known(&args.folder.join(RESULTS));
@@ -139,9 +139,12 @@ fn acceptance(
     registry: &FileRegistry,
 ) -> Result<Acceptance, Failure> {
     let mut changes = Vec::new();
-    for used in report.rounds.last().iter().flat_map(|it| &it.lists) {
-        let before: Option<PathBuf> = named(&args.before, &used.axis, "--before X=old.lis")?;
-        let Some(before) = before else { continue };
+    let rounds = report.rounds.last().into_iter();
+    let used: Vec<_> = rounds.flat_map(|it| &it.lists).collect();
+    for (axis, before) in args.lists_before(&report.plans)? {
+        let Some(used) = used.iter().find(|it| it.axis == axis) else {
+            continue;
+        };
         registry.reads("value list", &before);
         let (old, new) = (read_text(&before)?, read_text(Path::new(&used.file))?);
         let change = TextChange {
@@ -150,23 +153,7 @@ fn acceptance(
         };
         let patch = render_unified(change);
         let same = "no line differs".to_owned();
-        changes.push((
-            used.axis.clone(),
-            if patch.is_empty() { same } else { patch },
-        ));
-    }
-    let axes: Vec<&str> = changes.iter().map(|it| it.0.as_str()).collect();
-    let unused = args
-        .before
-        .iter()
-        .filter_map(|it| it.split_once('='))
-        .find(|it| !axes.contains(&it.0.trim()));
-    if let Some((axis, _)) = unused {
-        let message = format!(
-            "`--before` names `{}`, of which stage 2 has no list",
-            visible_line(axis)
-        );
-        return Err(Failure::new(message).with_help("leave it out until stage 2 is planned"));
+        changes.push((axis, if patch.is_empty() { same } else { patch }));
     }
     Ok(Acceptance {
         machine: args.machine.clone(),

@@ -87,7 +87,7 @@ fn a_worse_turn_of_a_recording_is_named() {
             writeln!(text, "{time:.3},{x:.5},{y:.5}").expect("text");
         }
         fs::write(&path, text).expect("a recording");
-        let arguments = ["circle", "--trace", path.to_str().expect("a name")];
+        let arguments = ["circle", "--recording", path.to_str().expect("a name")];
         let text = String::from_utf8(tool(&arguments).stdout).expect("text");
         let document = json(&[&arguments[..], &["--format=json"]].concat());
         (text, document["worse_turns"].clone())
@@ -231,7 +231,13 @@ fn recorded_circles_are_read_in_mm_and_in_micrometres() {
     ] {
         write_circle(&path, header, scale);
         let document = json(&[
-            "circle", "--trace", name, "--radius", "50", "--format", "json",
+            "circle",
+            "--recording",
+            name,
+            "--radius",
+            "50",
+            "--format",
+            "json",
         ]);
         let path = &document["recorded"]["ccw"];
         for (key, expected) in [("G_mz", 8.0), ("F_max", 4.0), ("F_min", -4.0), ("D", 0.0)] {
@@ -242,10 +248,12 @@ fn recorded_circles_are_read_in_mm_and_in_micrometres() {
     }
     let text = fs::read_to_string(&path).expect("text");
     fs::write(&path, text.replacen("0.002,", "0.002,nan", 1)).expect("written");
-    let said = refusal(&["circle", "--trace", name]);
+    let said = refusal(&["circle", "--recording", name]);
     assert!(said.contains(":4: column `x [mm]` holds `nan"), "{said}");
     fs::write(&path, "t,a,b\n1,2,3\n").expect("written");
-    assert!(refusal(&["circle", "--trace", name]).contains("no columns `x` and `y`, only t, a, b"));
+    assert!(
+        refusal(&["circle", "--recording", name]).contains("no columns `x` and `y`, only t, a, b")
+    );
 }
 
 #[test]

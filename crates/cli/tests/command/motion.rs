@@ -107,7 +107,7 @@ fn a_program_and_its_recorded_trace_have_the_same_current() {
     std::fs::write(folder.path().join("v.lis"), list).expect("a list");
     let recorded = current(
         folder.path(),
-        &["--trace", "t.csv", "--value-list", "v.lis"],
+        &["--recording", "t.csv", "--value-list", "v.lis"],
     );
     let recorded = rows(&recorded);
     assert_eq!(recorded.len(), program.len());
@@ -233,7 +233,7 @@ fn rows_that_are_no_cycles_are_refused_or_resampled() {
     std::fs::write(folder.path().join("v.lis"), list).expect("a list");
     let run = |trace: &str, more: &[&str]| {
         std::fs::write(folder.path().join("t.csv"), trace).expect("a trace");
-        let arguments = ["--trace", "t.csv", "--value-list", "v.lis"];
+        let arguments = ["--recording", "t.csv", "--value-list", "v.lis"];
         let output = current(folder.path(), &[&arguments, more].concat());
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         (output.status.code(), rows(&output), said)
@@ -361,7 +361,7 @@ fn channels_of_several_rates_are_resampled_or_refused() {
     let trace = "Name\tx\tName\tv\n\n0\t0\t0\t0\n1\t10\t2\t2000\n2\t20\t4\t4000\n3\t30\n4\t40\n";
     std::fs::write(folder.path().join("t.csv"), trace).expect("a trace");
     let run = |more: &[&str]| {
-        let arguments = ["--trace", "t.csv", "--value-list", "v.lis"];
+        let arguments = ["--recording", "t.csv", "--value-list", "v.lis"];
         let units = ["--unit", "x=0.1um", "--unit", "v=um/s"];
         let output = current(folder.path(), &[&arguments, &units, more].concat());
         let said = String::from_utf8_lossy(&output.stderr).into_owned();

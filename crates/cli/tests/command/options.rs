@@ -261,7 +261,7 @@ fn options_without_effect_are_refused() {
         ("v.lis", "frict_comp.mode 0\n"),
         ("t.csv", "t,x\n0,0\n"),
     ]);
-    let trace = ["current", "--trace", "t.csv", "--value-list", "v.lis"];
+    let trace = ["current", "--recording", "t.csv", "--value-list", "v.lis"];
     for arguments in [
         &["run", "--changes", "--full", "a.nc"][..],
         &["run", "--full", "--format", "ndjson", "a.nc"],
@@ -281,8 +281,8 @@ fn options_without_effect_are_refused() {
         &[&trace[..], &["--max-cycles", "5"]].concat(),
         &[&trace[..], &["--isolated"]].concat(),
         &[&trace[..], &["--axis", "X"]].concat(),
-        &["circle", "--trace", "t.csv", "--feed", "100"],
-        &["circle", "--trace", "t.csv", "--cycle-time", "1"],
+        &["circle", "--recording", "t.csv", "--feed", "100"],
+        &["circle", "--recording", "t.csv", "--cycle-time", "1"],
     ] {
         let said = refused(&bench, arguments);
         assert!(said.starts_with("error: "), "{arguments:?}: {said}");

@@ -74,7 +74,7 @@ fn no_output_destroys_an_input() {
     both(&["run", "call.nc", "--html", "hard"], "part.nc");
     both(&["lists", "v.lis", "-o", "v.lis"], "v.lis");
     both(&["lists", "v.lis", "--svg", "v.lis"], "v.lis");
-    let trace = ["current", "--trace", "t.csv", "--value-list", "v.lis"];
+    let trace = ["current", "--recording", "t.csv", "--value-list", "v.lis"];
     both(&[&trace[..], &["-o", "t.csv"]].concat(), "t.csv");
     both(&[&trace[..], &["--svg", "v.lis"]].concat(), "v.lis");
     let program = ["current", "part.nc", "--axis", "X"];
@@ -88,7 +88,10 @@ fn no_output_destroys_an_input() {
         "plant.toml",
     );
     both(&["circle", "--value-list", "v.lis", "-o", "v.lis"], "v.lis");
-    both(&["circle", "--trace", "t.csv", "--html", "t.csv"], "t.csv");
+    both(
+        &["circle", "--recording", "t.csv", "--html", "t.csv"],
+        "t.csv",
+    );
     both(
         &[
             "tune",
@@ -449,9 +452,15 @@ mod unix {
             &["run", "--state", "s", "part.nc"],
             &["golden", "part.nc"],
             &["golden", "--update", "part.nc"],
-            &["current", "--trace", "f.csv", "--value-list", "v.lis"],
-            &["current", "--trace", "/dev/zero", "--value-list", "v.lis"],
-            &["circle", "--trace", "/dev/zero"],
+            &["current", "--recording", "f.csv", "--value-list", "v.lis"],
+            &[
+                "current",
+                "--recording",
+                "/dev/zero",
+                "--value-list",
+                "v.lis",
+            ],
+            &["circle", "--recording", "/dev/zero"],
             &["circle", "--plant", "f.toml"],
         ] {
             let said = refused(&bench, arguments);

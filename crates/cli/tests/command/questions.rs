@@ -446,7 +446,7 @@ fn answers_of_a_control_are_compared() {
     assert!(asked.contains("no dead band"), "{asked}");
     let computed = bench.stdout(&[
         "current",
-        "--trace",
+        "--recording",
         "cases/4/cycles-decay-two/cycles-X.csv",
         "--value-list",
         "cases/4/cycles-decay-two/values-X.lis",

@@ -368,15 +368,15 @@ fn contradictions(answers: &[Answer]) -> Vec<Question> {
 fn told(answers: &[Answer]) -> String {
     let undecided = |it: &&Answer| it.verdict == AnswerVerdict::Undecidable;
     let undecided = answers.iter().filter(undecided).count();
-    let mut text = match (answers.len() - undecided, undecided) {
-        (answered, 0) => format!("{} answered\n\n", counted(answered, "question")),
-        (answered, left) => {
-            format!(
-                "{} answered, {left} left open\n\n",
-                counted(answered, "question")
-            )
-        }
+    let answered = match answers.len() - undecided {
+        0 => "no question answered".to_owned(),
+        answered => format!("{} answered", counted(answered, "question")),
     };
+    let left = match undecided {
+        0 => String::new(),
+        left => format!(", {left} left open"),
+    };
+    let mut text = format!("{answered}{left}\n\n");
     let is_alike = |one: &Answer, other: &Answer| {
         one.verdict == AnswerVerdict::Undecidable
             && one.verdict == other.verdict

@@ -12,10 +12,11 @@ use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::machine::value_list;
 use crate::outputs::{Outputs, write_text};
+use crate::progress;
 use crate::recorded_files::recordings_in;
 use crate::result::ResultFormat;
 use frictcomp_host::{
-    FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
+    Done, FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
@@ -42,7 +43,13 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     let known = known(&args.folder.join(RESULTS));
     let mut kept = 0;
     let mut results = Vec::new();
+    let watch = progress::watch();
     for path in &paths {
+        watch.show(|| Done::Runs {
+            of: "recordings",
+            done: results.len(),
+            all: paths.len(),
+        });
         let sha256 = sha256_of(path)?;
         let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
         let file = file.unwrap_or_default();

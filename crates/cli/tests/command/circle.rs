@@ -153,21 +153,21 @@ fn each_axis_has_its_own_list() {
     assert!(glitch("on", "X+") < 0.3 * glitch("off", "X+"));
     assert!((glitch("on", "Y+") / glitch("off", "Y+") - 1.0).abs() < 0.02);
     assert_eq!(document["value_list"], format!("X={x}, Y={y}"));
-    for given in [vec![&for_x], vec![&for_x, &for_x], vec![&for_x, &x]] {
-        let given: Vec<&str> = given.into_iter().map(String::as_str).collect();
-        let given: Vec<&str> = given
-            .into_iter()
-            .flat_map(|it| match it.strip_prefix("--") {
-                Some(_) => vec![it],
-                None => vec!["--value-list", it],
-            })
-            .collect();
+    for (given, words) in [
+        (vec![&*for_x], "`--value-list` gives no list of `Y`"),
+        (vec![&*for_x, &for_x], "more than once for the same axis"),
+        (
+            vec!["--value-list=Q=a.lis"],
+            "`Q`, which is not an axis here",
+        ),
+    ] {
         let said = refusal(&[&QUICK[..], &given].concat());
-        assert!(
-            said.contains("one list for both axes, or one for each"),
-            "{said}"
-        );
+        assert!(said.contains(words), "{said}");
     }
+    // One that names no axis is that of the others.
+    let others = format!("--value-list={x}");
+    let document = json(&[&QUICK[..], &[&for_y, &others]].concat());
+    assert_eq!(document["value_list"], format!("X={x}, Y={y}"));
 }
 
 #[test]

@@ -120,6 +120,10 @@ fn a_program_and_its_recorded_trace_have_the_same_current() {
 fn several_axes_stand_side_by_side() {
     // R5.1: columns by axis, a complete file, another value list and cycle.
     let folder = tempfile::tempdir().expect("a folder");
+    // Without `--axis` those that have a value list.
+    let [every, listed] =
+        [&["a.nc"][..], &["a.nc", "--axis", "X"]].map(|it| rows(&current(folder.path(), it)));
+    assert_eq!(every, listed);
     let arguments = [
         "a.nc",
         "--axis",
@@ -177,7 +181,7 @@ fn what_cannot_be_done_is_said() {
             "error[FC915]",
         ),
         (vec!["b.nc", "--axis", "X"], 2, "there is no file `b.nc`"),
-        (vec!["a.nc"], 2, "--axis"),
+        (vec!["a.nc", "--isolated"], 2, "no axis has an accepted"),
     ] {
         let output = current(folder.path(), &arguments);
         let text = String::from_utf8_lossy(&output.stderr).into_owned();

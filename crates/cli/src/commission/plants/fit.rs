@@ -11,7 +11,7 @@ use frictcomp_host::{in_order, processors, read_text, sha256_of_text};
 use frictcomp_physics::circle::{DriveFit, FittedDrive, ObservedCircle, PlaneAxis};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::Plant;
-use frictcomp_recordings::commission::{PlantAxis, PlantFound, held_out};
+use frictcomp_recordings::commission::{PlantAxis, PlantFound, Stage, held_out};
 
 impl Fitting<'_> {
     /// Returns the plant of rounds: as found by an earlier run, or fitted now.
@@ -69,10 +69,8 @@ impl Fitting<'_> {
         rounds: &[RoundCircles<'_>],
     ) -> Result<String, Failure> {
         let reading = &self.args.reading;
-        let channels = self
-            .plans
-            .iter()
-            .map(|it| reading.circle_channels(&it.plan));
+        let first = self.plans.iter().filter(|it| it.plan.stage == Stage::Off);
+        let channels = first.map(|it| reading.circle_channels(&it.plan));
         let channels = channels.collect::<Result<Vec<_>, _>>()?;
         let cycle = reading.cycle.seconds()?;
         let frictions: Vec<_> = axes.iter().map(|it| &it.drive).collect();

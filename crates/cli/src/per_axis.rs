@@ -97,17 +97,23 @@ impl<'a> ByAxis<'a> {
 
     /// Returns the list of an axis.
     pub(crate) fn list(self, axis: &str) -> Result<Option<&'a Path>, Failure> {
-        for given in self.given {
-            let stranger = given.parts().filter(|(name, _)| !self.axes.contains(name));
-            if let Some((name, _)) = stranger.filter(|_| !Path::new(&given.0).exists()) {
-                let name = visible_line(name);
-                let message = format!(
-                    "`{}` names `{name}`, which is not an axis here",
-                    self.option
-                );
-                let help = format!("the axes are {}", visible_line(&self.axes.join(", ")));
-                return Err(Failure::new(message).with_help(help));
-            }
+        let is_name = |it: &str| it.chars().all(|it| it.is_alphanumeric() || it == '_');
+        let is_stranger = |given: &&PerAxis| {
+            let name = given.parts().map_or("", |it| it.0);
+            !name.is_empty() && is_name(name) && !self.axes.contains(&name)
+        };
+        let strangers = self.given.iter().filter(is_stranger);
+        let absent = strangers.filter(|it| !Path::new(&it.0).exists());
+        if let Some((name, _)) = absent.filter_map(PerAxis::parts).next() {
+            let message = format!(
+                "`{}` names `{name}`, which is not an axis here",
+                self.option
+            );
+            let help = match &*self.axes.join(", ") {
+                "" => format!("say which axis is meant, `--axis {name}`"),
+                axes => format!("the axes are {}", visible_line(axes)),
+            };
+            return Err(Failure::new(message).with_help(help));
         }
         Ok(self.of(axis)?.map(Path::new))
     }

@@ -34,17 +34,17 @@ pub(crate) struct MotionChannels {
 
 impl MotionChannels {
     /// Returns the user's selection of the channels of one of some axes.
-    pub(crate) fn of_axis(&self, axis: &str, axes: &[&str]) -> Result<ChannelSelection, Failure> {
+    pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<ChannelSelection, Failure> {
         let of = |option, given| {
             ByAxis {
                 option,
                 given,
                 axes,
             }
-            .channel(axis)
+            .channel(name)
         };
         Ok(ChannelSelection {
-            axis: (!axis.is_empty()).then(|| axis.to_owned()),
+            axis: (!name.is_empty()).then(|| name.to_owned()),
             time: self.time.clone(),
             position: of("--position", &self.position)?,
             velocity: of("--velocity", &self.velocity)?,
@@ -70,14 +70,14 @@ impl TorqueChannel {
     }
 
     /// Returns the channel of one of some axes.
-    pub(crate) fn of_axis(&self, axis: &str, axes: &[&str]) -> Result<Option<String>, Failure> {
+    pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<Option<String>, Failure> {
         let (option, given) = ("--torque", &self.torque);
         ByAxis {
             option,
             given,
             axes,
         }
-        .channel(axis)
+        .channel(name)
     }
 }
 
@@ -97,7 +97,7 @@ impl FollowedChannels {
     pub(crate) fn added_to(
         &self,
         others: ChannelSelection,
-        (axis, axes): (&str, &[&str]),
+        (name, axes): (&str, &[&str]),
     ) -> Result<ChannelSelection, Failure> {
         let of = |option, given| {
             ByAxis {
@@ -105,7 +105,7 @@ impl FollowedChannels {
                 given,
                 axes,
             }
-            .channel(axis)
+            .channel(name)
         };
         Ok(ChannelSelection {
             actual_position: of("--actual-position", &self.actual_position)?,

@@ -103,15 +103,15 @@ impl<'a> ByAxis<'a> {
             !name.is_empty() && is_name(name) && !self.axes.contains(&name)
         };
         let strangers = self.given.iter().filter(is_stranger);
-        let absent = strangers.filter(|it| !Path::new(&it.0).exists());
-        if let Some((name, _)) = absent.filter_map(PerAxis::parts).next() {
+        let mut absent = strangers.filter(|it| !Path::new(&it.0).exists());
+        if let Some((name, _)) = absent.find_map(PerAxis::parts) {
             let message = format!(
                 "`{}` names `{name}`, which is not an axis here",
                 self.option
             );
             let help = match &*self.axes.join(", ") {
                 "" => format!("say which axis is meant, `--axis {name}`"),
-                axes => format!("the axes are {}", visible_line(axes)),
+                all => format!("the axes are {}", visible_line(all)),
             };
             return Err(Failure::new(message).with_help(help));
         }

@@ -223,7 +223,7 @@ impl<'a> Cures<'a> {
             program: own.map(|(_, at)| at),
             file: MendedFile::new(path, &encoded, &changes)?,
             also: cured.map(|it| self.audit(it).file.clone()).collect(),
-            changed: mended.changed.iter().map(|it| it.to_string()).collect(),
+            changed: mended.changed.iter().map(ToString::to_string).collect(),
             missed: mended.missed,
         })
     }

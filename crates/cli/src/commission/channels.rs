@@ -101,11 +101,11 @@ impl ReadingArgs {
     }
 
     /// Returns the channels of an axis.
-    pub(super) fn selection(&self, axis: &str, plan: &Plan) -> Result<ChannelSelection, Failure> {
+    pub(super) fn selection(&self, name: &str, plan: &Plan) -> Result<ChannelSelection, Failure> {
         let axes = axes_of(plan);
         Ok(ChannelSelection {
-            torque: self.torque.of_axis(axis, &axes)?,
-            ..self.motion.of_axis(axis, &axes)?
+            torque: self.torque.of_axis(name, &axes)?,
+            ..self.motion.of_axis(name, &axes)?
         })
     }
 }

@@ -41,43 +41,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     }
     args.reading.check_roles(&paths)?;
     let known = known(&args.folder.join(RESULTS));
-    let mut kept = 0;
-    let mut results = Vec::new();
-    let watch = progress::watch();
-    for path in &paths {
-        watch.show(|| Done::Runs {
-            of: "recordings",
-            done: results.len(),
-            all: paths.len(),
-        });
-        let sha256 = sha256_of(path)?;
-        let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
-        let file = file.unwrap_or_default();
-        let same = |it: &&RecordingResult| {
-            it.file == file
-                && it.sha256 == sha256
-                && it.read_with == read_with(args, &plans, it.program)
-        };
-        if let Some(result) = known.recordings.iter().find(same) {
-            kept += 1;
-            results.push(result.clone());
-            continue;
-        }
-        let of_plans: Vec<&Plan> = plans.iter().map(|it| &it.plan).collect();
-        let (program, mut found) = args.reading.read(path, &of_plans);
-        if let (RecordingOutcome::Circles(circles), Some(plan)) =
-            (&mut found, plan_of(&plans, program))
-        {
-            args.reading.look_closer(path, plan, circles);
-        }
-        results.push(RecordingResult {
-            file,
-            sha256,
-            read_with: read_with(args, &plans, program),
-            program,
-            found,
-        });
-    }
+    let (mut results, kept) = read(args, (&plans, &paths), &known)?;
     args.reading
         .take_shares(&args.folder, &plans, (&mut results, &registry))?;
     let mut outputs = Outputs::new(&registry, console);
@@ -137,6 +101,53 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     } else {
         exit::FOUND
     })
+}
+
+/// Reads the recordings that have changed since an earlier run; returns the results of all, and the number of those
+/// that were known.
+fn read(
+    args: &CommissionRunArgs,
+    (plans, paths): (&[PlanFile], &[PathBuf]),
+    known: &Results,
+) -> Result<(Vec<RecordingResult>, usize), Failure> {
+    let mut kept = 0;
+    let mut results = Vec::new();
+    let watch = progress::watch();
+    for path in paths {
+        watch.show(|| Done::Runs {
+            of: "recordings",
+            done: results.len(),
+            all: paths.len(),
+        });
+        let sha256 = sha256_of(path)?;
+        let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
+        let file = file.unwrap_or_default();
+        let same = |it: &&RecordingResult| {
+            it.file == file
+                && it.sha256 == sha256
+                && it.read_with == read_with(args, plans, it.program)
+        };
+        if let Some(result) = known.recordings.iter().find(same) {
+            kept += 1;
+            results.push(result.clone());
+            continue;
+        }
+        let of_plans: Vec<&Plan> = plans.iter().map(|it| &it.plan).collect();
+        let (program, mut found) = args.reading.read(path, &of_plans);
+        if let (RecordingOutcome::Circles(circles), Some(plan)) =
+            (&mut found, plan_of(plans, program))
+        {
+            args.reading.look_closer(path, plan, circles);
+        }
+        results.push(RecordingResult {
+            file,
+            sha256,
+            read_with: read_with(args, plans, program),
+            program,
+            found,
+        });
+    }
+    Ok((results, kept))
 }
 
 /// Returns the contents of the report beyond the results.

@@ -18,9 +18,9 @@ use frictcomp_report::pictures::{AxisPlot, AxisSample};
 
 /// Computes the current of a recording.
 pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
-    let axis = match &args.axes[..] {
+    let name = match &args.axes[..] {
         [] => "",
-        [axis] => axis,
+        [name] => name,
         _ => {
             let message = "a recording gives the current of one axis, and `--axis` names several";
             return Err(Failure::new(message).with_help("name one axis in each call"));
@@ -32,14 +32,14 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
     let lists = ByAxis {
         option: "--value-list",
         given: &args.value_list,
-        axes: &[axis],
+        axes: &[name],
     };
-    let list = value_list(lists.required(axis)?, &registry)?;
+    let list = value_list(lists.required(name)?, &registry)?;
     let mut writer = outputs.result(args.output.as_deref())?.writer;
     let axes = vec![AxisPlot::new("", None)];
     let mut plot = Plot::create(args.svg.as_deref(), &mut outputs, axes)?;
     outputs.check()?;
-    let selection = args.channels.of_axis(axis, &[axis])?;
+    let selection = args.channels.of_axis(name, &[name])?;
     let trace = read_commanded(recording, &selection, args.trace_options()?)?;
     for remark in trace.remarks() {
         Console::talk(remark);

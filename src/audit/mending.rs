@@ -14,6 +14,17 @@ use super::runs::ProgramRuns;
 use crate::interpreter::{Interpreter, Observer};
 use crate::text::Numbering;
 
+/// Whether a block may change the state in which an axis moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum CuredMotions {
+    /// Every motion keeps its state (R10.8).
+    #[default]
+    Kept,
+    /// A block that changes one is taken where no other helps.
+    Changed,
+}
+
 /// A mended file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -22,6 +33,8 @@ pub struct Mended {
     pub insertions: Vec<Insertion>,
     /// The programs that they take out of hazards, by their positions among the [`Affected`] ones.
     pub cured: Vec<usize>,
+    /// The programs in which they change the state of a motion.
+    pub changed: Vec<Arc<str>>,
     /// Mendings left to the user, with the file taken as a program in its own right.
     pub missed: Vec<Missed>,
 }
@@ -71,13 +84,14 @@ impl<E, F> RunWith<E> for F where
 /// Finds the blocks that mend a file of this text. Each place is tried out on every program that runs the file: those
 /// to mend must no longer take part in the hazard, no program may enter one, and no motion of any of them may change
 /// its state when the program starts in its start-up state; from another state, it may only change to the start-up
-/// state (R10.8). `run` runs a program, by its position, with a text in place of the file.
+/// state, unless `motions` may change (R10.8). `run` runs a program, by its position, with a text in place of the file.
 ///
 /// # Errors
 /// Those of `run`.
 pub fn mend<E>(
     text: &str,
     programs: &[Affected<'_>],
+    motions: CuredMotions,
     mut run: impl FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>,
 ) -> Result<Mended, E> {
     let before = (0..programs.len()).map(|at| observe(&programs[at], (at, text), &mut run));
@@ -88,6 +102,7 @@ pub fn mend<E>(
         before,
         now: None,
         accepted: Mended::default(),
+        motions,
         run,
     };
     let mut wanted: Vec<Mending> = Vec::new();
@@ -123,14 +138,24 @@ struct Trial<'a, R> {
     /// Those with the accepted blocks, if there are any.
     now: Option<Vec<ProgramRuns>>,
     accepted: Mended,
+    motions: CuredMotions,
     run: R,
 }
 
-/// Blocks at one place that harm nothing.
+/// Blocks at one place that cure programs and bring no hazard.
 struct Attempt {
     insertions: Vec<Insertion>,
     runs: Vec<ProgramRuns>,
     cured: Vec<usize>,
+    /// The programs in which they change the state of a motion.
+    changed: Vec<Arc<str>>,
+}
+
+impl Attempt {
+    /// Returns its worth among others: one that changes no motion goes before those that cure more.
+    fn worth(&self) -> (bool, usize) {
+        (self.changed.is_empty(), self.cured.len())
+    }
 }
 
 impl<R> Trial<'_, R> {
@@ -154,8 +179,7 @@ impl<R> Trial<'_, R> {
             let insertions = self.with_blocks(&lines, &command);
             match self.attempt(insertions, mending, &goals)? {
                 Ok(attempt) => {
-                    let known = best.as_ref().map_or(0, |best| best.cured.len());
-                    if attempt.cured.len() > known {
+                    if best.as_ref().map(Attempt::worth) < Some(attempt.worth()) {
                         best = Some(attempt);
                     }
                 }
@@ -164,7 +188,7 @@ impl<R> Trial<'_, R> {
             }
             if best
                 .as_ref()
-                .is_some_and(|it| it.cured.len() == goals.len())
+                .is_some_and(|it| it.worth() == (true, goals.len()))
             {
                 break;
             }
@@ -180,6 +204,7 @@ impl<R> Trial<'_, R> {
         }
         if let Some(best) = best {
             self.accepted.insertions = best.insertions;
+            self.accepted.changed.extend(best.changed);
             self.accepted.cured.extend(best.cured);
             self.accepted.cured.sort_unstable();
             self.accepted.cured.dedup();
@@ -209,13 +234,21 @@ impl<R> Trial<'_, R> {
         if cured.is_empty() {
             return Ok(Err(WhyMissed::NotCured));
         }
+        let mut changed = Vec::new();
         for (at, program) in self.programs.iter().enumerate() {
             let observed = match runs.remove(&at) {
                 Some(observed) => observed,
                 None => observe(program, (at, &edited), &mut self.run)?,
             };
-            if let Some(why) = self.harm(at, &observed) {
-                return Ok(Err(why));
+            if !self.keeps_motions(at, &observed) {
+                let name = Arc::clone(&program.name);
+                if self.motions == CuredMotions::Kept {
+                    return Ok(Err(WhyMissed::ChangesMotion(name)));
+                }
+                changed.push(name);
+            }
+            if self.brings_a_hazard(at, &observed) {
+                return Ok(Err(WhyMissed::NotCured));
             }
             runs.insert(at, observed);
         }
@@ -223,17 +256,8 @@ impl<R> Trial<'_, R> {
             insertions,
             runs: runs.into_values().collect(),
             cured,
+            changed,
         }))
-    }
-
-    /// Returns one program's objection to the blocks.
-    fn harm(&self, at: usize, after: &ProgramRuns) -> Option<WhyMissed> {
-        if !self.keeps_motions(at, after) {
-            let name = Arc::clone(&self.programs[at].name);
-            return Some(WhyMissed::ChangesMotion(name));
-        }
-        self.brings_a_hazard(at, after)
-            .then_some(WhyMissed::NotCured)
     }
 
     fn now(&self) -> &[ProgramRuns] {

@@ -30,7 +30,7 @@ pub use archive::{Archive, AxisFinding, MendedEnd};
 pub use cure::{Cure, Mending};
 pub use effect::{FirstMotion, Inherits, ProgramEffect, Site, WhyUnknown};
 pub use insertion::{Insertion, insertions};
-pub use mending::{Affected, Mended, Missed, WhyMissed, mend};
+pub use mending::{Affected, CuredMotions, Mended, Missed, WhyMissed, mend};
 pub use program::{Auditor, AxisAudit, Ending, ProgramAudit};
 pub use scope::{AuditedKind, Scope, Selected};
 pub use sequence::{Sequence, Step, StepAxis};

@@ -17,6 +17,8 @@ struct Watched {
 pub(super) struct FeedMoveCounter {
     counts: Vec<FeedMoves>,
     watched: Vec<Watched>,
+    /// The axes that the last block certainly moved so.
+    moved: Vec<AxisIndex>,
     /// The version of the states that [`watched`](Self::watched) applies to.
     version: Option<u64>,
 }
@@ -27,6 +29,7 @@ impl FeedMoveCounter {
         Self {
             counts: vec![FeedMoves::default(); axes],
             watched: Vec::new(),
+            moved: Vec::new(),
             version: None,
         }
     }
@@ -34,6 +37,11 @@ impl FeedMoveCounter {
     /// The moves of an axis.
     pub(super) fn of(&self, axis: AxisIndex) -> FeedMoves {
         self.counts[axis.get()]
+    }
+
+    /// The axes that the last block moved at feed without friction compensation.
+    pub(super) fn moved(&self) -> &[AxisIndex] {
+        &self.moved
     }
 
     /// Looks at an executed block. Where friction compensation is active on every axis, that is one
@@ -44,6 +52,7 @@ impl FeedMoveCounter {
             self.version = Some(executed.version);
             self.watch(executed);
         }
+        self.moved.clear();
         if !self.watched.is_empty() {
             self.count(executed);
         }
@@ -88,6 +97,7 @@ impl FeedMoveCounter {
                     let travel = travel.filter(|_| is_plain);
                     if !travel.is_some_and(FeedMoves::is_standstill) {
                         counts.add(watched.state, travel);
+                        self.moved.push(watched.axis);
                     }
                 }
                 Some(_) => counts.unknown += 1,

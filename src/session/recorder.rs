@@ -160,6 +160,7 @@ impl Recorder<'_> {
                 version: executed.version,
             },
             modal: executed.modal,
+            uncompensated: self.totals.feed_moves.moved(),
             motion: executed.motion,
             branch: executed.branch,
             diagnostics: &self.said,

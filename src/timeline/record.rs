@@ -89,6 +89,8 @@ pub struct Row<'a> {
     pub state: StateView<'a>,
     /// G functions and positions after the block.
     pub modal: &'a Modal,
+    /// The axes that the block certainly moves at feed without friction compensation (R13.12).
+    pub uncompensated: &'a [AxisIndex],
     /// Motion of the block, where the session takes motions.
     pub motion: Option<&'a Motion>,
     /// The machine's answers that lead to the block, if it is executed on some ways only: a list of ways, each a list

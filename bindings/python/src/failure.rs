@@ -52,7 +52,7 @@ impl Failure {
     pub(crate) fn of_axes(error: FollowError) -> Self {
         let help = match &error {
             FollowError::NoAxis(unknown) => unknown.help("its axes are"),
-            FollowError::Assumed(_) => {
+            FollowError::Assumed(_) | FollowError::NoList => {
                 Some("name its compensation value list with `value_list=`".to_owned())
             }
         };

@@ -46,7 +46,7 @@ pub(crate) struct PyIdentified {
 
 /// The recordings of an axis.
 struct AxisRecordings {
-    traces: Vec<PathBuf>,
+    recordings: Vec<PathBuf>,
     selection: ChannelSelection,
     cycle_s: Option<f64>,
     said: TorqueStatement,
@@ -82,12 +82,12 @@ fn switched(word: &str) -> PyResult<Switched> {
 /// the file does not. With ``circles`` the recordings are circles at two or more feeds.
 /// ``points`` bounds the points of the list, ``max_error`` its error in per cent of the friction.
 #[pyfunction]
-#[pyo3(signature = (traces, *, axis=None, time=None, position=None, velocity=None, torque=None, units=None, cycle_time_ms=None, circles=false, points=None, max_error=None, feed_mm_per_min=1000.0, torque_kind=None, compensation=None))]
+#[pyo3(signature = (recordings, *, axis=None, time=None, position=None, velocity=None, torque=None, units=None, cycle_time_ms=None, circles=false, points=None, max_error=None, feed_mm_per_min=1000.0, torque_kind=None, compensation=None))]
 // Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn identify(
     py: Python<'_>,
-    traces: Traces,
+    recordings: Recordings,
     axis: Option<String>,
     time: Option<String>,
     position: Option<String>,
@@ -114,7 +114,7 @@ pub(crate) fn identify(
         ..ChannelSelection::default()
     };
     let recorded = AxisRecordings {
-        traces: traces.paths(),
+        recordings: recordings.paths(),
         selection,
         cycle_s: cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?,
         said: TorqueStatement {
@@ -146,14 +146,14 @@ pub(crate) fn given_units(units: Option<HashMap<String, String>>) -> PyResult<Ve
 
 /// One recording, or several.
 #[derive(FromPyObject)]
-pub(crate) enum Traces {
+pub(crate) enum Recordings {
     /// One.
     One(PathBuf),
     /// Several.
     Several(Several<PathBuf>),
 }
 
-impl Traces {
+impl Recordings {
     fn paths(self) -> Vec<PathBuf> {
         match self {
             Self::One(path) => vec![path],
@@ -165,16 +165,19 @@ impl Traces {
 impl AxisRecordings {
     /// Constant speeds in one recording.
     fn at_speeds(self, options: &IdentifyOptions) -> Result<PyIdentified, Failure> {
-        let [trace] = self.traces.as_slice() else {
-            let count = self.traces.len();
-            return Err(Failure::new(format!("{count} traces were given"))
-                .with_help("give one trace of constant speeds, or `circles=True` for circles"));
+        let [path] = self.recordings.as_slice() else {
+            let count = self.recordings.len();
+            return Err(
+                Failure::new(format!("{count} recordings were given")).with_help(
+                    "give one recording of constant speeds, or `circles=True` for circles",
+                ),
+            );
         };
-        let recording = read_axis(trace, &self.selection, self.cycle_s, &Disk::default())?;
+        let recording = read_axis(path, &self.selection, self.cycle_s, &Disk::default())?;
         let mut options = *options;
         options.measured = self.said.about(recording.measured);
         let report = IdentifyReport {
-            name: shown_path(trace),
+            name: shown_path(path),
             axis: self.selection.axis.clone(),
             identified: find(&recording.track, &options).map_err(Failure::of_identification)?,
             recording,
@@ -192,9 +195,9 @@ impl AxisRecordings {
 
     /// Circles at several feeds.
     fn on_circles(self) -> Result<PyIdentified, Failure> {
-        let recordings = self.traces.iter().map(|trace| {
+        let recordings = self.recordings.iter().map(|path| {
             Ok::<_, Failure>(read_axis(
-                trace,
+                path,
                 &self.selection,
                 self.cycle_s,
                 &Disk::default(),
@@ -205,7 +208,7 @@ impl AxisRecordings {
         let measured = recordings.iter().map(|it| self.said.about(it.measured));
         // Only what is known about every recording.
         let measured = measured.reduce(Measured::common).unwrap_or_default();
-        let names = self.traces.iter().map(|path| shown_path(path));
+        let names = self.recordings.iter().map(|path| shown_path(path));
         let report = OnCirclesReport {
             names: names.collect(),
             axis: self.selection.axis.clone(),

@@ -8,8 +8,8 @@ use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ListHead, Points};
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    CircleChannels, Disk, FileRegistry, Watch, compare, find_plant, memory_for_simulation,
-    read_circles, read_value_list, tune as search,
+    Disk, FileRegistry, Watch, compare, find_plant, memory_for_simulation, read_circles,
+    read_value_list, tune as search,
 };
 use frictcomp_physics::circle::TuningAim;
 use frictcomp_physics::circle::{
@@ -19,7 +19,6 @@ use frictcomp_physics::circle::{
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::circle::{CircleReport, ListOrigin, render_json};
 use frictcomp_report::pictures;
@@ -72,10 +71,10 @@ impl From<&CircleReport> for PyCircle {
 
 /// A circular test, as ``frictcomp circle`` makes it.
 ///
-/// Two simulated axes drive the circle with compensation off and on; with ``traces``, recorded
+/// Two simulated axes drive the circle with compensation off and on; with ``recordings``, recorded
 /// circles are judged instead, with the radius and the feed that were commanded.
 #[pyfunction]
-#[pyo3(signature = (*, radius_mm=None, feed_mm_per_min=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, reading=None, traces=None, centre=None))]
+#[pyo3(signature = (*, radius_mm=None, feed_mm_per_min=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, reading=None, recordings=None, centre=None))]
 // Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments, clippy::fn_params_excessive_bools)]
 pub(crate) fn circle(
@@ -87,21 +86,17 @@ pub(crate) fn circle(
     value_list: Option<Lists>,
     cycle_time_ms: Option<f64>,
     reading: Option<&str>,
-    traces: Option<Several<PathBuf>>,
+    recordings: Option<Several<PathBuf>>,
     centre: Option<&str>,
 ) -> PyResult<PyCircle> {
     let centre: PathCentre = meant("centre", centre)?;
-    if let Some(Several(traces)) = traces {
+    if let Some(Several(recordings)) = recordings {
         let commanded = CommandedCircle {
             radius_mm,
             feed_mm_per_min,
         };
         interruptible(py, move |_| {
-            let channels = CircleChannels {
-                names: [None, None],
-                selection: ChannelSelection::default(),
-            };
-            let recording = read_circles(&traces, &channels, commanded, centre)?;
+            let recording = read_circles(&recordings, &Default::default(), commanded, centre)?;
             Ok(PyCircle::from(&CircleReport::recorded(recording)))
         })
     } else {

@@ -104,7 +104,7 @@ def test_the_current_of_a_recording_is_that_of_the_command(tmp_path: Path) -> No
     trace, listed = tmp_path / "trace.csv", "programs/demo/lists/comp_x.lis"
     trace.write_text(TRACE)
     made = frictcomp.current_of_recording(trace, listed)
-    options = ["--trace", str(trace), "--value-list", listed]
+    options = ["--recording", str(trace), "--value-list", listed]
     rows = list(csv.DictReader(io.StringIO(command("current", *options).stdout)))
     assert len(rows) == len(made) == 6
     for name in ["t", "x", "v", "w_before", "w_after", "current", "output"]:

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::comp::State;
+use frictcomp::comp::{AxisIndex, State};
 use frictcomp::interpreter::Motions;
-use frictcomp::machine::{Machine, Parameterisation};
+use frictcomp::machine::{Axis, Machine};
 use frictcomp::session::SessionOptions;
 use frictcomp_host::{Axes, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{
@@ -87,21 +87,9 @@ pub(crate) fn answer(
     settings: &RunSettings,
 ) -> Result<Vec<u8>, Refusal> {
     let input = dropped.program(program)?;
-    let mut loaded = dropped.machine(&input, &settings.enable)?.as_ref().clone();
+    let loaded = dropped.machine(&input, &settings.enable)?;
     expect_axes(&loaded, &start)?;
-    let with_list = loaded.machine.axes.iter();
-    let with_list = with_list.filter(|axis| matches!(axis.friction, Parameterisation::Accepted(_)));
-    let names: Vec<String> = with_list.map(|axis| axis.name.clone()).collect();
-    if names.is_empty() {
-        return Err(Refusal::new(
-            "no axis has an accepted compensation value list, so there is no current",
-        )
-        .with_help(
-            "drop the start-up list with its axis lists and value lists, or frictcomp.toml",
-        ));
-    }
-    let followed =
-        axes_to_follow(&names, &mut loaded.machine, None).map_err(|error| refused(&error))?;
+    let followed = axes_to_follow(&[], &loaded.machine).map_err(|error| refused(&error))?;
     let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
     let usual = PlannerOptions::default().cycle_s;
     let cycle_s = check_cycle(of_machine.unwrap_or(usual))
@@ -135,7 +123,7 @@ pub(crate) fn answer(
     };
     run_alone(&input, &loaded, alone, &mut currents)?;
     currents.finish();
-    let notes = notes(&loaded.machine, &names, &mut currents);
+    let notes = notes(&loaded.machine, &followed, &mut currents);
     let has_cycles = currents.cycles() > 0;
     let svg = has_cycles.then(|| currents.sink().plot.chart().render(Frame::Alone));
     Ok(json(&CurrentAnswer { svg, notes }))
@@ -144,15 +132,13 @@ pub(crate) fn answer(
 /// What the picture rests on and what is missing in it.
 fn notes(
     machine: &Machine,
-    names: &[String],
+    followed: &[AxisIndex],
     currents: &mut ProgramCurrents<Drawing>,
 ) -> Vec<String> {
     let mut notes = Vec::new();
-    let drawn = machine
-        .axes
-        .iter()
-        .filter(|axis| names.contains(&axis.name));
-    let assumed: Vec<AssumedLimits> = drawn.filter_map(AssumedLimits::of).collect();
+    let drawn: Vec<&Axis> = followed.iter().map(|axis| machine.axis(*axis)).collect();
+    let names: Vec<&str> = drawn.iter().map(|axis| axis.name.as_str()).collect();
+    let assumed: Vec<AssumedLimits> = drawn.into_iter().filter_map(AssumedLimits::of).collect();
     notes.extend(assumed_limits(&assumed));
     let (errors, remarks) = currents.diagnostics();
     let said = errors.iter().chain(remarks);
@@ -190,5 +176,8 @@ fn refused(error: &FollowError) -> Refusal {
     match error {
         FollowError::NoAxis(unknown) => Refusal::unknown(error.to_string(), unknown),
         FollowError::Assumed(_) => Refusal::new(error.to_string()),
+        FollowError::NoList => Refusal::new(error.to_string()).with_help(
+            "drop the start-up list with its axis lists and value lists, or frictcomp.toml",
+        ),
     }
 }

@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use frictcomp_host::{
-    CircleChannels, FileRegistry, HostError, TraceError, read_axis, read_trace, read_turns,
-    read_value_list,
+    FileRegistry, HostError, TraceError, read_axis, read_trace, read_turns, read_value_list,
 };
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, Recording};
 use frictcomp_physics::current::Reading;
@@ -74,7 +73,8 @@ pub(crate) fn answer(
         svg: Some(pictures::channels(&report).render(Frame::Alone)),
         report: trace::report_text(&report),
     };
-    let turns = read_turns(path, &CircleChannels::default(), settings.radius_mm, &disk);
+    let unnamed = <[ChannelSelection; 2]>::default();
+    let turns = read_turns(path, &unnamed, settings.radius_mm, &disk);
     let circle = turns.and_then(|circles| {
         let commanded = CommandedCircle {
             radius_mm: settings.radius_mm,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 
-use super::channels::MotionChannels;
+use super::channels::{MotionChannels, TorqueChannel};
 use super::cnc_build::CncBuildArgs;
 use super::console::Console;
 use super::cycle::CycleArgs;
@@ -32,7 +32,7 @@ use frictcomp_host::{
     write_new,
 };
 use frictcomp_recordings::trace::ChannelSelection;
-use frictcomp_report::{fitted, visible_line};
+use frictcomp_report::{Headline, Standing, counted, fitted, visible_line};
 
 /// Test on your control what its documents leave open
 #[derive(Debug, Subcommand)]
@@ -70,9 +70,9 @@ pub(super) struct ReadArgs {
     /// The axis of the recordings; by default the first one with P-AXIS-00522 = 1
     #[arg(long, value_name = "AXIS")]
     axis: Option<String>,
-    /// The channel of the additive current in a recording; by default `frict_comp.output` of the axis
-    #[arg(long, value_name = "CHANNEL")]
-    torque: Option<String>,
+    // That of the additive current, by default `frict_comp.output` of the axis.
+    #[command(flatten)]
+    torque: TorqueChannel,
     #[command(flatten)]
     channels: MotionChannels,
     #[command(flatten)]
@@ -112,7 +112,7 @@ fn parse_travel(text: &str) -> Result<f64, String> {
 pub(super) fn run(command: &AskCommand, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
     match command {
-        AskCommand::Write(args) => args.write(Outputs::new(&registry, console), &registry),
+        AskCommand::Write(args) => args.write(&registry, console),
         AskCommand::Read(args) => args.read(&registry, console),
         AskCommand::List(args) => args.list(Outputs::new(&registry, console), &registry),
     }
@@ -163,7 +163,8 @@ impl ControlArgs {
 }
 
 impl WriteArgs {
-    fn write(&self, mut outputs: Outputs, registry: &FileRegistry) -> Result<u8, Failure> {
+    fn write(&self, registry: &FileRegistry, console: Console) -> Result<u8, Failure> {
+        let mut outputs = Outputs::new(registry, console);
         let loaded = self.control.loaded(registry)?;
         let axis = AskedAxis {
             travel: self.travel,
@@ -171,17 +172,23 @@ impl WriteArgs {
         };
         let folder = &self.into;
         fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
-        let files = Question::ALL
-            .into_iter()
-            .flat_map(|question| ask(question, &axis));
-        for file in files {
+        let files = Question::ALL.into_iter();
+        let files: Vec<_> = files.flat_map(|question| ask(question, &axis)).collect();
+        for file in &files {
             let mut target = outputs.file("--into", &folder.join(&file.name))?;
             write_text(&mut target, &file.text)?;
         }
         let mut target = outputs.file("--into", &folder.join("README.txt"))?;
         write_text(&mut target, &readme(&axis))?;
         outputs.check()?;
-        outputs.finish()?;
+        outputs.finish_quietly()?;
+        console.print(&console.fitted(&format!(
+            "{} for {} in `{}`: run them on the control as `README.txt` there says, then `frictcomp ask read` what \
+             they leave\n",
+            counted(files.len(), "program"),
+            axis.name,
+            shown_path(folder)
+        )))?;
         if axis.build.is_none() {
             Console::talk(
                 "the build of the control is not known, so nothing will be confirmed: give it with `--cnc-build`",
@@ -195,15 +202,18 @@ impl ListArgs {
     fn list(&self, mut outputs: Outputs, registry: &FileRegistry) -> Result<u8, Failure> {
         let loaded = self.control.loaded(registry)?;
         let machine = &loaded.machine;
+        let build = self.control.build(machine);
         let mut target = outputs.result(self.result.output.as_deref())?;
         outputs.check()?;
         let width = target.look.width;
         target.text(&match self.result.format {
-            ResultFormat::Text => fitted(&listed(machine, self.control.build(machine)), width),
+            ResultFormat::Text => fitted(&listed(machine, build), width),
             ResultFormat::Json => {
                 let questions = Question::ALL.into_iter();
                 let questions: Vec<Value> = questions.map(|it| record(it, machine)).collect();
-                format!("{:#}\n", json!({ "schema": 1, "questions": questions }))
+                let headline = headline(machine, build);
+                let list = json!({ "schema": 1, "headline": headline, "questions": questions });
+                format!("{list:#}\n")
             }
         })?;
         outputs.finish()?;
@@ -229,13 +239,14 @@ impl ReadArgs {
         }
         let of_machine = machine.cycle_time_ms.map(|ms| ms / 1000.0);
         let axis = self.control.axis(self.axis.as_deref(), machine)?;
-        let selection = self.channels.selection();
+        let name = axis.name.as_str();
+        let selection = self.channels.of_axis(name, &[name])?;
         let lead_mm = machine.axes.iter().find(|it| it.name == axis.name);
         let asked = RecordedQuestions {
             axis: &axis,
             machine,
             selection: &ChannelSelection {
-                torque: self.torque.clone(),
+                torque: self.torque.of_axis(name, &[name])?,
                 lead_mm: selection
                     .lead_mm
                     .or(lead_mm.and_then(|it| it.motor_lead_mm)),
@@ -355,7 +366,17 @@ fn contradictions(answers: &[Answer]) -> Vec<Question> {
 
 /// Returns the answers in words; a reason for several undecidable ones is reported once.
 fn told(answers: &[Answer]) -> String {
-    let mut text = String::new();
+    let undecided = |it: &&Answer| it.verdict == AnswerVerdict::Undecidable;
+    let undecided = answers.iter().filter(undecided).count();
+    let answered = match answers.len() - undecided {
+        0 => "no question answered".to_owned(),
+        answered => format!("{} answered", counted(answered, "question")),
+    };
+    let left = match undecided {
+        0 => String::new(),
+        left => format!(", {left} left open"),
+    };
+    let mut text = format!("{answered}{left}\n\n");
     let is_alike = |one: &Answer, other: &Answer| {
         one.verdict == AnswerVerdict::Undecidable
             && one.verdict == other.verdict
@@ -388,8 +409,27 @@ fn basis(question: Question, machine: &Machine, build: Option<CncBuild>) -> Stri
     }
 }
 
+/// Returns the verdict: how many questions the control has answered.
+fn headline(machine: &Machine, build: Option<CncBuild>) -> Headline {
+    let bases = Question::ALL.map(|it| machine.readings.basis(it, build));
+    let confirmed = bases.iter().filter(|it| matches!(it, Basis::Confirmed(_)));
+    let selected = bases.iter().filter(|it| matches!(it, Basis::Selected));
+    let (confirmed, selected) = (confirmed.count(), selected.count());
+    let assumed = bases.len() - confirmed - selected;
+    let cure = if confirmed < bases.len() {
+        "; `frictcomp ask write` writes the programs that ask the control"
+    } else {
+        ""
+    };
+    let text = format!(
+        "{}: {confirmed} confirmed, {selected} selected, {assumed} assumed{cure}",
+        counted(bases.len(), "question")
+    );
+    Headline::new(Standing::Plain, text)
+}
+
 fn listed(machine: &Machine, build: Option<CncBuild>) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n\n", headline(machine, build));
     for question in Question::ALL {
         let facts = question.facts();
         let _ = writeln!(text, "{} {}", facts.rule, facts.question);

@@ -21,7 +21,7 @@ use super::outputs::Outputs;
 use super::painted::difference;
 use super::settings;
 use super::severities::SeverityArgs;
-use frictcomp::audit::{Archive, MendedEnd, Selected, WhyMissed};
+use frictcomp::audit::{Archive, CuredMotions, MendedEnd, Selected, WhyMissed};
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::StopPolicy;
@@ -58,12 +58,20 @@ pub(super) struct AuditArgs {
     /// Write the blocks that end the hazards: into the programs that leave an axis away from its start-up
     /// state, into those that inherit it, or for each axis into the smaller number of programs
     #[arg(long, value_name = "PROGRAMS", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "smaller", conflicts_with = "sequence")]
+    #[arg(
+        default_missing_value = "smaller",
+        conflicts_with = "sequence",
+        group = "mending"
+    )]
     fix: Option<FixScope>,
     /// Show the blocks that `--fix` would write, as a unified diff
     #[arg(long, value_name = "PROGRAMS", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "smaller", conflicts_with_all = ["sequence", "fix", "format", "all"])]
+    #[arg(group = "mending")]
     diff: Option<FixScope>,
+    /// Where no other block helps, take one that changes the state in which an axis moves
+    #[arg(long = "unsafe", requires = "mending")]
+    changing_motions: bool,
     /// Follow the programs in the order of this file, one on each line
     #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "html", "jobs"])]
     sequence: Option<PathBuf>,
@@ -170,8 +178,14 @@ impl AuditArgs {
         say_undescribed(&auditor, console);
         let mut archives = failures.keep(auditor.audit());
         if let Some(fix) = self.fix.or(self.diff) {
-            let changes = failures.keep(auditor.mend(&archives, fix.end()));
+            let motions = if self.changing_motions {
+                CuredMotions::Changed
+            } else {
+                CuredMotions::Kept
+            };
+            let changes = failures.keep(auditor.mend(&archives, fix.end(), motions));
             say_missed(&archives, &changes);
+            say_changed(&changes);
             say_roots(&changes);
             if self.diff.is_some() {
                 let files = changes.iter().filter_map(|change| change.file.as_ref());
@@ -393,11 +407,29 @@ fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
                 ),
                 _ => "no single block mends this".to_owned(),
             };
+            let takes_it = match &missed.why {
+                WhyMissed::ChangesMotion(_) => ", or take the block with `--unsafe`",
+                _ => "",
+            };
             Console::talk(&format!(
-                "{}: {why}; write `{way_home}` wherever it is needed by hand",
+                "{}: {why}; write `{way_home}` wherever it is needed by hand{takes_it}",
                 program.file,
             ));
         }
+    }
+}
+
+/// Reports which blocks change the state in which axes move (R10.8).
+fn say_changed(changes: &[MendedProgram]) {
+    for change in changes {
+        let Some(file) = change.file.as_ref().filter(|_| !change.changed.is_empty()) else {
+            continue;
+        };
+        Console::talk(&format!(
+            "{}: a block changes the state in which axes move in {}",
+            shown(&file.path),
+            change.changed.join(", "),
+        ));
     }
 }
 
@@ -439,9 +471,10 @@ fn to_write(changes: &[MendedProgram]) -> String {
     match (blocks, files.count()) {
         (0, _) => "nothing to write".to_owned(),
         (blocks, programs) => format!(
-            "{} in {} (`--fix` writes them)",
+            "{} in {} (`--fix` writes {})",
             counted(blocks, "block"),
-            counted(programs, "program")
+            counted(programs, "program"),
+            if blocks == 1 { "it" } else { "them" },
         ),
     }
 }

@@ -5,27 +5,27 @@ use std::path::Path;
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
+use super::per_axis::{ByAxis, PerAxis};
 use super::quantities;
 use frictcomp_host::{FileRegistry, MachineOptions, Machines};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{Measured, TorqueKind};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 
-/// Options for the channels of an axis's motion.
+/// Options for the channels of the motion of an axis. In each of them `%` stands for the name of the axis.
 #[derive(Debug, Clone, Default, Args)]
-pub(super) struct MotionChannels {
-    /// The channel of the times in a trace: its name, comment or CNC object
+pub(crate) struct MotionChannels {
+    /// The channel of the times in a recording: its name, comment or CNC object
     #[arg(long, value_name = "CHANNEL")]
-    time: Option<String>,
-    /// The channel of the positions
+    pub(crate) time: Option<String>,
+    /// The channel of the commanded positions; `%` stands for the name of the axis: `%.SetPos`, or `X=CHANNEL`
     #[arg(long, value_name = "CHANNEL")]
-    position: Option<String>,
-    /// The channel of the velocities
+    position: Vec<PerAxis>,
+    /// The channel of the commanded velocities: `%.SetVelo`
     #[arg(long, value_name = "CHANNEL")]
-    velocity: Option<String>,
-    /// The unit of a channel, where the file does not name it: `--unit SetVelo=mm/s`
-    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
-    unit: Vec<(String, Unit)>,
+    velocity: Vec<PerAxis>,
+    #[command(flatten)]
+    pub(crate) unit: UnitArgs,
     /// The way of the axis in mm in a turn of its motor, where positions and velocities are recorded in turns,
     /// degrees or radians of the motor; by default `lead` of the axis in `frictcomp.toml`
     #[arg(long, value_name = "MM", value_parser = parse_lead)]
@@ -33,28 +33,154 @@ pub(super) struct MotionChannels {
 }
 
 impl MotionChannels {
-    /// Returns the user's selection of channels.
-    pub(super) fn selection(&self) -> ChannelSelection {
-        ChannelSelection {
+    /// Returns the user's selection of the channels of one of some axes.
+    pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<ChannelSelection, Failure> {
+        let of = |option, given| {
+            ByAxis {
+                option,
+                given,
+                axes,
+            }
+            .channel(name)
+        };
+        Ok(ChannelSelection {
+            axis: (!name.is_empty()).then(|| name.to_owned()),
             time: self.time.clone(),
-            position: self.position.clone(),
-            velocity: self.velocity.clone(),
-            units: self.unit.clone(),
+            position: of("--position", &self.position)?,
+            velocity: of("--velocity", &self.velocity)?,
+            units: self.unit.unit.clone(),
             lead_mm: self.lead,
             ..ChannelSelection::default()
+        })
+    }
+}
+
+/// Option for the channel of the torque.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct TorqueChannel {
+    /// The channel of the torque or the current, that of `dig_drv.act_torque`: `%.ActTorque`
+    #[arg(long, value_name = "CHANNEL")]
+    torque: Vec<PerAxis>,
+}
+
+impl TorqueChannel {
+    /// Whether each axis has a channel of its own.
+    pub(crate) fn is_of_each(&self) -> bool {
+        self.torque.len() > 1 || self.torque.iter().any(PerAxis::is_pattern)
+    }
+
+    /// Returns the channel of one of some axes.
+    pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<Option<String>, Failure> {
+        let (option, given) = ("--torque", &self.torque);
+        ByAxis {
+            option,
+            given,
+            axes,
         }
+        .channel(name)
+    }
+}
+
+/// Options for the channels of the positions that an axis reached.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct FollowedChannels {
+    /// The channel of the actual positions, in addition to the commanded ones: `%.ActPos`
+    #[arg(long, value_name = "CHANNEL")]
+    pub(crate) actual_position: Vec<PerAxis>,
+    /// The channel of the following error, commanded less actual position: `%.PosDiff`
+    #[arg(long, value_name = "CHANNEL", conflicts_with = "actual_position")]
+    following_error: Vec<PerAxis>,
+}
+
+impl FollowedChannels {
+    /// Adds the channels of one of some axes to its others.
+    pub(crate) fn added_to(
+        &self,
+        others: ChannelSelection,
+        (name, axes): (&str, &[&str]),
+    ) -> Result<ChannelSelection, Failure> {
+        let of = |option, given| {
+            ByAxis {
+                option,
+                given,
+                axes,
+            }
+            .channel(name)
+        };
+        Ok(ChannelSelection {
+            actual_position: of("--actual-position", &self.actual_position)?,
+            following_error: of("--following-error", &self.following_error)?,
+            ..others
+        })
+    }
+}
+
+/// Option for the units of channels.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct UnitArgs {
+    /// The unit of a channel, where the file does not name it: `--unit SetVelo=mm/s`
+    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
+    pub(crate) unit: Vec<(String, Unit)>,
+}
+
+/// Options for the channels of a recorded circle.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct CircleChannelArgs {
+    /// The channel of the actual positions of an axis, its name, comment or CNC object: `X=ActPosX`, or `%.ActPos`
+    /// with `%` for the name of the axis
+    #[arg(long, value_name = "CHANNEL")]
+    position: Vec<PerAxis>,
+    /// The channel of the times in a recording
+    #[arg(long, value_name = "CHANNEL")]
+    time: Option<String>,
+    #[command(flatten)]
+    unit: UnitArgs,
+}
+
+impl CircleChannelArgs {
+    /// Refuses channels if there is no recording.
+    pub(crate) fn refuse_without_recording(&self) -> Result<(), Failure> {
+        let given = [
+            ("--position", !self.position.is_empty()),
+            ("--time", self.time.is_some()),
+            ("--unit", !self.unit.unit.is_empty()),
+        ];
+        given.iter().find(|it| it.1).map_or(Ok(()), |(option, _)| {
+            let message = format!("`{option}` is about a recording, and none is given");
+            Err(Failure::new(message).with_help("give it with `--recording FILE`"))
+        })
+    }
+
+    /// Returns the channels of both axes.
+    pub(crate) fn selections(&self) -> Result<[ChannelSelection; 2], Failure> {
+        let axes = &["X", "Y"];
+        let of = |axis: &str| {
+            let (option, given) = ("--position", &self.position);
+            Ok::<_, Failure>(ChannelSelection {
+                axis: Some(axis.to_owned()),
+                time: self.time.clone(),
+                position: ByAxis {
+                    option,
+                    given,
+                    axes,
+                }
+                .channel(axis)?,
+                units: self.unit.unit.clone(),
+                ..ChannelSelection::default()
+            })
+        };
+        Ok([of(axes[0])?, of(axes[1])?])
     }
 }
 
 /// Options for the channels of an axis's motion and torque.
 #[derive(Debug, Clone, Default, Args)]
-pub(super) struct AxisChannelArgs {
+pub(crate) struct AxisChannelArgs {
     /// The axis, by its name, or by its number in CNC objects
     #[arg(long, value_name = "AXIS")]
-    pub(super) axis: Option<String>,
-    /// The channel of the torque or the current, that of `dig_drv.act_torque`
-    #[arg(long, value_name = "CHANNEL")]
-    torque: Option<String>,
+    pub(crate) axis: Option<String>,
+    #[command(flatten)]
+    torque: TorqueChannel,
     #[command(flatten)]
     motion: MotionChannels,
 }
@@ -62,22 +188,27 @@ pub(super) struct AxisChannelArgs {
 impl AxisChannelArgs {
     /// Returns the user's selection of the channels of a recording. The way in a turn of the motor is that of the
     /// machine to whose folder the recording belongs, if it is not given.
-    pub(super) fn selection(
+    pub(crate) fn selection(
         &self,
         recording: &Path,
         registry: &FileRegistry,
     ) -> Result<ChannelSelection, Failure> {
-        let selection = self.motion.selection();
+        let axis = self.axis();
+        let selection = self.motion.of_axis(axis, &[axis])?;
         let lead_mm = match selection.lead_mm {
             Some(given) => Some(given),
             None => self.lead_of_machine(recording, registry)?,
         };
         Ok(ChannelSelection {
-            axis: self.axis.clone(),
-            torque: self.torque.clone(),
+            torque: self.torque.of_axis(axis, &[axis])?,
             lead_mm,
             ..selection
         })
+    }
+
+    /// Returns the name of the axis, empty if none is given.
+    pub(crate) fn axis(&self) -> &str {
+        self.axis.as_deref().unwrap_or_default()
     }
 
     /// Returns the way in a turn of the motor of the axis, or of the machine's only one, in mm.
@@ -100,16 +231,16 @@ impl AxisChannelArgs {
 
 /// Option for the kind of recorded torque.
 #[derive(Debug, Clone, Default, Args)]
-pub(super) struct TorqueKindArgs {
+pub(crate) struct TorqueKindArgs {
     /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
     /// the speed controller; by default taken from the name of the channel
     #[arg(long, value_name = "KIND")]
-    pub(super) torque_kind: Option<TorqueKind>,
+    pub(crate) torque_kind: Option<TorqueKind>,
 }
 
 /// What the user knows about the recorded torque.
 #[derive(Debug, Clone, Default, Args)]
-pub(super) struct TorqueArgs {
+pub(crate) struct TorqueArgs {
     #[command(flatten)]
     kind: TorqueKindArgs,
     /// Whether friction compensation was on while recording; by default taken from a channel `comp`
@@ -126,7 +257,7 @@ enum SwitchState {
 
 impl TorqueArgs {
     /// Returns the known properties of the torque, with those given by the user.
-    pub(super) fn measured(&self, recorded: Measured) -> Measured {
+    pub(crate) fn measured(&self, recorded: Measured) -> Measured {
         let said = self.compensation.map(|state| match state {
             SwitchState::On => Switched::On,
             SwitchState::Off => Switched::Off,
@@ -136,7 +267,7 @@ impl TorqueArgs {
 }
 
 /// Parses `NAME=UNIT`; a name may contain `=`, a unit does not.
-pub(super) fn parse_unit(text: &str) -> Result<(String, Unit), String> {
+fn parse_unit(text: &str) -> Result<(String, Unit), String> {
     let (name, unit) = text
         .rsplit_once('=')
         .ok_or_else(|| "write `CHANNEL=UNIT`, such as `SetVelo=mm/s`".to_owned())?;

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::axis_list::{AxisList, files_of};
-use super::channels::parse_unit;
+use super::channels::CircleChannelArgs;
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::{Outputs, write_text};
+use super::per_axis::{ByAxis, PerAxis};
 use super::progress;
 use super::quantities;
 use super::readings::CurrentReadingArgs;
@@ -19,11 +19,8 @@ use super::result::ResultArgs;
 use super::simulated::{ModelArgs, PlantArgs};
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
-use frictcomp_host::{
-    CircleChannels, FileRegistry, compare, find_plant, memory_for_simulation, read_circles,
-};
+use frictcomp_host::{FileRegistry, compare, find_plant, memory_for_simulation, read_circles};
 use frictcomp_physics::circle::{Circle, CircularTest, CommandedCircle, Method, PathCentre};
-use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_circle;
@@ -32,10 +29,10 @@ use frictcomp_report::svg::Frame;
 
 /// Make a circular test, simulated or recorded
 ///
-/// Drives a circle with two simulated axes, with friction compensation off and on. Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--trace`
+/// Drives a circle with two simulated axes, with friction compensation off and on. Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--recording`
 /// evaluates a recorded circle instead: an export of TwinCAT Scope, a SINUMERIK trace or a CSV file,
-/// with the columns `x` and `y` in mm (or `x_um` and `y_um` in µm) or the channels that `--x` and
-/// `--y` name. Give two files for both directions.
+/// with the columns `x` and `y` in mm (or `x_um` and `y_um` in µm) or the channels that `--position`
+/// names. Give two files for both directions.
 #[derive(Debug, Args)]
 pub(super) struct CircleArgs {
     /// Radius in mm; for recorded circles the commanded radius
@@ -53,27 +50,20 @@ pub(super) struct CircleArgs {
     /// The compensation value list of both axes, or `X=LIST` and `Y=LIST`; by default the stiction
     /// compensation of the plant if it has one, or else its friction curve
     #[arg(long, value_name = "LIST")]
-    value_list: Vec<AxisList>,
+    value_list: Vec<PerAxis>,
     #[command(flatten)]
     cycle: CycleArgs,
     #[command(flatten)]
     reading: CurrentReadingArgs,
     /// A recorded circle instead of a simulated one; give it twice for both directions
     #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time", "reading"])]
-    trace: Vec<PathBuf>,
+    recording: Vec<PathBuf>,
     /// The centre about which G(b) and H compare both directions: `common`, the mean of both
     /// least-squares centres, or `own`
     #[arg(long, value_name = "CENTRE", default_value_t)]
     centre: PathCentre,
-    /// The channel of the first axis in a recorded circle: its name, comment or CNC object
-    #[arg(long = "x", value_name = "CHANNEL", requires = "trace")]
-    x_channel: Option<String>,
-    /// The channel of the second axis
-    #[arg(long = "y", value_name = "CHANNEL", requires = "trace")]
-    y_channel: Option<String>,
-    /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
-    #[arg(long, value_name = "CHANNEL=UNIT", requires = "trace", value_parser = parse_unit)]
-    unit: Vec<(String, Unit)>,
+    #[command(flatten)]
+    channels: CircleChannelArgs,
     #[command(flatten)]
     result: ResultArgs<CircleFormat>,
     /// Draw the circle with magnified deviation, compensation off and on, to this SVG file
@@ -104,21 +94,27 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
-    let report = if args.trace.is_empty() {
+    let report = if args.recording.is_empty() {
+        args.channels.refuse_without_recording()?;
         let (test, origin) = simulation(args, &registry)?;
         outputs.check()?;
         let comparison = compare(&test, &progress::watch())?.about(args.centre);
         CircleReport::simulated(test, comparison, origin)
     } else {
-        args.trace
+        args.recording
             .iter()
-            .for_each(|path| registry.reads("trace", path));
+            .for_each(|path| registry.reads("recording", path));
         outputs.check()?;
         let commanded = CommandedCircle {
             radius_mm: args.radius,
             feed_mm_per_min: args.feed,
         };
-        let recording = read_circles(&args.trace, &channels(args), commanded, args.centre)?;
+        let recording = read_circles(
+            &args.recording,
+            &args.channels.selections()?,
+            commanded,
+            args.centre,
+        )?;
         CircleReport::recorded(recording)
     };
     let text = match args.result.format {
@@ -135,17 +131,6 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     result.text(&text)?;
     outputs.finish()?;
     Ok(exit::CLEAN)
-}
-
-/// Returns the channels of a recorded circle that are its positions.
-fn channels(args: &CircleArgs) -> CircleChannels {
-    CircleChannels {
-        names: [args.x_channel.clone(), args.y_channel.clone()],
-        selection: ChannelSelection {
-            units: args.unit.clone(),
-            ..ChannelSelection::default()
-        },
-    }
 }
 
 /// Returns the simulation, and the origin of the value lists.
@@ -180,17 +165,19 @@ fn simulation(
 
 /// Returns the lists given for both axes, or for each.
 fn given_lists(
-    given: &[AxisList],
+    given: &[PerAxis],
     registry: &FileRegistry,
 ) -> Result<([FrictionList; 2], ListOrigin), Failure> {
-    let [x, y] = files_of("--value-list", given)?;
-    let list = value_list(x, registry)?;
-    if given.len() == 1 {
-        return Ok(([list.clone(), list], ListOrigin::File(shown_path(x))));
-    }
-    let names = [x, y].map(shown_path);
-    Ok((
-        [list, value_list(y, registry)?],
-        ListOrigin::EachAxis(names),
-    ))
+    let lists = ByAxis {
+        option: "--value-list",
+        given,
+        axes: &["X", "Y"],
+    };
+    let [x, y] = [lists.required("X")?, lists.required("Y")?];
+    let origin = if x == y {
+        ListOrigin::File(shown_path(x))
+    } else {
+        ListOrigin::EachAxis([x, y].map(shown_path))
+    };
+    Ok(([value_list(x, registry)?, value_list(y, registry)?], origin))
 }

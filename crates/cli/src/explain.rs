@@ -58,7 +58,14 @@ pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
 
 /// Returns every code with its severity and title.
 fn codes() -> String {
-    Code::ALL.iter().fold(String::new(), |mut list, code| {
+    let mut codes = Code::ALL.to_vec();
+    codes.sort_by_key(|code| {
+        let number = code
+            .as_str()
+            .trim_start_matches(|it: char| !it.is_ascii_digit());
+        (code.as_str().starts_with("FC"), number.parse::<u32>().ok())
+    });
+    codes.iter().fold(String::new(), |mut list, code| {
         let (name, severity) = (code.as_str(), code.severity().as_str());
         let _ = writeln!(list, "{name:<12}  {severity:<7}  {}", code.title());
         list

@@ -154,7 +154,7 @@ impl From<FollowError> for Failure {
     fn from(error: FollowError) -> Self {
         let help = match &error {
             FollowError::NoAxis(unknown) => unknown.help("its axes are"),
-            FollowError::Assumed(_) => {
+            FollowError::Assumed(_) | FollowError::NoList => {
                 Some("name its compensation value list with `--value-list`".to_owned())
             }
         };

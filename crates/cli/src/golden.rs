@@ -145,8 +145,7 @@ impl GoldenRun<'_> {
                 Ok(GoldenDrift::AsAgreed) => {}
                 Ok(GoldenDrift::Missing { .. }) => {
                     missing += 1;
-                    let line = console.fitted(&format!("{name} is missing\n"));
-                    let _ = writeln!(output, "{line}");
+                    output += &console.fitted(&format!("{name} is missing\n"));
                 }
                 Ok(GoldenDrift::Drifted { before, now }) => {
                     drifted += 1;
@@ -160,26 +159,33 @@ impl GoldenRun<'_> {
                 Err(failure) => failures.push(failure),
             }
         }
+        let differs = drifted + missing > 0;
+        if differs || failures.is_empty() {
+            let verdict = self.verdict(drifted, missing);
+            let between = if output.is_empty() { "" } else { "\n" };
+            output = format!("{}{between}{output}", console.fitted(&verdict));
+        }
         if let Printed::Unread = console.print_painted(&output, difference)? {
             return Ok(exit::CLEAN);
         }
         self.say_beside(console);
+        Ok(if differs { exit::FOUND } else { exit::CLEAN })
+    }
+
+    fn verdict(&self, drifted: u64, missing: u64) -> String {
         let all = self.args.counted(self.files.len());
-        if drifted + missing > 0 {
-            let counts = [(drifted, "drifted"), (missing, "missing")];
-            let parts = counts.iter().filter(|(count, _)| *count > 0);
-            let parts: Vec<String> = parts.map(|(n, word)| format!("{n} {word}")).collect();
-            let parts = parts.join(", ");
-            Console::talk(&format!("of {all} {parts} (`--update` writes them)"));
-            return Ok(exit::FOUND);
+        let counts = [
+            (drifted, ["differs", "differ"]),
+            (missing, ["is missing", "are missing"]),
+        ];
+        let parts = counts.iter().filter(|(count, _)| *count > 0);
+        let parts = parts.map(|(count, [one, more])| {
+            format!("{count} {}", if *count == 1 { one } else { more })
+        });
+        match &*parts.collect::<Vec<_>>().join(", ") {
+            "" => format!("{all} as agreed{}\n", passed_over(self.left_out.others())),
+            parts => format!("{all}: {parts} (`--update` agrees to what is there now)\n"),
         }
-        if failures.is_empty() {
-            console.remark(&format!(
-                "{all} as agreed{}",
-                passed_over(self.left_out.others())
-            ));
-        }
-        Ok(exit::CLEAN)
     }
 
     fn update(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {

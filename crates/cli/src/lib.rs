@@ -8,7 +8,6 @@
 
 mod ask;
 mod audit;
-mod axis_list;
 mod baseline;
 mod channels;
 mod check;
@@ -51,6 +50,7 @@ mod moved;
 mod named_lists;
 mod outputs;
 mod painted;
+mod per_axis;
 mod piped;
 mod progress;
 mod quantities;
@@ -178,9 +178,7 @@ pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn status_of(tool: clap::Command, arguments: Vec<OsString>) -> u8 {
     let hidden = hidden(&arguments);
-    let mut words = arguments.iter().map(|it| it.to_string_lossy());
-    let command = words.find(|it| tool.find_subcommand(it.as_ref()).is_some());
-    let command = command.unwrap_or_default().into_owned();
+    let command = called(&tool, &arguments);
     let gone = moved::command(&command, &tool);
     let parsed = tool.try_get_matches_from(arguments);
     let moved = || moved::option(&command, parsed.as_ref().err()?);
@@ -211,6 +209,19 @@ fn status_of(tool: clap::Command, arguments: Vec<OsString>) -> u8 {
         console.explain(&failure);
         exit::FAILED
     })
+}
+
+/// Returns the command that is called, with its own one: `commission learn`.
+fn called(tool: &clap::Command, arguments: &[OsString]) -> String {
+    let mut command = tool;
+    let mut path = Vec::new();
+    for word in arguments {
+        if let Some(below) = command.find_subcommand(word) {
+            path.push(below.get_name());
+            command = below;
+        }
+    }
+    path.join(" ")
 }
 
 /// Returns the contents that a command writes with its `--format`.

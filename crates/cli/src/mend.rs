@@ -80,16 +80,18 @@ impl MendRun<'_> {
             return Ok(exit::CLEAN);
         }
         if mended.is_empty() {
+            console.remark("nothing to change");
             return Ok(exit::CLEAN);
         }
-        let count = mended.iter().map(|file| file.changes).sum();
+        let count: usize = mended.iter().map(|file| file.changes).sum();
         let files = match mended.len() {
             1 => "1 file".to_owned(),
             count => format!("{count} files"),
         };
         console.remark(&format!(
-            "{} in {files} (`--fix` applies them)",
-            changes(count)
+            "{} in {files} (`--fix` applies {})",
+            changes(count),
+            if count == 1 { "it" } else { "them" },
         ));
         Ok(exit::FOUND)
     }

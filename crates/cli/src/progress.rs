@@ -50,13 +50,27 @@ impl Watcher for Terminal {
 
     fn show(&self, progress: &Progress) {
         if let Ok(mut shown) = self.shown.try_lock() {
-            let line = progress.to_string();
+            let left = progress
+                .part()
+                .and_then(|it| left(self.begun.elapsed(), it));
+            let line = format!("{progress}{}", left.unwrap_or_default());
             let columns = line.chars().count();
             let longer = SHOWN.swap(columns, Ordering::Relaxed).max(columns);
             let _ = write!(io::stderr().lock(), "\r{line:longer$}");
             *shown = Some(Instant::now());
         }
     }
+}
+
+/// Returns the estimate of the time that remains of work of which a part is done; none at its begin, which says little.
+fn left(elapsed: Duration, part: f64) -> Option<String> {
+    const LEAST: f64 = 0.05;
+    let left_s = (part >= LEAST).then(|| elapsed.as_secs_f64() * (1.0 - part) / part)?;
+    Some(if left_s < 90.0 {
+        format!(", about {left_s:.0} s left")
+    } else {
+        format!(", about {:.0} min left", left_s / 60.0)
+    })
 }
 
 impl Drop for Terminal {
@@ -84,5 +98,19 @@ impl<W: Write> Write for OverProgress<W> {
 
     fn flush(&mut self) -> io::Result<()> {
         self.0.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rest_is_estimated_from_what_is_done() {
+        // R18.28
+        let after = |seconds, part| left(Duration::from_secs(seconds), part);
+        assert_eq!(after(10, 0.25).as_deref(), Some(", about 30 s left"));
+        assert_eq!(after(60, 0.2).as_deref(), Some(", about 4 min left"));
+        assert_eq!(after(1, 0.01), None);
     }
 }

@@ -1,6 +1,5 @@
 //! Options for driving the path of a program with simulated drives.
 
-use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
@@ -9,6 +8,7 @@ use super::cycle::CycleArgs;
 use super::execution::ExecutionArgs;
 use super::failure::Failure;
 use super::machine::value_list;
+use super::per_axis::{ByAxis, PerAxis};
 use super::quantities;
 use super::start::StartArgs;
 use super::tool_radius::ToolArgs;
@@ -62,9 +62,9 @@ pub(super) struct SimulationArgs {
     plant: PlantArgs,
     #[command(flatten)]
     model: ModelArgs,
-    /// The compensation value list of an axis, in place of the machine's
-    #[arg(long, value_name = "AXIS=FILE", value_parser = parse_list)]
-    value_list: Vec<(String, PathBuf)>,
+    /// The compensation value list of both axes, or `X=LIST`, in place of the machine's
+    #[arg(long, value_name = "LIST")]
+    value_list: Vec<PerAxis>,
     #[command(flatten)]
     pub(super) start: StartArgs,
     #[command(flatten)]
@@ -111,17 +111,26 @@ impl SimulationArgs {
         execution: &ExecutionArgs,
         registry: &FileRegistry,
     ) -> Result<ContourSetup, Failure> {
-        let given = self.value_list.iter().map(|(axis, path)| {
-            let list = value_list(path, registry)?;
-            Ok((axis.clone(), shown_path(path), list))
-        });
+        let plane = self.plane.clone();
+        let plane = plane.unwrap_or_else(|| ["X", "Y"].map(str::to_owned));
+        let lists = ByAxis {
+            option: "--value-list",
+            given: &self.value_list,
+            axes: &plane.each_ref().map(String::as_str),
+        };
+        let mut value_lists = Vec::new();
+        for axis in &plane {
+            if let Some(path) = lists.list(axis)? {
+                let list = value_list(path, registry)?;
+                value_lists.push((axis.clone(), shown_path(path), list));
+            }
+        }
         let mut session = execution.options(loaded, StopPolicy::FirstError);
         session.start = self.start.positions(&loaded.machine)?;
-        let plane = self.plane.clone();
         Ok(ContourSetup {
-            plane: plane.unwrap_or_else(|| ["X", "Y"].map(str::to_owned)),
+            plane,
             plant: find_plant(self.plant(), registry)?,
-            value_lists: given.collect::<Result<_, Failure>>()?,
+            value_lists,
             model: self.model.model(),
             planner: self.planner(loaded)?,
             session,
@@ -179,15 +188,6 @@ impl FromStr for Tolerance {
         let um = Some(um).filter(|um| *um >= 0.0);
         um.map(Self)
             .ok_or_else(|| "write the µm, 0 or more".to_owned())
-    }
-}
-
-fn parse_list(text: &str) -> Result<(String, PathBuf), String> {
-    match text.split_once('=') {
-        Some((axis, path)) if !axis.is_empty() && !path.is_empty() => {
-            Ok((axis.trim().to_owned(), path.into()))
-        }
-        _ => Err("write the axis and the file, `X=comp_x.lis`".to_owned()),
     }
 }
 

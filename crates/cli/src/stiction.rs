@@ -11,6 +11,7 @@ use super::outputs::Outputs;
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp_host::FileRegistry;
 use frictcomp_physics::stiction::{Quantity, StictionError, solve};
+use frictcomp_report::fitted;
 use frictcomp_report::stiction::{guideline, render_stiction, stiction_document};
 
 /// Compute stiction compensation of the Heidenhain TNC 407, 415 and 425 (MP1511 to MP1513)
@@ -104,7 +105,7 @@ pub(super) fn run(args: &StictionArgs, console: Console) -> Result<u8, Failure> 
     let mut outputs = Outputs::new(&FileRegistry::default(), console);
     let mut target = outputs.result(args.result.output.as_deref())?;
     target.text(&match args.result.format {
-        ResultFormat::Text => render_stiction(&solution),
+        ResultFormat::Text => fitted(&render_stiction(&solution), target.look.width),
         ResultFormat::Json => format!("{:#}\n", stiction_document(&solution)),
     })?;
     outputs.finish()?;

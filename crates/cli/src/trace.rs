@@ -21,11 +21,12 @@ use frictcomp_report::trace::{TraceReport, render_json, render_text};
 ///
 /// Reads exports of TwinCAT Scope (CSV), traces of SINUMERIK (XML) and CSV files with a header. The
 /// names, comments and CNC objects that it lists are what `identify`, `current` and `circle` take
-/// after `--velocity`, `--position`, `--torque`, `--time`, `--x` and `--y`.
+/// after `--velocity`, `--position`, `--torque` and `--time`.
 #[derive(Debug, Args)]
 pub(super) struct TraceArgs {
-    /// The recorded trace
-    file: PathBuf,
+    /// The recording
+    #[arg(value_name = "RECORDING")]
+    recording: PathBuf,
     /// The channel of the times, where the file has one that is not called `t` or `time`
     #[arg(long, value_name = "CHANNEL")]
     time: Option<String>,
@@ -42,7 +43,7 @@ pub(super) struct TraceArgs {
 /// Runs the command.
 pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
-    registry.reads("trace", &args.file);
+    registry.reads("recording", &args.recording);
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
@@ -52,13 +53,13 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
         time: args.time.clone(),
         ..ChannelSelection::default()
     };
-    let recording = read_trace(&args.file, &Disk::default(), |channels| {
+    let read = read_trace(&args.recording, &Disk::default(), |channels| {
         let time = selection.find(ChannelQuantity::Time, channels)?;
         Ok(Choice::all(channels, time))
     })?;
     let report = TraceReport {
-        name: shown_path(&args.file),
-        recording: &recording,
+        name: shown_path(&args.recording),
+        recording: &read,
     };
     if let Some(mut svg) = svg {
         write_text(&mut svg, &channels(&report).render(Frame::Alone))?;

@@ -168,7 +168,6 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     outputs.check()?;
     let model = args.model.model();
-    let watch = progress::watch();
     let mut reports = Vec::new();
     for plant in plants {
         let name = plant.name.clone();
@@ -195,7 +194,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             model: model.as_str(),
             reading: args.reading.reading.to_string(),
             not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
-            tuned: tune(&task, &watch)?,
+            tuned: tune(&task, &progress::watch())?,
         });
     }
     if let Some(first) = reports.first() {

@@ -4,19 +4,19 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::channels::AxisChannelArgs;
+use super::channels::{AxisChannelArgs, FollowedChannels};
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::Outputs;
+use super::per_axis::{ByAxis, PerAxis};
 use super::readings::CurrentReadingArgs;
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{Predictor, verify_followed};
-use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::fitted;
 use frictcomp_report::verify::{VerifyReport, render_json, render_text};
 
@@ -29,20 +29,16 @@ use frictcomp_report::verify::{VerifyReport, render_json, render_text};
 /// compensation, or record the torque that the drive measures.
 #[derive(Debug, Args)]
 pub(super) struct VerifyArgs {
-    /// The recorded trace
-    trace: PathBuf,
+    /// The recording
+    #[arg(value_name = "RECORDING")]
+    recording: PathBuf,
     /// The compensation value list
-    #[arg(long, value_name = "LIST")]
-    value_list: PathBuf,
+    #[arg(long, value_name = "LIST", required = true)]
+    value_list: Vec<PerAxis>,
     #[command(flatten)]
     channels: AxisChannelArgs,
-    /// The channel of the actual positions, in addition to the commanded ones: only the following error
-    /// shows whether the list is early or late
-    #[arg(long, value_name = "CHANNEL")]
-    actual_position: Option<String>,
-    /// The channel of the following error, commanded less actual position
-    #[arg(long, value_name = "CHANNEL", conflicts_with = "actual_position")]
-    following_error: Option<String>,
+    #[command(flatten)]
+    followed: FollowedChannels,
     #[command(flatten)]
     cycle: CycleArgs,
     #[command(flatten)]
@@ -54,18 +50,22 @@ pub(super) struct VerifyArgs {
 /// Runs the command.
 pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
-    registry.reads("trace", &args.trace);
+    registry.reads("recording", &args.recording);
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
-    let list = value_list(&args.value_list, &registry)?;
+    let axis = args.channels.axis();
+    let lists = ByAxis {
+        option: "--value-list",
+        given: &args.value_list,
+        axes: &[axis],
+    };
+    let path = lists.required(axis)?;
+    let list = value_list(path, &registry)?;
     outputs.check()?;
     let cycle_s = args.cycle.seconds()?;
-    let selection = ChannelSelection {
-        actual_position: args.actual_position.clone(),
-        following_error: args.following_error.clone(),
-        ..args.channels.selection(&args.trace, &registry)?
-    };
-    let recording = read_axis(&args.trace, &selection, cycle_s, &Disk::default())?;
+    let selection = args.channels.selection(&args.recording, &registry)?;
+    let selection = args.followed.added_to(selection, (axis, &[axis]))?;
+    let recording = read_axis(&args.recording, &selection, cycle_s, &Disk::default())?;
     let predictor = Predictor {
         list: &list,
         reading: args.reading.reading,
@@ -73,8 +73,8 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     };
     let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)?;
     let report = VerifyReport {
-        trace: shown_path(&args.trace),
-        list: shown_path(&args.value_list),
+        trace: shown_path(&args.recording),
+        list: shown_path(path),
         recording,
         verified,
     };

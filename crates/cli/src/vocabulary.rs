@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use frictcomp::documents::{RULES, WORDS};
+use frictcomp::readings::{Question, QuestionFacts};
 use frictcomp_report::wrap;
 
 /// Columns of a rule on its page.
@@ -56,7 +57,45 @@ fn rule(text: &str) -> Option<String> {
         let before = if count == 0 { "\n" } else { "" };
         let _ = writeln!(page, "{before}- {}", point.replace('\n', "\n  "));
     }
+    let question = Question::ALL
+        .into_iter()
+        .find(|it| it.facts().rule == number);
+    page.extend(question.map(|it| about(it.facts())));
     is_title.then_some(page)
+}
+
+/// Returns the question that the documents leave open, with its readings, what depends on it, and where the answer goes.
+fn about(facts: &QuestionFacts) -> String {
+    let QuestionFacts {
+        rule,
+        question,
+        depends,
+        ..
+    } = facts;
+    let assumed = facts.assumed_name();
+    let readings = facts.readings.iter().zip(facts.meanings);
+    let readings = readings.map(|(name, meaning)| {
+        let assumed = if *name == assumed { ", assumed" } else { "" };
+        format!("- `{name}`{assumed}: {meaning}\n")
+    });
+    let assumption = match facts.assumed {
+        Some(_) => format!("Assumed because {}.", facts.why),
+        None => format!("Neither is assumed: {}.", facts.why),
+    };
+    format!(
+        "\nThe documents leave this open: {question}\n\n{}\n{}\n{}\n\n{}\n",
+        readings.collect::<String>(),
+        wrap(&assumption, WIDTH, 0),
+        wrap(&format!("It decides {depends}."), WIDTH, 0),
+        wrap(
+            &format!(
+                "`frictcomp ask write` writes the program that asks the control; the answer stands under \
+                 `\"{rule}\"` in `[reading]` of frictcomp.toml."
+            ),
+            WIDTH,
+            0
+        ),
+    )
 }
 
 /// Returns one form for all spellings of a word: a command, a variable of an axis, a machine

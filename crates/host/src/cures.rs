@@ -11,7 +11,9 @@ use super::error::HostError;
 use super::mend::{MendedFile, read_encoded};
 use super::open_text::OpenText;
 use super::workers::in_order;
-use frictcomp::audit::{Affected, Archive, MendedEnd, Mending, Missed, insertions, mend};
+use frictcomp::audit::{
+    Affected, Archive, CuredMotions, MendedEnd, Mending, Missed, insertions, mend,
+};
 use frictcomp::interpreter::{Interpreter, Observer};
 
 /// A mended program of an archive, or a file that programs call.
@@ -26,6 +28,8 @@ pub struct MendedProgram {
     pub file: Option<MendedFile>,
     /// The other programs that the blocks mend; they call the file.
     pub also: Vec<String>,
+    /// The programs in which the blocks change the state of a motion.
+    pub changed: Vec<String>,
     /// Mendings left to the user.
     pub missed: Vec<Missed>,
 }
@@ -40,10 +44,11 @@ impl ArchiveAuditor {
         &self,
         archives: &[Archive],
         end: MendedEnd,
+        motions: CuredMotions,
     ) -> (Vec<MendedProgram>, Vec<HostError>) {
         let mut auditors = self.auditors();
         find(&mut auditors, archives);
-        let mut cures = Cures::new(auditors, archives, end);
+        let mut cures = Cures::new(auditors, archives, (end, motions));
         let (mut changes, mut errors) = (Vec::new(), Vec::new());
         let (shared, alone) = cures.files();
         for place in shared {
@@ -76,6 +81,7 @@ impl ArchiveAuditor {
 struct Cures<'a> {
     auditors: Vec<ProgramAuditor<'a>>,
     archives: &'a [Archive],
+    motions: CuredMotions,
     wanted: BTreeMap<ArchivedProgram, Vec<Mending>>,
     places: Places,
     /// The programs of the archives.
@@ -105,10 +111,15 @@ impl Places {
 }
 
 impl<'a> Cures<'a> {
-    fn new(auditors: Vec<ProgramAuditor<'a>>, archives: &'a [Archive], end: MendedEnd) -> Self {
+    fn new(
+        auditors: Vec<ProgramAuditor<'a>>,
+        archives: &'a [Archive],
+        (end, motions): (MendedEnd, CuredMotions),
+    ) -> Self {
         let mut cures = Self {
             auditors,
             archives,
+            motions,
             wanted: BTreeMap::new(),
             places: Places::default(),
             programs: HashMap::new(),
@@ -202,7 +213,7 @@ impl<'a> Cures<'a> {
                 let path = Path::new(&self.audit(programs[at]).file);
                 self.auditors[machine].run_with(&texts, path, (interpreter, listen))
             };
-        let mended = mend(encoded.text(), &affected, run)?;
+        let mended = mend(encoded.text(), &affected, self.motions, run)?;
         let changes = insertions(encoded.text(), &mended.insertions);
         let cured = mended.cured.iter().map(|&at| programs[at]);
         let cured = cured.filter(|program| Some(*program) != own);
@@ -212,6 +223,7 @@ impl<'a> Cures<'a> {
             program: own.map(|(_, at)| at),
             file: MendedFile::new(path, &encoded, &changes)?,
             also: cured.map(|it| self.audit(it).file.clone()).collect(),
+            changed: mended.changed.iter().map(ToString::to_string).collect(),
             missed: mended.missed,
         })
     }

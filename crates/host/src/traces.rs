@@ -228,15 +228,15 @@ impl CommandedChannels<'_> {
     }
 }
 
-/// Reads one recorded circle, or one of each direction, in one file or two: columns `x` and `y` of
-/// actual positions in mm, or with their unit, `x_um`, `X [mm]`; optionally `t` in s. G(b)
-/// and H refer to `centre`.
+/// Reads one recorded circle, or one of each direction, in one file or two: the positions that are selected for
+/// each of its axes, or columns `x` and `y` of actual positions in mm, or with their unit, `x_um`, `X [mm]`;
+/// optionally `t` in s. G(b) and H refer to `centre`.
 ///
 /// # Errors
 /// A file cannot be read, or does not contain a circle.
 pub fn read_circles(
     paths: &[PathBuf],
-    channels: &CircleChannels,
+    channels: &[ChannelSelection; 2],
     commanded: CommandedCircle,
     centre: PathCentre,
 ) -> Result<Circles, HostError> {
@@ -260,7 +260,7 @@ pub fn read_circles(
 /// The file cannot be read, or is not a recorded circle.
 pub fn read_turns(
     path: &Path,
-    channels: &CircleChannels,
+    channels: &[ChannelSelection; 2],
     commanded_mm: Option<f64>,
     disk: &Disk,
 ) -> Result<Vec<RecordedCircle>, HostError> {
@@ -324,20 +324,11 @@ fn read_channels(
     Ok(axis)
 }
 
-/// Channels of a trace that are the positions of a circle.
-#[derive(Debug, Clone, Default)]
-pub struct CircleChannels {
-    /// The channel of each of the two axes; by default those named `x` and `y`.
-    pub names: [Option<String>; 2],
-    /// Units of channels.
-    pub selection: ChannelSelection,
-}
-
 /// Returns the actual positions of two axes, in the order of the rows. Times that are not in seconds are
 /// ignored.
 fn read_positions(
     path: &Path,
-    wanted: &CircleChannels,
+    wanted: &[ChannelSelection; 2],
     disk: &Disk,
 ) -> Result<RecordedTrace, HostError> {
     let timed = read_points(path, wanted, Times::Read, disk);
@@ -359,22 +350,27 @@ enum Times {
 
 fn read_points(
     path: &Path,
-    wanted: &CircleChannels,
+    wanted: &[ChannelSelection; 2],
     times: Times,
     disk: &Disk,
 ) -> Result<RecordedTrace, HostError> {
     let mut picks = [None; 2];
     let recording = read(path, MAX_POINTS, disk, |channels| {
-        for (pick, (axis, name)) in picks.iter_mut().zip(["x", "y"].iter().zip(&wanted.names)) {
-            let found = match name {
-                Some(name) => Some(wanted.selection.pick_named(
-                    name,
-                    ChannelQuantity::Position,
-                    channels,
-                )?),
-                None => wanted.selection.position_of(axis, channels)?,
+        for (pick, (axis, wanted)) in picks.iter_mut().zip(["x", "y"].iter().zip(wanted)) {
+            *pick = match wanted.position {
+                Some(_) => wanted.find(ChannelQuantity::Position, channels)?,
+                None => wanted.position_of(axis, channels)?,
             };
-            *pick = found.map(|pick| millimetres(pick, wanted));
+        }
+        let is_named = wanted.iter().any(|it| it.position.is_some());
+        for pick in picks.iter_mut().flatten() {
+            // The columns `x` and `y` are in mm unless they say otherwise.
+            let is_in_mm = pick.is_unit_assumed && !is_named;
+            pick.unit.factor = if is_in_mm {
+                1.0
+            } else {
+                pick.unit.factor / POSITION_UNITS_PER_MM
+            };
         }
         let [Some(x), Some(y)] = picks else {
             return Err(lacks(
@@ -385,7 +381,7 @@ fn read_points(
             ));
         };
         let time = match times {
-            Times::Read => wanted.selection.find(ChannelQuantity::Time, channels)?,
+            Times::Read => wanted[0].find(ChannelQuantity::Time, channels)?,
             Times::Ignored => None,
         };
         Ok(Choice {
@@ -422,18 +418,6 @@ fn read_points(
         points_mm: points(column(), column()),
         times_s: aligned.times_s,
     })
-}
-
-/// Converts positions of a circle to mm; without a unit they are already in mm.
-fn millimetres(mut pick: Pick, wanted: &CircleChannels) -> Pick {
-    const UNITS_PER_MM: f64 = frictcomp_physics::current::POSITION_UNITS_PER_MM;
-    let is_named = wanted.names.iter().any(Option::is_some);
-    pick.unit.factor = if pick.is_unit_assumed && !is_named {
-        1.0
-    } else {
-        pick.unit.factor / UNITS_PER_MM
-    };
-    pick
 }
 
 /// Returns the samples of a channel in the requested unit, all of them numbers.
@@ -513,11 +497,8 @@ mod tests {
             ("z", None),
         ] {
             let text = format!("{header};y\n3;1\n4;1\n");
-            let points = read_positions(
-                file(text.as_bytes()).path(),
-                &CircleChannels::default(),
-                &Disk::default(),
-            );
+            let file = file(text.as_bytes());
+            let points = read_positions(file.path(), &Default::default(), &Disk::default());
             let x = points.ok().map(|trace| trace.points_mm[0][0]);
             match (x, millimetres) {
                 (Some(x), Some(wanted)) => {
@@ -541,11 +522,8 @@ mod tests {
             &wide,
         ];
         for text in texts {
-            let trace = read_positions(
-                file(text).path(),
-                &CircleChannels::default(),
-                &Disk::default(),
-            );
+            let file = file(text);
+            let trace = read_positions(file.path(), &Default::default(), &Disk::default());
             let points = trace.unwrap().points_mm;
             assert_eq!(points, [[0.001, 0.002]]);
         }

@@ -6,6 +6,7 @@ use std::io::Read;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use frictcomp::timeline::{Record, Row, Sink};
 
@@ -74,6 +75,20 @@ impl From<Done> for Progress {
             line: None,
             lines: None,
         }
+    }
+}
+
+impl Progress {
+    /// Returns the part of the whole that is done, where the whole is known.
+    pub fn part(&self) -> Option<f64> {
+        let count = |count: usize| u64::try_from(count).unwrap_or(u64::MAX);
+        let (done, all) = match self.done {
+            Done::Runs { done, all, .. } => (count(done), count(all)),
+            Done::MachineTime { seconds, all } => (seconds, all),
+            Done::Blocks(_) | Done::Cycles(_) => (self.line?.into(), self.lines?),
+        };
+        let part = Duration::from_secs(done).as_secs_f64() / Duration::from_secs(all).as_secs_f64();
+        (self.program.is_none() && part > 0.0 && part <= 1.0).then_some(part)
     }
 }
 
@@ -312,6 +327,7 @@ mod tests {
         far.lines = Some(12);
         far.program = None;
         assert_eq!(far.to_string(), "5 blocks, line 3 of 12 (25 %)");
+        assert_eq!(far.part(), Some(0.25));
         let tuned = Done::Runs {
             of: "tune",
             done: 1000,

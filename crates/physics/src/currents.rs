@@ -16,11 +16,11 @@ use crate::current::{CurrentCycle, CurrentOptions, FollowError, ProgramCurrents,
 /// The machine has no axis of a name, or no value list for it.
 pub fn currents(
     program: SourceFile,
-    mut machine: Machine,
+    machine: Machine,
     axes: &[String],
     sink: impl FnMut(&CurrentCycle<'_>) -> ControlFlow<()>,
 ) -> Result<(), FollowError> {
-    let followed = axes_to_follow(axes, &mut machine, None)?;
+    let followed = axes_to_follow(axes, &machine)?;
     let options = CurrentOptions::default();
     let mut currents = ProgramCurrents::new(&machine, &followed, options, sink);
     let options = SessionOptions::from(Options::default().with_motions(Motions::Taken));

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::assumptions::not_modelled_line;
 use super::commission::ValueListUsed;
+use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::table::Table;
@@ -127,9 +128,14 @@ pub struct LearnReport {
 
 /// The record as JSON.
 pub fn render_json(report: &LearnReport) -> String {
-    let mut text = to_pretty(report);
-    text.push('\n');
-    text
+    #[derive(Serialize)]
+    struct Document<'a> {
+        headline: Headline,
+        #[serde(flatten)]
+        report: &'a LearnReport,
+    }
+    let headline = report.headline();
+    to_pretty(&Document { headline, report }) + "\n"
 }
 
 /// The file of a learning process.
@@ -139,21 +145,58 @@ pub fn render_file(file: &LearningFile) -> String {
     text
 }
 
-/// The rounds, and the next step, for people.
+impl LearnReport {
+    /// The verdict: the best lists so far, and the next step (R18.20).
+    pub fn headline(&self) -> Headline {
+        let best = self.axes.iter().filter_map(|axis| {
+            let number = axis.best_round?;
+            let glitch = axis.rounds.get(number.checked_sub(1)?)?.worst_um;
+            Some(format!("{} {glitch:.1} µm with round {number}", axis.axis))
+        });
+        let best: Vec<String> = best.collect();
+        let best = match &*best.join(", ") {
+            "" => String::new(),
+            best => format!("largest glitch so far: {best}; "),
+        };
+        match &self.next {
+            NextStep::Record { folder, lists } => Headline::new(
+                Standing::Open,
+                format!(
+                    "{best}next: load {} for X and {} for Y, record each circle twice in both directions, at least \
+                     six feeds, and put the recordings into {folder}",
+                    lists[0], lists[1]
+                ),
+            ),
+            NextStep::Done if self.axes[0].best_round == self.axes[1].best_round => Headline::new(
+                Standing::Good,
+                format!("{best}two rounds gained nothing more: hand over the best lists"),
+            ),
+            NextStep::Done => Headline::new(
+                Standing::Good,
+                format!(
+                    "{best}two rounds gained nothing more: hand over the best lists, which are of different rounds, \
+                     after recording them together once more"
+                ),
+            ),
+        }
+    }
+}
+
+/// The verdict with the next step, and the rounds, for people.
 pub fn render_text(report: &LearnReport) -> String {
-    let mut out = String::new();
+    let mut out = format!("{}\n", report.headline());
     if !report.feeds.is_empty() {
         let feeds: Vec<String> = report.feeds.iter().map(|it| format!("{it:.0}")).collect();
         let _ = writeln!(
             out,
-            "circles at {} mm/min, each recorded twice; the plant {} gives the direction\n{}\n",
+            "\ncircles at {} mm/min, each recorded twice; the plant {} gives the direction\n{}\n",
             feeds.join(", "),
             visible_line(&report.plant),
             not_modelled_line(&report.not_modelled)
         );
         let _ = write!(out, "{}", rounds(report));
     }
-    next(&mut out, report);
+    push_best(&mut out, report);
     out
 }
 
@@ -192,8 +235,8 @@ fn rounds(report: &LearnReport) -> Table {
     table
 }
 
-/// The next step.
-fn next(out: &mut String, report: &LearnReport) {
+/// The best list of each axis, and what the simulation expects of the next ones.
+fn push_best(out: &mut String, report: &LearnReport) {
     for axis in &report.axes {
         if let (Some(number), Some(list)) = (axis.best_round, &axis.list) {
             let _ = writeln!(
@@ -205,35 +248,13 @@ fn next(out: &mut String, report: &LearnReport) {
             );
         }
     }
-    if !out.is_empty() {
-        out.push('\n');
-    }
-    match &report.next {
-        NextStep::Record { folder, lists } => {
-            let _ = writeln!(
-                out,
-                "next: load {} for X and {} for Y, record each circle twice in both directions, at least six feeds, \
-                 and put the recordings into {}",
-                visible_line(&lists[0]),
-                visible_line(&lists[1]),
-                visible_line(folder)
-            );
-            if let Some(predicted) = report.predictions.get(report.axes[0].rounds.len())
-                && let [Some(x), Some(y)] = predicted
-            {
-                let _ = writeln!(
-                    out,
-                    "predicted with them: X {:.2} µm, Y {:.2} µm; the contact is predicted to be {:.2} and {:.2} times as \
-                     stiff as that of the plant",
-                    x.glitch_um, y.glitch_um, x.contact, y.contact
-                );
-            }
-        }
-        NextStep::Done => {
-            out.push_str("done: two rounds gained nothing; hand over the best lists\n");
-            if report.axes[0].best_round != report.axes[1].best_round {
-                out.push_str("they are of different rounds: record them together once more\n");
-            }
-        }
+    let predicted = report.predictions.get(report.axes[0].rounds.len());
+    if let Some([Some(x), Some(y)]) = predicted {
+        let _ = writeln!(
+            out,
+            "predicted with the next lists: X {:.1} µm, Y {:.1} µm; the contact is predicted to be {:.2} and {:.2} times \
+             as stiff as that of the plant",
+            x.glitch_um, y.glitch_um, x.contact, y.contact
+        );
     }
 }

@@ -8,6 +8,7 @@ use super::findings::write_findings;
 use super::identify::PointRecord;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::headline::{Headline, Standing};
 use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, OnCircles, TraceFinding};
@@ -35,6 +36,33 @@ impl OnCirclesReport {
         units.into_iter().next().unwrap_or("drive units")
     }
 
+    /// The verdict: the friction over the speeds (R18.20).
+    pub fn headline(&self) -> Headline {
+        let axis = self.axis.as_deref();
+        let axis = axis.map_or(String::new(), |axis| format!(" of {axis}"));
+        let points = &self.found.points;
+        let (Some([slowest, at_slowest]), Some([fastest, at_fastest])) =
+            (points.first(), points.last())
+        else {
+            return Headline::new(
+                Standing::Bad,
+                format!("no friction{axis} is found on circles"),
+            );
+        };
+        let standing = if self.faults().is_empty() {
+            Standing::Plain
+        } else {
+            Standing::Open
+        };
+        let text = format!(
+            "friction{axis} on circles, from {slowest:.2} to {fastest:.2} mm/s: {} to {} {}",
+            Rounded(*at_slowest, 3),
+            Rounded(*at_fastest, 3),
+            self.unit(),
+        );
+        Headline::new(standing, text)
+    }
+
     /// Returns the faults of the recordings, one line each for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let findings = self.findings().into_iter();
@@ -57,21 +85,12 @@ impl OnCirclesReport {
     }
 }
 
-/// The friction at each speed, for people.
+/// The verdict, then the friction at each speed, for people.
 pub fn render_text(report: &OnCirclesReport) -> String {
-    let mut out = String::new();
+    let mut out = format!("{}\n", report.headline());
     let found = &report.found;
     let names: Vec<_> = report.names.iter().map(|name| visible_line(name)).collect();
-    let axis = report
-        .axis
-        .as_deref()
-        .map(|axis| format!(" of axis {}", visible_line(axis)));
-    let _ = writeln!(
-        out,
-        "{}: friction{} on circles\n",
-        names.join(", "),
-        axis.unwrap_or_default()
-    );
+    let _ = writeln!(out, "circles in {}\n", names.join(", "));
     let mut table = Table::of_numbers(["speed", "friction"]);
     table.row(&[&"mm/s", &report.unit()]);
     for [speed, friction] in &found.points {
@@ -98,6 +117,7 @@ pub fn render_text(report: &OnCirclesReport) -> String {
 #[derive(Serialize)]
 struct OnCirclesDocument<'a> {
     schema: u32,
+    headline: Headline,
     axis: Option<&'a str>,
     points: Vec<PointRecord>,
     offset: f64,
@@ -119,6 +139,7 @@ pub fn render_json(report: &OnCirclesReport) -> String {
         });
     to_pretty(&OnCirclesDocument {
         schema: 1,
+        headline: report.headline(),
         axis: report.axis.as_deref(),
         points: points.collect(),
         offset: report.found.offset,

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::identify::{self, IdentifyReport};
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::headline::{Headline, Standing};
 use crate::table::Table;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::ComparedStates;
@@ -29,6 +30,11 @@ impl StatesReport {
     /// The name of the state that the list is for.
     pub fn working_name(&self) -> &str {
         self.states.get(self.working).map_or("", |it| &it.0)
+    }
+
+    /// The verdict: the spread of the states, and the state for which the list is (R18.20).
+    pub fn headline(&self) -> Headline {
+        Headline::new(Standing::Plain, self.spread())
     }
 
     /// The spread of the states in a sentence.
@@ -60,7 +66,10 @@ impl StatesReport {
 
 /// The states side by side, then the one that the list is for.
 pub fn render_text(report: &StatesReport) -> String {
-    let mut out = String::from("friction in each state, with its standard error\n\n");
+    let mut out = format!(
+        "{}\n\nfriction in each state, with its standard error\n\n",
+        report.headline()
+    );
     let names = report.states.iter().map(|(name, _)| visible_line(name));
     let table = names.fold(Table::of_numbers(["speed"]), Table::right);
     let mut table = table.right("spread");
@@ -83,8 +92,7 @@ pub fn render_text(report: &StatesReport) -> String {
     let _ = write!(out, "{table}");
     let _ = writeln!(
         out,
-        "\n{}\n\nthe list is for `{}`:",
-        report.spread(),
+        "\nthe list is for `{}`:",
         visible_line(report.working_name())
     );
     if let Some((_, working)) = report.states.get(report.working) {
@@ -96,6 +104,7 @@ pub fn render_text(report: &StatesReport) -> String {
 #[derive(Serialize)]
 struct StatesDocument<'a, T> {
     schema: u32,
+    headline: Headline,
     working: &'a str,
     spread: Option<f64>,
     speeds: Vec<SpeedStateRecord<'a>>,
@@ -131,6 +140,7 @@ pub fn render_json(report: &StatesReport) -> String {
     });
     to_pretty(&StatesDocument {
         schema: 1,
+        headline: report.headline(),
         working: report.working_name(),
         spread: report.compared.widest().and_then(|it| it.spread),
         speeds: rows.collect(),

@@ -4,17 +4,43 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use crate::headline::{Headline, Standing};
 use crate::table::Table;
 use frictcomp_physics::stiction::{FeedEffect, Guideline, Quantity, Solution};
 
-/// The values as a table, the computed ones with their formula, and remarks on them.
+/// Returns the verdict: the computed values, and whether stiction is compensated.
+fn headline(solution: &Solution) -> Headline {
+    let computed = solution.values.iter().filter(|it| it.by.is_some());
+    let computed = computed.map(|it| {
+        let shown = it.quantity.shown(it.value);
+        format!("{} = {shown}", it.quantity.symbol())
+    });
+    let (standing, effect) = match solution.effect {
+        FeedEffect::Acts => (
+            Standing::Good,
+            "the feed is at most MP1513: stiction is compensated, with feed precontrol",
+        ),
+        FeedEffect::TooFast => (
+            Standing::Bad,
+            "the feed is above MP1513: stiction is not compensated",
+        ),
+        FeedEffect::Unknown => (
+            Standing::Plain,
+            "stiction is compensated up to a feed of MP1513, and only with feed precontrol",
+        ),
+    };
+    let parts: Vec<String> = computed.chain([effect.to_owned()]).collect();
+    Headline::new(standing, parts.join("; "))
+}
+
+/// The verdict, then the values as a table, the computed ones with their formula, and remarks on them.
 pub fn render_stiction(solution: &Solution) -> String {
     let mut values = Table::without_headings(3);
     for solved in &solution.values {
         let (quantity, by) = (solved.quantity, solved.by.unwrap_or_default());
         values.row(&[&quantity.symbol(), &quantity.shown(solved.value), &by]);
     }
-    let mut out = values.to_string();
+    let mut out = format!("{}\n\n{values}", headline(solution));
     if let Some(clipped) = solution.clipped_to {
         let _ = writeln!(
             out,
@@ -22,16 +48,6 @@ pub fn render_stiction(solution: &Solution) -> String {
             Quantity::DeltaSa.shown(clipped)
         );
     }
-    let effect = match solution.effect {
-        FeedEffect::Acts => {
-            "the feed is at most MP1513: stiction is compensated, with feed precontrol"
-        }
-        FeedEffect::TooFast => "the feed is above MP1513: stiction is not compensated",
-        FeedEffect::Unknown => {
-            "stiction is compensated up to a feed of MP1513, and only with feed precontrol"
-        }
-    };
-    let _ = writeln!(out, "\n{effect}");
     out
 }
 
@@ -57,6 +73,7 @@ pub fn stiction_document(solution: &Solution) -> Value {
     });
     json!({
         "schema": 1,
+        "headline": headline(solution),
         "values": values.collect::<Map<String, Value>>(),
         "clipped_to_mm": solution.clipped_to,
         "effect": solution.effect,
@@ -80,13 +97,13 @@ mod tests {
         ];
         let solution = solve(&given.into_iter().collect()).expect("a solution");
         insta::assert_snapshot!(render_stiction(&solution), @r"
+        F_add = 0.008 m/min; stiction is compensated up to a feed of MP1513, and only with feed precontrol
+
         Δs_a    0.002 mm
         t_C     3000 µs
         k_v     1.5 (m/min)/mm
         MP1511  8000 µs
         F_add   0.008 m/min     F_add = Δs_a / t_C · k_v · MP1511
-
-        stiction is compensated up to a feed of MP1513, and only with feed precontrol
         ");
         let document = stiction_document(&solution);
         assert_eq!(document["values"]["f_add"]["unit"], "m/min");

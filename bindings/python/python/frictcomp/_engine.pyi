@@ -610,7 +610,7 @@ def audit_sequence(
 
 def current(
     program: _Program,
-    axes: Iterable[str],
+    axes: Iterable[str] | None = None,
     *,
     machine: Machine | _Path | None = None,
     value_list: _Path | None = None,
@@ -622,13 +622,13 @@ def current(
 ) -> Currents:
     """The additive current of axes over the path of a program, as NumPy arrays.
 
-    ``value_list`` replaces the lists of the machine. ``start`` gives the axis positions at the start,
-    ``{"X": 0.0}``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
-    ``max_cycles``, which a message reports.
+    Without ``axes`` it is that of all axes with a value list. ``value_list`` replaces the lists of the
+    machine. ``start`` gives the axis positions at the start, ``{"X": 0.0}``, in mm or degrees. ``reading``
+    is that of ``--reading``. The trace ends after ``max_cycles``, which a message reports.
     """
 
 def current_of_recording(
-    trace: _Path,
+    recording: _Path,
     value_list: _Path,
     *,
     time: str | None = None,
@@ -640,9 +640,9 @@ def current_of_recording(
     dead_band: float | None = None,
     reading: str | None = None,
 ) -> AxisCurrent:
-    """The additive current of one axis over a recorded commanded trace, as NumPy arrays.
+    """The additive current of one axis over a recorded commanded motion, as NumPy arrays.
 
-    The trace is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
+    The recording is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
     s, ``x`` in 0.1 µm or 0.0001°, ``v`` in µm/s or 0.001°/s and, where it is recorded, ``comp``; or
     ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units if the file
     does not. Times that are not those of CNC cycles are refused unless ``resample`` is set. Velocities up
@@ -679,12 +679,12 @@ def circle(
     value_list: _Path | Mapping[str, _Path] | None = None,
     cycle_time_ms: float | None = None,
     reading: str | None = None,
-    traces: Iterable[_Path] | None = None,
+    recordings: Iterable[_Path] | None = None,
     centre: Literal["common", "own"] | None = None,
 ) -> Circle:
     """A circular test, as ``frictcomp circle`` makes it.
 
-    Two simulated axes drive the circle with compensation off and on; with ``traces``, recorded
+    Two simulated axes drive the circle with compensation off and on; with ``recordings``, recorded
     circles are judged instead, with the radius and the feed that were commanded.
     """
 
@@ -714,7 +714,7 @@ def explain(word: str) -> str:
     """
 
 def identify(
-    traces: _Path | Iterable[_Path],
+    recordings: _Path | Iterable[_Path],
     *,
     axis: str | None = None,
     time: str | None = None,

@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use frictcomp::interpreter::{Motions, Options};
+use frictcomp::machine::Parameterisation;
 use frictcomp::session::SessionOptions;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
@@ -74,16 +75,16 @@ struct ProgramsCurrents {
 
 /// The additive current of axes over the path of a program, as NumPy arrays.
 ///
-/// ``value_list`` replaces the lists of the machine. ``start`` gives the axis positions at the start,
-/// ``{"X": 0.0}``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
-/// ``max_cycles``, which a message reports.
+/// Without ``axes`` it is that of all axes with a value list. ``value_list`` replaces the lists of the
+/// machine. ``start`` gives the axis positions at the start, ``{"X": 0.0}``, in mm or degrees. ``reading``
+/// is that of ``--reading``. The trace ends after ``max_cycles``, which a message reports.
 #[pyfunction]
-#[pyo3(signature = (program, axes, *, machine=None, value_list=None, cycle_time_ms=None, reading=None, start=None, max_cycles=3_600_000, limits=None))]
+#[pyo3(signature = (program, axes=None, *, machine=None, value_list=None, cycle_time_ms=None, reading=None, start=None, max_cycles=3_600_000, limits=None))]
 // Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn current(
     program: &Bound<'_, PyAny>,
-    axes: Several<String>,
+    axes: Option<Several<String>>,
     machine: Option<&Bound<'_, PyAny>>,
     value_list: Option<PathBuf>,
     cycle_time_ms: Option<f64>,
@@ -97,7 +98,7 @@ pub(crate) fn current(
     let job = ProgramsJob {
         programs: GivenPrograms::one(program)?,
         machine: machine_options(machine)?,
-        axes: axes.0,
+        axes: axes.map_or_else(Vec::new, |it| it.0),
         value_list,
         cycle_s: cycle_time_ms.map(|ms| ms / 1000.0),
         reading: meant("reading", reading)?,
@@ -129,17 +130,15 @@ impl ProgramsJob {
         let input = &self.programs.inputs[0];
         let loaded = machine_of(self.machine.clone(), &self.programs, Vec::new())?;
         let mut loaded = loaded.as_ref().clone();
-        let list = match &self.value_list {
-            Some(path) => {
-                Some(read_value_list(path, &FileRegistry::default(), &Disk::default())?.list)
+        if let Some(path) = &self.value_list {
+            let list = read_value_list(path, &FileRegistry::default(), &Disk::default())?.list;
+            let axes = loaded.machine.axes.iter_mut();
+            let named = |it: &str| self.axes.is_empty() || self.axes.iter().any(|axis| axis == it);
+            for axis in axes.filter(|it| named(&it.name)) {
+                axis.friction = Parameterisation::Accepted(list.clone());
             }
-            None => None,
-        };
-        let followed = axes_to_follow(&self.axes, &mut loaded.machine, list.as_ref())
-            .map_err(Failure::of_axes)?;
-        if followed.is_empty() {
-            return Err(Failure::new("no axis was given").with_help("name one, `['X']`"));
         }
+        let followed = axes_to_follow(&self.axes, &loaded.machine).map_err(Failure::of_axes)?;
         let axes = followed.iter().map(|axis| loaded.machine.axis(*axis));
         let axes = axes.map(|axis| NamedAxis::new(&axis.name, Some(axis.axis_type)));
         let axes: Vec<NamedAxis> = axes.collect();

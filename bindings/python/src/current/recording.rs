@@ -1,4 +1,4 @@
-//! `frictcomp.current_of_recording`: the additive current over a recorded commanded trace.
+//! `frictcomp.current_of_recording`: the additive current over a recorded commanded motion.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ use crate::work::interruptible;
 
 /// What is computed, independent of Python.
 struct RecordingJob {
-    trace: PathBuf,
+    recording: PathBuf,
     value_list: PathBuf,
     selection: ChannelSelection,
     options: TraceOptions,
@@ -37,20 +37,20 @@ struct RecordingCurrents {
     remarks: Vec<String>,
 }
 
-/// The additive current of one axis over a recorded commanded trace, as NumPy arrays.
+/// The additive current of one axis over a recorded commanded motion, as NumPy arrays.
 ///
-/// The trace is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
+/// The recording is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
 /// s, ``x`` in 0.1 µm or 0.0001°, ``v`` in µm/s or 0.001°/s and, where it is recorded, ``comp``; or
 /// ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units if the file
 /// does not. Times that are not those of CNC cycles are refused unless ``resample`` is set. Velocities up
 /// to ``dead_band`` in µm/s or 0.001°/s are standstill.
 #[pyfunction]
-#[pyo3(signature = (trace, value_list, *, time=None, position=None, velocity=None, units=None, cycle_time_ms=None, resample=false, dead_band=None, reading=None))]
+#[pyo3(signature = (recording, value_list, *, time=None, position=None, velocity=None, units=None, cycle_time_ms=None, resample=false, dead_band=None, reading=None))]
 // Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn current_of_recording(
     py: Python<'_>,
-    trace: PathBuf,
+    recording: PathBuf,
     value_list: PathBuf,
     time: Option<String>,
     position: Option<String>,
@@ -70,7 +70,7 @@ pub(crate) fn current_of_recording(
         Resampling::Refused
     };
     let job = RecordingJob {
-        trace,
+        recording,
         value_list,
         selection: ChannelSelection {
             time,
@@ -110,7 +110,7 @@ impl RecordingJob {
     fn done(self) -> Result<RecordingCurrents, Failure> {
         let list =
             read_value_list(&self.value_list, &FileRegistry::default(), &Disk::default())?.list;
-        let trace = read_commanded(&self.trace, &self.selection, self.options)?;
+        let trace = read_commanded(&self.recording, &self.selection, self.options)?;
         let mut current = AdditiveCurrent::new(&list, self.reading);
         let (mut t, mut cycles) = (Vec::new(), AxisCycles::default());
         for (row, added) in trace.currents(&mut current) {

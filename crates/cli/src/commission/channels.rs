@@ -4,40 +4,23 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::channels::{TorqueKindArgs, parse_unit};
+use crate::channels::{FollowedChannels, MotionChannels, TorqueChannel, TorqueKindArgs};
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
-use frictcomp_host::CircleChannels;
 use frictcomp_physics::circle::Circle;
-use frictcomp_recordings::commission::Plan;
-use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_recordings::commission::{MeasuredAxis, Plan};
+use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::visible_line;
 
-/// Channels of the recordings; `%` stands for the axis name.
+/// Channels of the recordings.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ReadingArgs {
-    /// The channel of the times in a recording
-    #[arg(long, value_name = "CHANNEL")]
-    time: Option<String>,
-    /// The channel of the commanded positions; `%` stands for the axis name: `%.SetPos`
-    #[arg(long, value_name = "CHANNEL")]
-    position: Option<String>,
-    /// The channel of the commanded velocities: `%.SetVelo`
-    #[arg(long, value_name = "CHANNEL")]
-    velocity: Option<String>,
-    /// The channel of the torque: `%.ActTorque`
-    #[arg(long, value_name = "CHANNEL")]
-    pub(super) torque: Option<String>,
-    /// The channel of the actual positions, of which circles are made: `%.ActPos`; by default `x` and `y`, in
-    /// strokes `x_act`
-    #[arg(long, value_name = "CHANNEL")]
-    actual_position: Option<String>,
-    /// The channel of the following error in strokes, in place of the actual positions: `%.PosDiff`; by default `e`
-    #[arg(long, value_name = "CHANNEL")]
-    following_error: Option<String>,
-    /// The unit of a channel, where the file does not name it: `--unit SetVelo=mm/s`
-    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
-    unit: Vec<(String, Unit)>,
+    #[command(flatten)]
+    motion: MotionChannels,
+    #[command(flatten)]
+    pub(super) torque: TorqueChannel,
+    #[command(flatten)]
+    followed: FollowedChannels,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
     #[command(flatten)]
@@ -53,19 +36,13 @@ impl ReadingArgs {
         format!("{self:?}")
     }
 
-    /// Returns everything that affects how recorded circles are read.
-    pub(super) fn circles_key(&self) -> String {
-        let (time, places) = (&self.time, &self.actual_position);
-        format!("{time:?} {places:?} {:?} {:?}", self.unit, self.cycle)
-    }
-
     /// Returns the user's statements about the recordings.
     pub(super) fn said(&self) -> Vec<String> {
         let roles = self.role.iter();
         let mut said: Vec<String> = roles
             .map(|(file, number)| format!("{file} is the recording of program {number}"))
             .collect();
-        let units = self.unit.iter();
+        let units = self.motion.unit.unit.iter();
         said.extend(units.map(|(channel, unit)| {
             let own = unit.quantity.own_unit();
             format!(
@@ -100,48 +77,44 @@ impl ReadingArgs {
     }
 
     /// Returns the channels of circles.
-    pub(super) fn circle_channels(&self, plan: &Plan) -> CircleChannels {
+    pub(super) fn circle_channels(&self, plan: &Plan) -> Result<[ChannelSelection; 2], Failure> {
         let of_axis = |at: usize| {
-            let name = plan.axes.get(at).map(|it| it.name.as_str())?;
-            let named = self
-                .actual_position
-                .as_deref()
-                .map(|it| it.replace('%', name));
-            named.or_else(|| (!["X", "Y"].contains(&name)).then(|| name.to_owned()))
+            let Some(MeasuredAxis { name, .. }) = plan.axes.get(at) else {
+                return Ok::<_, Failure>(ChannelSelection::default());
+            };
+            let followed = self.followed(name, plan)?;
+            let is_usual = ["X", "Y"].contains(&name.as_str());
+            let usual = || (!is_usual).then(|| name.clone());
+            Ok(ChannelSelection {
+                position: followed.actual_position.or_else(usual),
+                actual_position: None,
+                ..followed
+            })
         };
-        CircleChannels {
-            names: [of_axis(0), of_axis(1)],
-            selection: ChannelSelection {
-                time: self.time.clone(),
-                units: self.unit.clone(),
-                ..ChannelSelection::default()
-            },
-        }
+        Ok([of_axis(0)?, of_axis(1)?])
     }
 
     /// Returns the channels of an axis with its actual position or its following error.
-    pub(super) fn followed(&self, axis: &str) -> ChannelSelection {
-        let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
-        ChannelSelection {
-            actual_position: named(&self.actual_position),
-            following_error: named(&self.following_error),
-            ..self.selection(axis)
-        }
+    pub(super) fn followed(&self, axis: &str, plan: &Plan) -> Result<ChannelSelection, Failure> {
+        let selection = self.selection(axis, plan)?;
+        self.followed.added_to(selection, (axis, &axes_of(plan)))
     }
 
     /// Returns the channels of an axis.
-    pub(super) fn selection(&self, axis: &str) -> ChannelSelection {
-        let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
-        ChannelSelection {
-            axis: Some(axis.to_owned()),
-            time: self.time.clone(),
-            position: named(&self.position),
-            velocity: named(&self.velocity),
-            torque: named(&self.torque),
-            units: self.unit.clone(),
-            ..ChannelSelection::default()
-        }
+    pub(super) fn selection(&self, name: &str, plan: &Plan) -> Result<ChannelSelection, Failure> {
+        let axes = axes_of(plan);
+        Ok(ChannelSelection {
+            torque: self.torque.of_axis(name, &axes)?,
+            ..self.motion.of_axis(name, &axes)?
+        })
     }
+}
+
+/// Returns the axes of a plan, each with the other motors of its gantry.
+pub(super) fn axes_of(plan: &Plan) -> Vec<&str> {
+    let axes = plan.axes.iter();
+    let motors = axes.flat_map(|it| [&it.name].into_iter().chain(&it.followers));
+    motors.map(String::as_str).collect()
 }
 
 /// Parses `FILE=NUMBER`.

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::machine::value_list;
 use frictcomp_host::{Disk, FileRegistry, read_axis, read_motion, sha256_of};
 use frictcomp_recordings::commission::{
-    CirclesFound, FollowedPosition, RecordingResult, ShareOfList, Stage, recorded_apart,
+    CirclesFound, FollowedPosition, Plan, RecordingResult, ShareOfList, Stage, recorded_apart,
     torque_of_list,
 };
 use frictcomp_report::commission::{PlanFile, ValueListUsed};
@@ -20,7 +20,9 @@ impl ReadingArgs {
         let cycle = self.cycle.seconds().ok().flatten();
         let mut followed = Vec::new();
         for (at, axis) in plan.plan.axes.iter().take(2).enumerate() {
-            let channels = self.followed(&axis.name);
+            let Ok(channels) = self.followed(&axis.name, &plan.plan) else {
+                continue;
+            };
             let recording = read_axis(path, &channels, cycle, &Disk::default());
             let Ok(recording) = recording.or_else(|_| read_motion(path, &channels, cycle)) else {
                 continue;
@@ -51,9 +53,9 @@ impl ReadingArgs {
         for used in rounds.clone().flat_map(|it| &it.lists) {
             let is_own = |it: &PlanFile| it.plan.stage == Stage::Off || it.lists.contains(used);
             for result in &mut *results {
-                let own = plan_of(plans, result.program).is_some_and(is_own);
-                if own && result.found.is_used() {
-                    self.take_share(folder, used, (result, registry))?;
+                let own = plan_of(plans, result.program).filter(|it| is_own(it));
+                if let Some(own) = own.filter(|_| result.found.is_used()) {
+                    self.take_share(folder, (used, &own.plan), (result, registry))?;
                 }
             }
         }
@@ -64,7 +66,7 @@ impl ReadingArgs {
     fn take_share(
         &self,
         folder: &Path,
-        used: &ValueListUsed,
+        (used, plan): (&ValueListUsed, &Plan),
         (result, registry): (&mut RecordingResult, &FileRegistry),
     ) -> Result<(), Failure> {
         let is_same = |it: &ShareOfList| it.axis == used.axis && it.list == used.sha256;
@@ -78,7 +80,13 @@ impl ReadingArgs {
             return Ok(());
         }
         let cycle = self.cycle.seconds()?;
-        let recording = read_axis(&path, &self.followed(&used.axis), cycle, &Disk::default()).ok();
+        let recording = read_axis(
+            &path,
+            &self.followed(&used.axis, plan)?,
+            cycle,
+            &Disk::default(),
+        )
+        .ok();
         let list = value_list(list, registry)?;
         let kind = self.kind.torque_kind;
         shown.shares.push(ShareOfList {

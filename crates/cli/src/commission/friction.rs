@@ -7,7 +7,7 @@ use super::recorded::RecordedProgram;
 use crate::failure::Failure;
 use crate::identify::refusal;
 use frictcomp_host::{Disk, read_axis};
-use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, actual_elsewhere};
+use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, Plan, actual_elsewhere};
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyOptions, Measured, RequestedPoints, Track, identify,
 };
@@ -23,11 +23,11 @@ impl ReadingArgs {
     ) -> Result<FrictionFound, Failure> {
         let judge =
             |motor: &str, recording: &AxisRecording| self.judge(recorded, recording, motor, speeds);
-        let mut mean = self.motor(path, &axis.name, &axis.name)?;
+        let mut mean = self.motor(path, recorded.plan, [&axis.name; 2])?;
         if axis.followers.is_empty() {
             return judge(&axis.name, &mean);
         }
-        let recordings = match self.followers(path, axis, &mean) {
+        let recordings = match self.followers(path, recorded.plan, (axis, &mean)) {
             Ok(recordings) => recordings,
             Err(reason) => {
                 let mut found = judge(&axis.name, &mean)?;
@@ -55,10 +55,10 @@ impl ReadingArgs {
     fn followers(
         &self,
         path: &Path,
-        axis: &MeasuredAxis,
-        master: &AxisRecording,
+        plan: &Plan,
+        (axis, master): (&MeasuredAxis, &AxisRecording),
     ) -> Result<Vec<AxisRecording>, String> {
-        if !self.torque.as_ref().is_some_and(|it| it.contains('%')) {
+        if !self.torque.is_of_each() {
             return Err(
                 "their torque is not read: name the channels of all motors, `--torque %.ActTorque`"
                     .to_owned(),
@@ -67,7 +67,7 @@ impl ReadingArgs {
         let followers = axis.followers.iter();
         let read = followers.map(|motor| {
             let recording = self
-                .motor(path, &axis.name, motor)
+                .motor(path, plan, [&axis.name, motor])
                 .map_err(|failure| failure.sentence())?;
             if recording.track.times_s != master.track.times_s {
                 return Err(format!(
@@ -81,12 +81,18 @@ impl ReadingArgs {
     }
 
     /// Returns the motion of an axis with the torque of one motor.
-    fn motor(&self, path: &Path, axis: &str, motor: &str) -> Result<AxisRecording, Failure> {
+    fn motor(
+        &self,
+        path: &Path,
+        plan: &Plan,
+        [axis, motor]: [&str; 2],
+    ) -> Result<AxisRecording, Failure> {
         let cycle = self.cycle.seconds()?;
-        let torque = self.selection(motor).torque;
-        let mut with = self.followed(axis);
+        let torque = self.selection(motor, plan)?.torque;
+        let torque = torque.map(|it| it.replace('%', motor));
+        let mut with = self.followed(axis, plan)?;
         with.torque.clone_from(&torque);
-        let mut without = self.selection(axis);
+        let mut without = self.selection(axis, plan)?;
         without.torque = torque;
         // An actual position in addition to the commanded one is only a check, and may be missing here.
         let read = |selection| read_axis(path, selection, cycle, &Disk::default());

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::plan::plan_name;
 use super::run_args::CommissionRunArgs;
 use crate::failure::{Failure, shown};
+use crate::per_axis::ByAxis;
 use frictcomp_host::sha256_of;
 use frictcomp_physics::simulation::Preset;
 use frictcomp_report::commission::{InputFile, PlanFile};
@@ -18,11 +19,8 @@ impl CommissionRunArgs {
             .filter(|path| path.exists())
             .map(|path| ("plan".to_owned(), path))
             .collect();
-        let before = self.before.iter().filter_map(|it| it.split_once('='));
-        read.extend(before.map(|(axis, path)| {
-            let what = format!("list of {} before", axis.trim());
-            (what, PathBuf::from(path.trim()))
-        }));
+        let before = self.lists_before(plans)?.into_iter();
+        read.extend(before.map(|(axis, path)| (format!("list of {axis} before"), path)));
         if let Some(name) = self
             .plant
             .as_ref()
@@ -49,6 +47,32 @@ impl CommissionRunArgs {
             sha256: it.sha256.clone(),
         }));
         Ok(inputs)
+    }
+
+    /// Returns the earlier list of each axis of stage 2 for which one is given.
+    pub(super) fn lists_before(
+        &self,
+        plans: &[PlanFile],
+    ) -> Result<Vec<(String, PathBuf)>, Failure> {
+        let axes = plans.last().into_iter().flat_map(|it| &it.lists);
+        let axes: Vec<&str> = axes.map(|it| it.axis.as_str()).collect();
+        if axes.is_empty() && !self.before.is_empty() {
+            return Err(
+                Failure::new("`--before` is given, and stage 2 has no list yet")
+                    .with_help("leave it out until stage 2 is planned"),
+            );
+        }
+        let lists = ByAxis {
+            option: "--before",
+            given: &self.before,
+            axes: &axes,
+        };
+        let mut before = Vec::new();
+        for axis in &axes {
+            let list = lists.list(axis)?;
+            before.extend(list.map(|it| ((*axis).to_owned(), it.to_owned())));
+        }
+        Ok(before)
     }
 
     /// Returns the user's statements that no recording shows.

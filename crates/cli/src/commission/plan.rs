@@ -9,6 +9,7 @@ use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::machine::{MachineArgs, value_list};
 use crate::outputs::{Outputs, write_text};
+use crate::per_axis::{ByAxis, PerAxis};
 use crate::quantities;
 use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::comp::Kind;
@@ -52,7 +53,7 @@ pub(crate) struct PlanArgs {
     radius: Option<f64>,
     /// The distance over which the torque repeats, such as the pitch: `X=10,Y=10`; each run covers it
     #[arg(long, value_name = "AXIS=MM", value_delimiter = ',')]
-    pitch: Vec<String>,
+    pitch: Vec<PerAxis>,
     /// The slowest speed in mm/s or °/s
     #[arg(
         long,
@@ -71,9 +72,9 @@ pub(crate) struct PlanArgs {
         allow_negative_numbers = true
     )]
     approach: f64,
-    /// The value list of an axis that is on in stage 2: `X=comp_x.lis`
-    #[arg(long, value_name = "AXIS=LIST")]
-    value_list: Vec<String>,
+    /// The value list that is on in stage 2, of every axis or `X=comp_x.lis`
+    #[arg(long, value_name = "LIST")]
+    value_list: Vec<PerAxis>,
     #[command(flatten)]
     result: ResultArgs,
     /// Write the programs, `README.txt` and `plan-1.json` to this folder; stage 2 has `plan-2.json`, and one more for
@@ -235,7 +236,7 @@ impl PlanArgs {
                 jerk_per_s3: limits.jerk_per_s3,
             },
             installed: installed(axis),
-            pitch: named(&self.pitch, name, "--pitch X=10")?,
+            pitch: self.pitch_of(name)?,
             followers: followers.map(|it| it.name.clone()).collect(),
         })
     }
@@ -279,47 +280,40 @@ impl PlanArgs {
         if self.value_list.is_empty() {
             return Ok(Vec::new());
         }
+        let lists = ByAxis {
+            option: "--value-list",
+            given: &self.value_list,
+            axes: &self.names(),
+        };
         let of_axis = |axis: &String| {
-            let path: Option<PathBuf> = named(&self.value_list, axis, "--value-list X=comp_x.lis")?;
-            let path = path.ok_or_else(|| {
-                let message = format!("stage 2 needs the list of `{}`", visible_line(axis));
-                Failure::new(message).with_help(format!("add `--value-list {axis}=LIST`"))
-            })?;
-            value_list(&path, registry)?;
+            let path = lists.required(axis)?;
+            value_list(path, registry)?;
             Ok(ValueListUsed {
                 axis: axis.clone(),
-                file: shown(&path),
-                sha256: sha256_of(&path)?,
+                file: shown(path),
+                sha256: sha256_of(path)?,
             })
         };
         self.axis.iter().map(of_axis).collect()
     }
-}
 
-/// Returns the value after `AXIS=` in an option that is given for each axis.
-pub(super) fn named<T: std::str::FromStr>(
-    given: &[String],
-    axis: &str,
-    form: &str,
-) -> Result<Option<T>, Failure> {
-    let refused = |text: &str| {
-        let message = format!("`{}` is not understood", visible_line(text));
-        Failure::new(message).with_help(format!("write `{form}`"))
-    };
-    if let Some(text) = given.iter().find(|it| !it.contains('=')) {
-        return Err(refused(text));
+    /// Returns the distance over which the torque of an axis repeats.
+    fn pitch_of(&self, axis: &str) -> Result<Option<f64>, Failure> {
+        let pitches = ByAxis {
+            option: "--pitch",
+            given: &self.pitch,
+            axes: &self.names(),
+        };
+        let pitch = pitches.channel(axis)?;
+        let pitch = pitch.map(|it| quantities::mm_or_degrees(&it)).transpose();
+        pitch.map_err(|error| {
+            Failure::new(format!("`--pitch` of `{}`: {error}", visible_line(axis)))
+        })
     }
-    let pairs = given
-        .iter()
-        .filter_map(|text| Some((text, text.split_once('=')?)));
-    let mut of_axis = pairs.filter(|(_, (name, _))| name.trim() == axis);
-    let Some((text, (_, value))) = of_axis.next() else {
-        return Ok(None);
-    };
-    if of_axis.next().is_some() {
-        return Err(refused(text));
+
+    fn names(&self) -> Vec<&str> {
+        self.axis.iter().map(String::as_str).collect()
     }
-    value.trim().parse().map(Some).map_err(|_| refused(text))
 }
 
 /// Returns the state of friction compensation at the start of the control.

@@ -68,7 +68,7 @@ impl ReadingArgs {
         };
         let cycle = self.cycle.seconds()?;
         for axis in axes {
-            let switches = switches_of(path, &self.selection(&axis.name), cycle)?;
+            let switches = switches_of(path, &self.selection(&axis.name, recorded.plan)?, cycle)?;
             let within = switches
                 .iter()
                 .filter(|it| it.0 > recorded.from_s && it.0 < to_s);
@@ -119,8 +119,10 @@ impl ReadingArgs {
         let cycle = self.cycle.seconds()?;
         let mut signed: Vec<(&str, SignedAt)> = Vec::new();
         let mut failed = None;
-        for axis in plans.iter().flat_map(|plan| &plan.axes) {
-            match signatures_of(path, &self.selection(&axis.name), cycle) {
+        let axes = plans.iter();
+        let axes = axes.flat_map(|plan| plan.axes.iter().map(move |axis| (axis, *plan)));
+        for (axis, plan) in axes {
+            match signatures_of(path, &self.selection(&axis.name, plan)?, cycle) {
                 Ok(found) => signed.extend(found.into_iter().map(|it| (axis.name.as_str(), it))),
                 Err(error) => failed = Some(error),
             }
@@ -189,7 +191,7 @@ impl ReadingArgs {
         feeds: &[f64],
     ) -> Result<RecordingOutcome, Failure> {
         let cycle = self.cycle.seconds()?;
-        let recording = read_motion(path, &self.followed(&axis.name), cycle)?;
+        let recording = read_motion(path, &self.followed(&axis.name, recorded.plan)?, cycle)?;
         let followed = FollowedPosition::of(&recording, recorded.from_s);
         let step_s = recording.track.step_s;
         let AxisRecording {
@@ -240,7 +242,7 @@ impl ReadingArgs {
     ) -> Result<Vec<RecordedCircle>, Failure> {
         Ok(read_turns(
             path,
-            &self.circle_channels(plan),
+            &self.circle_channels(plan)?,
             Some(radius),
             &Disk::default(),
         )?)
@@ -254,7 +256,7 @@ impl ReadingArgs {
         feed: f64,
         radius: f64,
     ) -> Result<RecordingOutcome, Failure> {
-        let channels = self.circle_channels(plan);
+        let channels = self.circle_channels(plan)?;
         let commanded = CommandedCircle {
             radius_mm: Some(radius),
             feed_mm_per_min: None,

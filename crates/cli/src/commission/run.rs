@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::plan::{named, plan_name};
+use super::plan::plan_name;
 use super::plants::Fitting;
 use super::run_args::CommissionRunArgs;
 use super::sources::{source_of, stage_of, write_list};
@@ -12,10 +12,11 @@ use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::machine::value_list;
 use crate::outputs::{Outputs, write_text};
+use crate::progress;
 use crate::recorded_files::recordings_in;
 use crate::result::ResultFormat;
 use frictcomp_host::{
-    FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
+    Done, FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
@@ -28,7 +29,7 @@ use frictcomp_report::commission::{
 };
 use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on};
-use frictcomp_report::{TextChange, fitted, render_unified, visible_line};
+use frictcomp_report::{TextChange, fitted, render_unified};
 
 /// Runs the command.
 pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Failure> {
@@ -36,41 +37,11 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     let plans = plans(&args.folder, &registry)?;
     let paths = recordings_in(&args.folder.join("recordings"))?;
     for path in &paths {
-        registry.reads("trace", path);
+        registry.reads("recording", path);
     }
     args.reading.check_roles(&paths)?;
     let known = known(&args.folder.join(RESULTS));
-    let mut kept = 0;
-    let mut results = Vec::new();
-    for path in &paths {
-        let sha256 = sha256_of(path)?;
-        let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
-        let file = file.unwrap_or_default();
-        let same = |it: &&RecordingResult| {
-            it.file == file
-                && it.sha256 == sha256
-                && it.read_with == read_with(args, &plans, it.program)
-        };
-        if let Some(result) = known.recordings.iter().find(same) {
-            kept += 1;
-            results.push(result.clone());
-            continue;
-        }
-        let of_plans: Vec<&Plan> = plans.iter().map(|it| &it.plan).collect();
-        let (program, mut found) = args.reading.read(path, &of_plans);
-        if let (RecordingOutcome::Circles(circles), Some(plan)) =
-            (&mut found, plan_of(&plans, program))
-        {
-            args.reading.look_closer(path, plan, circles);
-        }
-        results.push(RecordingResult {
-            file,
-            sha256,
-            read_with: read_with(args, &plans, program),
-            program,
-            found,
-        });
-    }
+    let (mut results, kept) = read(args, (&plans, &paths), &known)?;
     args.reading
         .take_shares(&args.folder, &plans, (&mut results, &registry))?;
     let mut outputs = Outputs::new(&registry, console);
@@ -132,6 +103,53 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     })
 }
 
+/// Reads the recordings that have changed since an earlier run; returns the results of all, and the number of those
+/// that were known.
+fn read(
+    args: &CommissionRunArgs,
+    (plans, paths): (&[PlanFile], &[PathBuf]),
+    known: &Results,
+) -> Result<(Vec<RecordingResult>, usize), Failure> {
+    let mut kept = 0;
+    let mut results = Vec::new();
+    let watch = progress::watch();
+    for path in paths {
+        watch.show(|| Done::Runs {
+            of: "recordings",
+            done: results.len(),
+            all: paths.len(),
+        });
+        let sha256 = sha256_of(path)?;
+        let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
+        let file = file.unwrap_or_default();
+        let same = |it: &&RecordingResult| {
+            it.file == file
+                && it.sha256 == sha256
+                && it.read_with == read_with(args, plans, it.program)
+        };
+        if let Some(result) = known.recordings.iter().find(same) {
+            kept += 1;
+            results.push(result.clone());
+            continue;
+        }
+        let of_plans: Vec<&Plan> = plans.iter().map(|it| &it.plan).collect();
+        let (program, mut found) = args.reading.read(path, &of_plans);
+        if let (RecordingOutcome::Circles(circles), Some(plan)) =
+            (&mut found, plan_of(plans, program))
+        {
+            args.reading.look_closer(path, plan, circles);
+        }
+        results.push(RecordingResult {
+            file,
+            sha256,
+            read_with: read_with(args, plans, program),
+            program,
+            found,
+        });
+    }
+    Ok((results, kept))
+}
+
 /// Returns the contents of the report beyond the results.
 fn acceptance(
     args: &CommissionRunArgs,
@@ -139,9 +157,12 @@ fn acceptance(
     registry: &FileRegistry,
 ) -> Result<Acceptance, Failure> {
     let mut changes = Vec::new();
-    for used in report.rounds.last().iter().flat_map(|it| &it.lists) {
-        let before: Option<PathBuf> = named(&args.before, &used.axis, "--before X=old.lis")?;
-        let Some(before) = before else { continue };
+    let rounds = report.rounds.last().into_iter();
+    let used: Vec<_> = rounds.flat_map(|it| &it.lists).collect();
+    for (axis, before) in args.lists_before(&report.plans)? {
+        let Some(used) = used.iter().find(|it| it.axis == axis) else {
+            continue;
+        };
         registry.reads("value list", &before);
         let (old, new) = (read_text(&before)?, read_text(Path::new(&used.file))?);
         let change = TextChange {
@@ -150,23 +171,7 @@ fn acceptance(
         };
         let patch = render_unified(change);
         let same = "no line differs".to_owned();
-        changes.push((
-            used.axis.clone(),
-            if patch.is_empty() { same } else { patch },
-        ));
-    }
-    let axes: Vec<&str> = changes.iter().map(|it| it.0.as_str()).collect();
-    let unused = args
-        .before
-        .iter()
-        .filter_map(|it| it.split_once('='))
-        .find(|it| !axes.contains(&it.0.trim()));
-    if let Some((axis, _)) = unused {
-        let message = format!(
-            "`--before` names `{}`, of which stage 2 has no list",
-            visible_line(axis)
-        );
-        return Err(Failure::new(message).with_help("leave it out until stage 2 is planned"));
+        changes.push((axis, if patch.is_empty() { same } else { patch }));
     }
     Ok(Acceptance {
         machine: args.machine.clone(),

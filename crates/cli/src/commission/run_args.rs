@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::channels::ReadingArgs;
 use crate::cnc_build::CncBuildArgs;
+use crate::per_axis::PerAxis;
 use crate::result::ResultArgs;
 
 /// Evaluate the recordings of the measuring programs: friction, lists, circles before and after
@@ -42,8 +43,8 @@ pub(crate) struct CommissionRunArgs {
     pub(super) date: Option<String>,
     /// The list of an axis before the commissioning, with which the report compares that of stage 2:
     /// `X=old.lis`
-    #[arg(long, value_name = "AXIS=LIST", requires = "html")]
-    pub(super) before: Vec<String>,
+    #[arg(long, value_name = "LIST", requires = "html")]
+    pub(super) before: Vec<PerAxis>,
     #[command(flatten)]
     pub(super) result: ResultArgs,
 }

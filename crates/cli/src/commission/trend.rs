@@ -49,7 +49,7 @@ pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     let paths = recordings_in(&args.folder)?;
     let registry = FileRegistry::default();
     for path in &paths {
-        registry.reads("trace", path);
+        registry.reads("recording", path);
     }
     let mut outputs = Outputs::new(&registry, console);
     let svg = outputs.optional("--svg", args.svg.as_deref())?;

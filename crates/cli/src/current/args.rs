@@ -9,6 +9,7 @@ use super::super::cycle::CycleArgs;
 use super::super::execution::ExecutionArgs;
 use super::super::failure::Failure;
 use super::super::machine::MachineArgs;
+use super::super::per_axis::PerAxis;
 use super::super::quantities;
 use super::super::start::StartArgs;
 use super::super::tool_radius::ToolArgs;
@@ -18,7 +19,7 @@ use frictcomp_physics::motion::PlannerOptions;
 /// Compute the additive current of a program or a recording
 ///
 /// A program runs as in `run`, and its path is followed in CNC cycles; the current of each axis
-/// depends on its compensation state. A trace is an export of TwinCAT Scope, a SINUMERIK trace or a
+/// depends on its compensation state. A recording is an export of TwinCAT Scope, a SINUMERIK trace or a
 /// CSV file with a header: `t` in s, `x` in 0.1 µm or 0.0001°, `v` in µm/s or 0.001°/s, or the
 /// channels that are named; one row per CNC cycle. Either `x` or `v` may be missing. A
 /// column `comp` with `on` and `off` switches compensation as COMP would.
@@ -26,37 +27,31 @@ use frictcomp_physics::motion::PlannerOptions;
 pub(crate) struct CurrentArgs {
     /// The program, `-` for standard input
     #[arg(
-        required_unless_present = "trace",
-        conflicts_with_all = ["trace", "time", "position", "velocity", "unit"],
-        requires = "axes"
+        required_unless_present = "recording",
+        conflicts_with_all = ["recording", "time", "position", "velocity", "unit", "lead"]
     )]
     pub(super) program: Option<PathBuf>,
-    /// The axes of the program to compute the current for
-    #[arg(
-        long = "axis",
-        value_name = "AXIS",
-        value_delimiter = ',',
-        conflicts_with = "trace"
-    )]
+    /// The axes to compute the current for; by default all of a program that have a value list
+    #[arg(long = "axis", value_name = "AXES", value_delimiter = ',')]
     pub(super) axes: Vec<String>,
-    /// A recorded commanded trace instead of a program
+    /// The recorded motion of an axis instead of a program
     #[arg(long, value_name = "FILE", requires = "value_list")]
     #[arg(conflicts_with_all = OF_PROGRAMS)]
-    pub(super) trace: Option<PathBuf>,
-    /// The compensation value list; for a program, replaces the one in the configuration
+    pub(super) recording: Option<PathBuf>,
+    /// The compensation value list of every axis, or `X=LIST`; for a program, replaces the one in the configuration
     #[arg(long, value_name = "LIST")]
-    pub(super) value_list: Option<PathBuf>,
+    pub(super) value_list: Vec<PerAxis>,
     #[command(flatten)]
     pub(super) channels: MotionChannels,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
-    /// Turn the rows of a trace into CNC cycles; without this option, times that do not increase by
+    /// Turn the rows of a recording into CNC cycles; without this option, times that do not increase by
     /// one cycle are refused
-    #[arg(long, requires = "trace")]
+    #[arg(long, requires = "recording")]
     pub(super) resample: bool,
-    /// Treat velocities of a trace up to V, in µm/s or 0.001°/s, as standstill; by default only those
+    /// Treat velocities of a recording up to V, in µm/s or 0.001°/s, as standstill; by default only those
     /// that toggle around zero
-    #[arg(long, value_name = "V", requires = "trace", value_parser = parse_dead_band)]
+    #[arg(long, value_name = "V", requires = "recording", value_parser = parse_dead_band)]
     #[arg(allow_negative_numbers = true)]
     pub(super) dead_band: Option<DeadBand>,
     /// How to read what the documents leave open: `standstill=zero`, `below=origin`,
@@ -76,7 +71,7 @@ pub(crate) struct CurrentArgs {
         long,
         value_name = "COLUMNS",
         value_delimiter = ',',
-        conflicts_with = "trace"
+        conflicts_with = "recording"
     )]
     pub(super) columns: Vec<CurrentColumn>,
     /// End the trace of a program after N CNC cycles
@@ -99,7 +94,7 @@ pub(crate) struct CurrentArgs {
     pub(super) execution: ExecutionArgs,
 }
 
-/// Options that have no effect on a trace (R9.71).
+/// Options that have no effect on a recording (R9.71).
 const OF_PROGRAMS: [&str; 16] = [
     "max_cycles",
     "radii",
@@ -120,7 +115,7 @@ const OF_PROGRAMS: [&str; 16] = [
 ];
 
 impl CurrentArgs {
-    /// Returns the options for converting rows of a trace to cycles.
+    /// Returns the options for converting rows of a recording to cycles.
     pub(super) fn trace_options(&self) -> Result<TraceOptions, Failure> {
         let resampling = if self.resample {
             Resampling::Done

@@ -16,10 +16,10 @@ use args::CurrentFormat;
 /// Runs the command.
 pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
     let CurrentFormat::Csv = args.format;
-    match (&args.program, &args.trace, &args.value_list) {
-        (Some(program), ..) => program::run(program, args, console),
-        (None, Some(trace), Some(list)) => recorded::run(trace, list, args, console),
+    match (&args.program, &args.recording) {
+        (Some(program), _) => program::run(program, args, console),
+        (None, Some(recording)) => recorded::run(recording, args, console),
         // The argument declaration ensures that one of them is given.
-        _ => Err(Failure::new("give a program or a trace")),
+        (None, None) => Err(Failure::new("give a program or a recording")),
     }
 }

@@ -8,6 +8,7 @@ use super::super::exit;
 use super::super::failure::Failure;
 use super::super::machine::{remark, value_list};
 use super::super::outputs::Outputs;
+use super::super::per_axis::ByAxis;
 use super::args::CurrentArgs;
 use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use super::table::{CurrentRows, TableOptions};
@@ -15,7 +16,7 @@ use frictcomp::comp::{AxisIndex, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::drive_interface::TorqueScale;
 use frictcomp::interpreter::{Motions, StopPolicy};
-use frictcomp::machine::Parameterisation;
+use frictcomp::machine::{Axis, Machine, Parameterisation};
 use frictcomp_host::{Axes, FileRegistry, Input, LoadedMachine, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{CurrentOptions, ProgramCurrents, Reading, axes_to_follow};
 use frictcomp_physics::motion::{AssumedLimits, PlannerOptions, check_cycle};
@@ -33,18 +34,9 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let mut machines = args.machine.machines(&registry);
     machines.look_ahead(std::slice::from_ref(&input));
     let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
-    if let Some(remark) = remark(&loaded) {
-        Console::talk(&remark);
-    }
-    let list = args.value_list.as_deref();
-    let list = list.map(|path| value_list(path, &registry)).transpose()?;
-    let followed = axes_to_follow(&args.axes, &mut loaded.machine, list.as_ref())?;
+    args.use_lists(&mut loaded.machine, &registry)?;
+    let followed = axes_to_follow(&args.axes, &loaded.machine)?;
     let options = options(args, &loaded)?;
-    let assumed = loaded.machine.axes.iter().filter_map(AssumedLimits::of);
-    for line in assumed_limits(&assumed.collect::<Vec<_>>()) {
-        Console::talk(&line);
-    }
-    say_scaling(&loaded);
     let result = outputs.result(args.output.as_deref())?;
     let plot = Plot::create(
         args.svg.as_deref(),
@@ -85,6 +77,17 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         written => written.map_err(Failure::output)?,
     }
     outputs.finish()?;
+    if cycles > 0 {
+        Console::talk(&currents.sink().verdict(&names));
+    }
+    if let Some(remark) = remark(&loaded) {
+        Console::talk(&remark);
+    }
+    let assumed = loaded.machine.axes.iter().filter_map(AssumedLimits::of);
+    for line in assumed_limits(&assumed.collect::<Vec<_>>()) {
+        console.detail(&line);
+    }
+    say_scaling(&loaded);
     let (errors, remarks) = currents.diagnostics();
     let mut said = errors.to_vec();
     said.extend(levelled(currents.undecided(), &loaded));
@@ -118,6 +121,25 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     args.machine.say_unread(&machines, &registry, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
+}
+
+impl CurrentArgs {
+    /// Puts the given lists in place of those of the machine.
+    fn use_lists(&self, machine: &mut Machine, registry: &FileRegistry) -> Result<(), Failure> {
+        let names: Vec<String> = machine.axes.iter().map(|it| it.name.clone()).collect();
+        let lists = ByAxis {
+            option: "--value-list",
+            given: &self.value_list,
+            axes: &names.iter().map(String::as_str).collect::<Vec<_>>(),
+        };
+        let followed = |it: &Axis| self.axes.is_empty() || self.axes.contains(&it.name);
+        for axis in machine.axes.iter_mut().filter(|it| followed(it)) {
+            if let Some(path) = lists.list(&axis.name)? {
+                axis.friction = Parameterisation::Accepted(value_list(path, registry)?);
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Returns the reading: options of the command line take precedence over the selection of the machine.

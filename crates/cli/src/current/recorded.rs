@@ -1,4 +1,4 @@
-//! The current of a recorded or made-up trace.
+//! The current over a recorded or made-up motion.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -8,6 +8,7 @@ use super::super::exit;
 use super::super::failure::Failure;
 use super::super::machine::value_list;
 use super::super::outputs::Outputs;
+use super::super::per_axis::ByAxis;
 use super::args::CurrentArgs;
 use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use frictcomp::comp::State;
@@ -15,22 +16,31 @@ use frictcomp_host::{FileRegistry, read_commanded};
 use frictcomp_physics::current::{Added, AdditiveCurrent, CommandedTrace, Reading, Switched};
 use frictcomp_report::pictures::{AxisPlot, AxisSample};
 
-/// Computes the current of a recorded trace.
-pub(super) fn run(
-    trace: &Path,
-    list: &Path,
-    args: &CurrentArgs,
-    console: Console,
-) -> Result<u8, Failure> {
+/// Computes the current of a recording.
+pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
+    let name = match &args.axes[..] {
+        [] => "",
+        [name] => name,
+        _ => {
+            let message = "a recording gives the current of one axis, and `--axis` names several";
+            return Err(Failure::new(message).with_help("name one axis in each call"));
+        }
+    };
     let registry = FileRegistry::default();
-    registry.reads("trace", trace);
+    registry.reads("recording", recording);
     let mut outputs = Outputs::new(&registry, console);
-    let list = value_list(list, &registry)?;
+    let lists = ByAxis {
+        option: "--value-list",
+        given: &args.value_list,
+        axes: &[name],
+    };
+    let list = value_list(lists.required(name)?, &registry)?;
     let mut writer = outputs.result(args.output.as_deref())?.writer;
     let axes = vec![AxisPlot::new("", None)];
     let mut plot = Plot::create(args.svg.as_deref(), &mut outputs, axes)?;
     outputs.check()?;
-    let trace = read_commanded(trace, &args.channels.selection(), args.trace_options()?)?;
+    let selection = args.channels.of_axis(name, &[name])?;
+    let trace = read_commanded(recording, &selection, args.trace_options()?)?;
     for remark in trace.remarks() {
         Console::talk(remark);
     }
@@ -42,24 +52,26 @@ pub(super) fn run(
     }
     match written {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),
-        written => written.map_err(Failure::output)?,
+        written => Console::talk(&written.map_err(Failure::output)?),
     }
     outputs.finish()?;
-    Console::talk(&format!("reading: {reading}"));
+    console.detail(&format!("reading: {reading}"));
     say_saturated("", current.saturated());
     say_at_rest("", reading, current.at_rest());
     say_sign(&list);
     Ok(exit::CLEAN)
 }
 
+/// Writes the rows, and returns the verdict.
 fn write_csv(
     writer: &mut dyn Write,
     trace: &CommandedTrace,
     current: &mut AdditiveCurrent,
     mut plot: Option<&mut Plot>,
-) -> std::io::Result<()> {
+) -> std::io::Result<String> {
     let mut writer = BufWriter::new(writer);
     writeln!(writer, "t,x,v,w_before,w_after,current,output")?;
+    let (mut strongest, mut last_s) = ((0_i16, 0.0), 0.0);
     for (row, added) in trace.currents(current) {
         let (t, x, v) = (row.time_s, row.position, row.velocity);
         if let Some(plot) = &mut plot {
@@ -69,6 +81,10 @@ fn write_csv(
                 added: &added,
             };
             plot.traces.push(t, [sample]);
+        }
+        last_s = t;
+        if added.output.unsigned_abs() > strongest.0.unsigned_abs() {
+            strongest = (added.output, t);
         }
         let Added {
             w_before,
@@ -81,7 +97,12 @@ fn write_csv(
             "{t},{x},{v},{w_before},{w_after},{current_units},{output}"
         )?;
     }
-    writer.flush()
+    writer.flush()?;
+    let (output, at_s) = strongest;
+    Ok(match output.unsigned_abs() {
+        0 => format!("over {last_s:.3} s of motion: nothing is added"),
+        most => format!("over {last_s:.3} s of motion: at most {most} drive units, at {at_s:.3} s"),
+    })
 }
 
 /// Returns the state that a picture shows for a switch.

@@ -37,6 +37,10 @@ pub(super) struct CurrentRows {
     begins: Vec<(f64, u32)>,
     /// The states of each axis, other than active.
     seen: Vec<Vec<State>>,
+    /// The strongest output of each axis, with its line.
+    strongest: Vec<(i16, u32)>,
+    /// The time of the last cycle in s.
+    last_s: f64,
     plot: Option<Plot>,
     /// The current block: program and executed block.
     block: Option<(u32, u64)>,
@@ -59,6 +63,8 @@ impl CurrentRows {
             tracker: LineTracker::default(),
             begins: Vec::new(),
             seen: vec![Vec::new(); options.names.len()],
+            strongest: vec![(0, 0); options.names.len()],
+            last_s: 0.0,
             plot,
             block: None,
         };
@@ -74,6 +80,20 @@ impl CurrentRows {
     /// Returns the states of each axis, other than active.
     pub(super) fn seen(&self) -> &[Vec<State>] {
         &self.seen
+    }
+
+    /// Returns the verdict: the strongest output of each axis (R18.20).
+    pub(super) fn verdict(&self, names: &[String]) -> String {
+        let axes = names.iter().zip(&self.strongest);
+        let axes = axes.map(|(name, (output, line))| match output {
+            0 => format!("nothing is added to {name}"),
+            _ => format!(
+                "{name} at most {} drive units (line {line})",
+                output.unsigned_abs()
+            ),
+        });
+        let axes: Vec<String> = axes.collect();
+        format!("over {:.3} s of motion: {}", self.last_s, axes.join(", "))
     }
 
     /// Takes the picture of the output.
@@ -134,6 +154,12 @@ impl CurrentSink for CurrentRows {
             };
             self.watch
                 .show_program(Done::Cycles(self.cycles), reached, passes);
+        }
+        self.last_s = cycle.time_s;
+        for (strongest, axis) in self.strongest.iter_mut().zip(cycle.axes) {
+            if axis.added.output.unsigned_abs() > strongest.0.unsigned_abs() {
+                *strongest = (axis.added.output, cycle.cause.line);
+            }
         }
         for (seen, axis) in self.seen.iter_mut().zip(cycle.axes) {
             let state = axis.commanded.friction;

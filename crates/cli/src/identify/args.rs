@@ -25,22 +25,16 @@ use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 /// file.
 #[derive(Debug, Args)]
 pub(crate) struct IdentifyArgs {
-    /// The recorded trace; with `--circles` one or more
-    #[arg(required_unless_present = "recording", conflicts_with = "recording")]
-    pub(super) traces: Vec<PathBuf>,
-    /// The recording of a state of the axis, for example cold or warm: `warm=FILE`; give one for each
-    #[arg(long, value_name = "STATE=FILE", value_parser = parse_state)]
-    #[arg(conflicts_with_all = ["circles", "html"])]
-    pub(super) recording: Vec<(String, PathBuf)>,
+    /// The recording; with `--circles` one or more, with `--states` one of each state
+    #[arg(value_name = "RECORDING", required = true)]
+    pub(super) recordings: Vec<PathBuf>,
+    /// The recordings are of several states of the axis, each named: `warm=FILE cold=FILE`
+    #[arg(long, conflicts_with_all = ["circles", "html"])]
+    pub(super) states: bool,
     /// The state in which the machine works and for which the list is made; by default `warm`
-    #[arg(
-        long,
-        value_name = "STATE",
-        requires = "recording",
-        conflicts_with = "traces"
-    )]
+    #[arg(long, value_name = "STATE", requires = "states")]
     pub(super) working: Option<String>,
-    /// The traces are recorded circles, at two or more feeds, instead of constant speeds
+    /// The recordings are circles, at two or more feeds, instead of constant speeds
     #[arg(long, conflicts_with_all = ["points", "max_error", "svg", "html"])]
     pub(super) circles: bool,
     #[command(flatten)]
@@ -118,14 +112,4 @@ pub(crate) fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failur
     findings.iter().fold(error.into(), |failure: Failure, it| {
         failure.with_help(format!("{}: {}", it.code, it.message))
     })
-}
-
-/// Parses `STATE=FILE`.
-fn parse_state(text: &str) -> Result<(String, PathBuf), String> {
-    match text.split_once('=') {
-        Some((name, path)) if !name.trim().is_empty() && !path.is_empty() => {
-            Ok((name.trim().to_owned(), path.into()))
-        }
-        _ => Err("write the state and its recording, `warm=friction.csv`".to_owned()),
-    }
 }

@@ -1,4 +1,4 @@
-//! `frictcomp identify`: from a recorded trace to a value list.
+//! `frictcomp identify`: from a recording to a value list.
 
 mod args;
 mod states;
@@ -30,13 +30,13 @@ use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 /// Runs the command.
 pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
     let options = options(args)?;
-    if !args.recording.is_empty() {
+    if args.states {
         return states::run(args, &options, console);
     }
     let registry = FileRegistry::default();
-    args.traces
+    args.recordings
         .iter()
-        .for_each(|path| registry.reads("trace", path));
+        .for_each(|path| registry.reads("recording", path));
     let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.result.output.as_deref())?;
     let list = args.write_list.as_deref();
@@ -56,9 +56,9 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         )?)
     };
     if args.circles {
-        refuse_copies(&args.traces)?;
+        refuse_copies(&args.recordings)?;
         let recordings = args
-            .traces
+            .recordings
             .iter()
             .map(read)
             .collect::<Result<Vec<_>, _>>()?;
@@ -70,12 +70,13 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         outputs.finish()?;
         return Ok(exit::CLEAN);
     }
-    let [trace] = &args.traces[..] else {
-        let message = format!("{} traces were given", args.traces.len());
-        return Err(Failure::new(message)
-            .with_help("give one trace of constant speeds, or `--circles` for several circles"));
+    let [recording] = &args.recordings[..] else {
+        let message = format!("{} recordings were given", args.recordings.len());
+        return Err(Failure::new(message).with_help(
+            "give one recording of constant speeds, or `--circles` for several circles",
+        ));
     };
-    let report = args.identified(trace, read(trace)?, &options)?;
+    let report = args.identified(recording, read(recording)?, &options)?;
     if let Some(mut list) = list {
         write_text(&mut list, &args.list_of(&report, &[]))?;
     }
@@ -106,7 +107,11 @@ fn circles(
     // The least that is known of any recording.
     let measured = measured.reduce(Measured::common).unwrap_or_default();
     let report = OnCirclesReport {
-        names: args.traces.iter().map(|path| shown_path(path)).collect(),
+        names: args
+            .recordings
+            .iter()
+            .map(|path| shown_path(path))
+            .collect(),
         axis: args.channels.axis.clone(),
         found: identify_measured_circles(&tracks, &measured)?,
         recordings,

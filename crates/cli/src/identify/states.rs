@@ -1,6 +1,6 @@
-//! Recordings of one axis in several states: `--recording cold=FILE --recording warm=FILE` (R16.6).
+//! Recordings of one axis in several states: `--states cold=FILE warm=FILE` (R16.6).
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::args::IdentifyArgs;
 use crate::console::Console;
@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
+use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
 use frictcomp_report::fitted;
@@ -26,10 +27,13 @@ pub(super) fn run(
     options: &IdentifyOptions,
     console: Console,
 ) -> Result<u8, Failure> {
-    let working = working(args)?;
+    let recordings = args.recordings.iter().map(|it| state_of(it));
+    let recordings = recordings.collect::<Result<Vec<(&str, PathBuf)>, Failure>>()?;
+    let names: Vec<&str> = recordings.iter().map(|it| it.0).collect();
+    let working = working(&names, args.working.as_deref().unwrap_or(WORKING))?;
     let registry = FileRegistry::default();
-    for (_, path) in &args.recording {
-        registry.reads("trace", path);
+    for (_, path) in &recordings {
+        registry.reads("recording", path);
     }
     let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.result.output.as_deref())?;
@@ -39,17 +43,20 @@ pub(super) fn run(
         .transpose()?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     outputs.check()?;
-    let paths: Vec<PathBuf> = args.recording.iter().map(|it| it.1.clone()).collect();
+    let paths: Vec<PathBuf> = recordings.iter().map(|it| it.1.clone()).collect();
     refuse_copies(&paths)?;
     let cycle = args.cycle.seconds()?;
-    let states = args.recording.iter().map(|(name, path)| {
+    let states = recordings.iter().map(|(name, path)| {
         let recording = read_axis(
             path,
             &args.channels.selection(path, &registry)?,
             cycle,
             &Disk::default(),
         )?;
-        Ok((name.clone(), args.identified(path, recording, options)?))
+        Ok((
+            (*name).to_owned(),
+            args.identified(path, recording, options)?,
+        ))
     });
     let states = states.collect::<Result<Vec<_>, Failure>>()?;
     let found: Vec<_> = states.iter().map(|(_, it)| &it.identified).collect();
@@ -72,19 +79,24 @@ pub(super) fn run(
     Ok(exit::CLEAN)
 }
 
+/// Returns the state and the recording of `STATE=FILE`.
+fn state_of(written: &Path) -> Result<(&str, PathBuf), Failure> {
+    let pair = written.to_str().and_then(|it| it.split_once('='));
+    let pair = pair.map(|(name, path)| (name.trim(), path.trim()));
+    let pair = pair.filter(|(name, path)| !name.is_empty() && !path.is_empty());
+    pair.map(|(name, path)| (name, path.into())).ok_or_else(|| {
+        let message = format!("`{}` names no state", shown_path(written));
+        Failure::new(message).with_help("write the state and its recording, `warm=friction.csv`")
+    })
+}
+
 /// Returns the position of the state for which the list is made.
-fn working(args: &IdentifyArgs) -> Result<usize, Failure> {
-    let names: Vec<&str> = args
-        .recording
-        .iter()
-        .map(|(name, _)| name.as_str())
-        .collect();
+fn working(names: &[&str], wanted: &str) -> Result<usize, Failure> {
     let twice = names.iter().enumerate();
     if let Some((_, name)) = twice.clone().find(|(at, name)| names[..*at].contains(name)) {
         let message = format!("the state `{}` was given twice", visible_line(name));
         return Err(Failure::new(message).with_help("give each state its own name"));
     }
-    let wanted = args.working.as_deref().unwrap_or(WORKING);
     let found = names.iter().position(|name| *name == wanted);
     found.ok_or_else(|| {
         let message = format!(

@@ -7,21 +7,23 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::channels::parse_unit;
+use super::channels::UnitArgs;
 use super::console::Console;
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::Outputs;
+use super::per_axis::{ByAxis, PerAxis};
 use super::result::{ResultArgs, ResultFormat};
 use super::simulated::Tolerance;
 use super::start::StartArgs;
 use frictcomp::interpreter::StopPolicy;
+use frictcomp::machine::Machine;
 use frictcomp::text::shown_path;
 use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
 use frictcomp_host::{FileRegistry, Input};
-use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_replay;
 
@@ -33,7 +35,8 @@ use frictcomp_report::html::render_replay;
 /// the recording decides it.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
-    /// The recorded trace
+    /// The recording
+    #[arg(value_name = "RECORDING")]
     recording: PathBuf,
     /// The programs that ran while it was recorded, in their order
     #[arg(required = true, value_name = "PROGRAM")]
@@ -41,12 +44,12 @@ pub(super) struct ReplayArgs {
     /// The channel of the times: its name, comment or CNC object
     #[arg(long, value_name = "CHANNEL")]
     time: Option<String>,
-    /// The channel of the state of an axis: `--active X=FrictX`
-    #[arg(long, value_name = "AXIS=CHANNEL", value_parser = parse_axis)]
-    active: Vec<(String, String)>,
-    /// The channel of the position of an axis: `--position X=ActPosX`
-    #[arg(long, value_name = "AXIS=CHANNEL", value_parser = parse_axis)]
-    position: Vec<(String, String)>,
+    /// The channel of the state of an axis: `X=FrictX`, or `%.Frict` with `%` for the name of each axis
+    #[arg(long, value_name = "CHANNEL")]
+    active: Vec<PerAxis>,
+    /// The channel of the position of an axis: `X=ActPosX`, or `%.ActPos`
+    #[arg(long, value_name = "CHANNEL")]
+    position: Vec<PerAxis>,
     /// The channel of the line of the program
     #[arg(long, value_name = "CHANNEL")]
     line: Option<String>,
@@ -56,9 +59,8 @@ pub(super) struct ReplayArgs {
     /// The channel of the running number of the program, from 1
     #[arg(long, value_name = "CHANNEL")]
     program: Option<String>,
-    /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
-    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
-    unit: Vec<(String, Unit)>,
+    #[command(flatten)]
+    unit: UnitArgs,
     /// How much positions may differ where no blocks were recorded, in µm or 0.001°; by default 100
     #[arg(long, value_name = "UM")]
     tolerance: Option<Tolerance>,
@@ -81,7 +83,7 @@ const TOLERANCE: f64 = 0.1;
 /// Runs the command.
 pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
-    registry.reads("trace", &args.recording);
+    registry.reads("recording", &args.recording);
     let inputs: Vec<Input> = args.programs.iter().map(|path| Input::new(path)).collect();
     for input in &inputs {
         input.probe()?;
@@ -97,7 +99,11 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         .ok_or_else(|| Failure::new("there is no program"))?;
     let loaded = machines.for_folder(first.folder())?;
     outputs.check()?;
-    let recording = read_states(&args.recording, &args.channels(), &loaded.machine)?;
+    let recording = read_states(
+        &args.recording,
+        &args.channels(&loaded.machine)?,
+        &loaded.machine,
+    )?;
     let mut options = args.execution.options(&loaded, StopPolicy::FirstError);
     options.start = args.start.positions(&loaded.machine)?;
     let replay = Replay {
@@ -126,30 +132,28 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
 }
 
 impl ReplayArgs {
-    fn channels(&self) -> ReplayChannels {
-        ReplayChannels {
+    fn channels(&self, machine: &Machine) -> Result<ReplayChannels, Failure> {
+        let axes: Vec<&str> = machine.axes.iter().map(|it| it.name.as_str()).collect();
+        let axes = &axes;
+        let of_each = |option, given| {
+            ByAxis {
+                option,
+                given,
+                axes,
+            }
+            .channels()
+        };
+        Ok(ReplayChannels {
             selection: ChannelSelection {
                 time: self.time.clone(),
-                units: self.unit.clone(),
+                units: self.unit.unit.clone(),
                 ..ChannelSelection::default()
             },
-            active: self.active.clone(),
-            positions: self.position.clone(),
+            active: of_each("--active", &self.active)?,
+            positions: of_each("--position", &self.position)?,
             line: self.line.clone(),
             block: self.block.clone(),
             program: self.program.clone(),
-        }
-    }
-}
-
-/// Parses `X=CHANNEL`.
-fn parse_axis(text: &str) -> Result<(String, String), String> {
-    let pair = text.split_once('=');
-    let pair = pair.map(|(axis, channel)| (axis.trim(), channel.trim()));
-    match pair {
-        Some((axis, channel)) if !axis.is_empty() && !channel.is_empty() => {
-            Ok((axis.to_owned(), channel.to_owned()))
-        }
-        _ => Err("write `AXIS=CHANNEL`, such as `X=FrictX`".to_owned()),
+        })
     }
 }

@@ -20,7 +20,7 @@ use frictcomp::interpreter::NoProgram;
 use frictcomp_host::{
     CallGraph, FileRegistry, GraphProgram, MissingCall, find_programs, processors,
 };
-use frictcomp_report::visible_line;
+use frictcomp_report::{Headline, Standing, counted, visible_line};
 
 /// The deepest call that is indented; deeper ones begin a separate tree.
 const MAX_DEPTH: usize = 24;
@@ -90,7 +90,6 @@ fn graph(args: &CallsArgs, console: Console, failures: &mut Failures) -> Result<
     if printed == Printed::Read {
         outputs.finish()?;
     }
-    console.remark(&shown.total());
     say_left_out(&mut found.left_out, &registry, console);
     Ok(exit::CLEAN)
 }
@@ -117,7 +116,7 @@ impl CallsOutput {
     }
 
     fn text(&self) -> String {
-        let mut out = String::new();
+        let mut out = format!("{}\n\n", self.headline());
         let mut is_shown = vec![false; self.mains.len()];
         let roots = (0..self.mains.len()).filter(|at| self.mains[*at]);
         let mut roots: VecDeque<usize> = roots.collect();
@@ -249,6 +248,7 @@ impl CallsOutput {
         });
         json!({
             "schema": 1,
+            "headline": self.headline(),
             "programs": shown.collect::<Vec<_>>(),
             "missing": missing.collect::<Vec<_>>(),
             "circles": named(self.calls.circles()),
@@ -256,23 +256,24 @@ impl CallsOutput {
         })
     }
 
-    fn total(&self) -> String {
+    fn headline(&self) -> Headline {
         let programs = self.programs();
         let uncalled = programs.iter().filter(|it| it.called_by.is_empty());
         let missing = programs.iter().map(|it| it.missing.len()).sum::<usize>();
-        format!(
+        let text = format!(
             "{}, {}, {} that no program calls; {} of missing programs",
-            count(programs.len(), "program"),
-            count(self.mains.iter().filter(|it| **it).count(), "main program"),
+            counted(programs.len(), "program"),
+            counted(self.mains.iter().filter(|it| **it).count(), "main program"),
             uncalled.count(),
-            count(missing, "call"),
-        )
+            counted(missing, "call"),
+        );
+        let standing = if missing > 0 {
+            Standing::Bad
+        } else {
+            Standing::Plain
+        };
+        Headline::new(standing, text)
     }
-}
-
-fn count(number: usize, noun: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {noun}{plural}")
 }
 
 fn why(missing: &MissingCall) -> String {

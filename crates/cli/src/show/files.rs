@@ -18,7 +18,7 @@ use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{FileRegistry, FoundPrograms, Input, LeftOutFile, Naming, find_programs};
-use frictcomp_report::counted;
+use frictcomp_report::{Headline, Standing, counted};
 
 /// Show which files are taken as programs, which are not, and why
 ///
@@ -63,12 +63,6 @@ fn files(args: &FilesArgs, console: Console, failures: &mut Failures) -> Result<
     if printed == Printed::Read {
         outputs.finish()?;
     }
-    let taken = counted(found.inputs.len(), "program");
-    let beside = passed_over(found.left_out.others());
-    console.remark(&match found.left_out.in_words() {
-        Some(kinds) => format!("{taken}; not taken: {kinds}{beside}"),
-        None => format!("{taken}{beside}"),
-    });
     Ok(exit::CLEAN)
 }
 
@@ -80,7 +74,7 @@ impl FilesArgs {
     }
 
     fn text(&self, found: &FoundPrograms) -> String {
-        let mut out = String::new();
+        let mut out = format!("{}\n\n", headline(found));
         for input in &found.inputs {
             let _ = writeln!(out, "{}", taken_name(input));
         }
@@ -104,10 +98,22 @@ impl FilesArgs {
         });
         json!({
             "schema": SCHEMA,
+            "headline": headline(found),
             "files": taken.chain(left_out).collect::<Vec<_>>(),
             "others": found.left_out.others(),
         })
     }
+}
+
+/// Returns the verdict: how many programs are taken, and what is not.
+fn headline(found: &FoundPrograms) -> Headline {
+    let taken = counted(found.inputs.len(), "program");
+    let beside = passed_over(found.left_out.others());
+    let text = match found.left_out.in_words() {
+        Some(kinds) => format!("{taken}; not taken: {kinds}{beside}"),
+        None => format!("{taken}{beside}"),
+    };
+    Headline::new(Standing::Plain, text)
 }
 
 fn taken_name(input: &Input) -> String {

@@ -22,7 +22,7 @@ use frictcomp::text::{Position, shown_json};
 use frictcomp_host::{
     Axes, FileRegistry, Input, LoadedMachine, Naming, SingleRun, find_programs, run_alone,
 };
-use frictcomp_report::leading;
+use frictcomp_report::{Headline, Standing, counted, leading};
 
 /// Programs whose notes are shown.
 #[derive(Debug, Args)]
@@ -101,11 +101,39 @@ fn list(
         let taken = taken.and_then(|it| args.take(kind, (input, &it), &mut notes));
         taken.unwrap_or_else(|failure| failures.push(failure));
     }
+    let headline = headline(kind, &notes);
     let text: String = notes.iter().map(NotedName::text).collect();
-    let values: Vec<Value> = notes.iter().map(|note| note.record(kind)).collect();
+    let text = match &*text {
+        "" => format!("{headline}\n"),
+        lines => format!("{headline}\n\n{lines}"),
+    };
+    let mut values: Vec<Value> = notes.iter().map(|note| note.record(kind)).collect();
+    values.push(json!({ "record": "summary", "headline": headline }));
     target.text(&shown_json(&args.result.format.records(&text, &values)))?;
     outputs.finish()?;
     Ok(exit::CLEAN)
+}
+
+/// Returns the verdict: how many names there are, and at how many places.
+fn headline(kind: NoteKind, notes: &BTreeSet<NotedName>) -> Headline {
+    let names: BTreeSet<&str> = notes.iter().map(|it| it.name.as_str()).collect();
+    let (names, places) = (names.len(), counted(notes.len(), "place"));
+    Headline::new(
+        Standing::Plain,
+        match (kind, names) {
+            (NoteKind::Unknown, 0) => "no program needs a value of the machine".to_owned(),
+            (NoteKind::Unknown, _) => {
+                format!(
+                    "{} of the machine, read at {places}",
+                    counted(names, "value")
+                )
+            }
+            (NoteKind::Opaque, 0) => "no word is passed over".to_owned(),
+            (NoteKind::Opaque, _) => {
+                format!("{} passed over, at {places}", counted(names, "word"))
+            }
+        },
+    )
 }
 
 impl NotesArgs {

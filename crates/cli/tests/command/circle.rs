@@ -87,7 +87,7 @@ fn a_worse_turn_of_a_recording_is_named() {
             writeln!(text, "{time:.3},{x:.5},{y:.5}").expect("text");
         }
         fs::write(&path, text).expect("a recording");
-        let arguments = ["circle", "--trace", path.to_str().expect("a name")];
+        let arguments = ["circle", "--recording", path.to_str().expect("a name")];
         let text = String::from_utf8(tool(&arguments).stdout).expect("text");
         let document = json(&[&arguments[..], &["--format=json"]].concat());
         (text, document["worse_turns"].clone())
@@ -153,21 +153,21 @@ fn each_axis_has_its_own_list() {
     assert!(glitch("on", "X+") < 0.3 * glitch("off", "X+"));
     assert!((glitch("on", "Y+") / glitch("off", "Y+") - 1.0).abs() < 0.02);
     assert_eq!(document["value_list"], format!("X={x}, Y={y}"));
-    for given in [vec![&for_x], vec![&for_x, &for_x], vec![&for_x, &x]] {
-        let given: Vec<&str> = given.into_iter().map(String::as_str).collect();
-        let given: Vec<&str> = given
-            .into_iter()
-            .flat_map(|it| match it.strip_prefix("--") {
-                Some(_) => vec![it],
-                None => vec!["--value-list", it],
-            })
-            .collect();
+    for (given, words) in [
+        (vec![&*for_x], "`--value-list` gives no list of `Y`"),
+        (vec![&*for_x, &for_x], "more than once for the same axis"),
+        (
+            vec!["--value-list=Q=a.lis"],
+            "`Q`, which is not an axis here",
+        ),
+    ] {
         let said = refusal(&[&QUICK[..], &given].concat());
-        assert!(
-            said.contains("one list for both axes, or one for each"),
-            "{said}"
-        );
+        assert!(said.contains(words), "{said}");
     }
+    // One that names no axis is that of the others.
+    let others = format!("--value-list={x}");
+    let document = json(&[&QUICK[..], &[&for_y, &others]].concat());
+    assert_eq!(document["value_list"], format!("X={x}, Y={y}"));
 }
 
 #[test]
@@ -231,7 +231,13 @@ fn recorded_circles_are_read_in_mm_and_in_micrometres() {
     ] {
         write_circle(&path, header, scale);
         let document = json(&[
-            "circle", "--trace", name, "--radius", "50", "--format", "json",
+            "circle",
+            "--recording",
+            name,
+            "--radius",
+            "50",
+            "--format",
+            "json",
         ]);
         let path = &document["recorded"]["ccw"];
         for (key, expected) in [("G_mz", 8.0), ("F_max", 4.0), ("F_min", -4.0), ("D", 0.0)] {
@@ -242,10 +248,12 @@ fn recorded_circles_are_read_in_mm_and_in_micrometres() {
     }
     let text = fs::read_to_string(&path).expect("text");
     fs::write(&path, text.replacen("0.002,", "0.002,nan", 1)).expect("written");
-    let said = refusal(&["circle", "--trace", name]);
+    let said = refusal(&["circle", "--recording", name]);
     assert!(said.contains(":4: column `x [mm]` holds `nan"), "{said}");
     fs::write(&path, "t,a,b\n1,2,3\n").expect("written");
-    assert!(refusal(&["circle", "--trace", name]).contains("no columns `x` and `y`, only t, a, b"));
+    assert!(
+        refusal(&["circle", "--recording", name]).contains("no columns `x` and `y`, only t, a, b")
+    );
 }
 
 #[test]

@@ -96,6 +96,14 @@ fn an_earlier_word_is_answered_with_the_present_one() {
             &["ask", "--output=questions"],
             "`frictcomp ask --output` is now `frictcomp ask write --into`\n",
         ),
+        (
+            &["commission", "learn", "--x", "ActPosX"],
+            "`frictcomp commission learn --x` is now `frictcomp commission learn --position`\n",
+        ),
+        (
+            &["circle", "--trace", "c.csv"],
+            "`frictcomp circle --trace` is now `frictcomp circle --recording`\n",
+        ),
     ] {
         assert_eq!(refused(before), answer);
     }

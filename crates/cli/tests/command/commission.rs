@@ -377,7 +377,7 @@ fn what_does_not_fit_is_refused_with_its_reason() {
         ),
         (
             &[&two, &feeds, &["--value-list", "X=comp_x.lis"]],
-            "stage 2 needs the list of `Y`",
+            "`--value-list` gives no list of `Y`",
         ),
     ];
     for (arguments, words) in cases {

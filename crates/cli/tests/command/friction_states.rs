@@ -48,13 +48,7 @@ fn call(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
 #[test]
 fn states_stand_side_by_side() {
     let folder = folder(&[("cold.csv", 1.2, 0.0), ("warm.csv", 1.0, 0.0)]);
-    let recorded = [
-        "identify",
-        "--recording",
-        "cold=r/cold.csv",
-        "--recording",
-        "warm=r/warm.csv",
-    ];
+    let recorded = ["identify", "--states", "cold=r/cold.csv", "warm=r/warm.csv"];
     let (status, said) = call(
         folder.path(),
         &[&recorded[..], &["--write-list", "x.lis", "--svg", "x.svg"]].concat(),
@@ -103,19 +97,19 @@ fn a_state_that_is_not_there_is_refused() {
     let folder = folder(&[("a.csv", 1.0, 0.0)]);
     for (arguments, words) in [
         (
-            &["--recording", "cold=r/a.csv"][..],
+            &["--states", "cold=r/a.csv"][..],
             "no recording of the state `warm`",
         ),
         (
-            &["--recording", "warm=r/a.csv", "--recording", "warm=r/a.csv"],
+            &["--states", "warm=r/a.csv", "warm=r/a.csv"],
             "`warm` was given twice",
         ),
         (
-            &["--recording", "r/a.csv"],
+            &["--states", "r/a.csv"],
             "write the state and its recording",
         ),
-        (&["--recording", "warm=r/a.csv", "--circles"], "--circles"),
-        (&["--recording", "warm=r/b.csv"], "r/b.csv"),
+        (&["--states", "warm=r/a.csv", "--circles"], "--circles"),
+        (&["--states", "warm=r/b.csv"], "r/b.csv"),
         (&["--working", "warm", "r/a.csv"], "--working"),
     ] {
         let (status, said) = call(
@@ -221,9 +215,8 @@ fn a_recording_given_twice_is_no_second_one() {
         (
             vec![
                 "identify",
-                "--recording",
+                "--states",
                 "cold=r/2026-03-01.csv",
-                "--recording",
                 "warm=r/2027-03-01.csv",
             ],
             "is a copy of",

@@ -212,7 +212,7 @@ fn no_command_and_no_format_lets_harm_out() {
             &["lists", name],
             &["current", name],
             &["current", "--enable", "X", name],
-            &["circle", "--trace", "trace.csv"],
+            &["circle", "--recording", "trace.csv"],
             &["circle", "--value-list", &list],
             &["circle", "--plant", "plant.toml"],
             &["circle", "--plant", NAME],

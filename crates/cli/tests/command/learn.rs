@@ -235,7 +235,7 @@ fn recorded_circles_give_the_next_list() {
         text.contains("put the recordings into learning/round-2"),
         "{text}"
     );
-    assert!(text.contains("predicted with them: X"), "{text}");
+    assert!(text.contains("predicted with the next lists: X"), "{text}");
     assert_eq!(bench.read("learning/learning.json"), before);
     second_round(&bench, &first);
     refused::changed_after_a_round(&bench);
@@ -262,6 +262,13 @@ fn second_round(bench: &Bench, first: &Value) {
         );
     }
     assert!(after[0] < 0.8 * before[0], "{before:?} {after:?}");
+    let best = &second["axes"][0]["list"];
+    let (_, said) = bench.learn(&["--write-list", "X=best.lis"]);
+    assert!(said.contains("wrote `best.lis`"), "{said}");
+    assert_eq!(
+        bench.read("best.lis"),
+        bench.read(best.as_str().expect("a list"))
+    );
 }
 
 /// R16.4: on machines from stiff to soft, uneven, noisy, half and twice as stiff as the plant says, five rounds leave

@@ -108,7 +108,7 @@ fn a_difference_shows_the_changes_and_makes_none() {
             )
     );
     assert!(
-        said.contains("1 change in 1 file (`--fix` applies them)"),
+        said.contains("1 change in 1 file (`--fix` applies it)"),
         "{said}"
     );
     assert_eq!(bench.read("a.nc"), text);

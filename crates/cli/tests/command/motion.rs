@@ -107,7 +107,7 @@ fn a_program_and_its_recorded_trace_have_the_same_current() {
     std::fs::write(folder.path().join("v.lis"), list).expect("a list");
     let recorded = current(
         folder.path(),
-        &["--trace", "t.csv", "--value-list", "v.lis"],
+        &["--recording", "t.csv", "--value-list", "v.lis"],
     );
     let recorded = rows(&recorded);
     assert_eq!(recorded.len(), program.len());
@@ -120,6 +120,10 @@ fn a_program_and_its_recorded_trace_have_the_same_current() {
 fn several_axes_stand_side_by_side() {
     // R5.1: columns by axis, a complete file, another value list and cycle.
     let folder = tempfile::tempdir().expect("a folder");
+    // Without `--axis` those that have a value list.
+    let [every, listed] =
+        [&["a.nc"][..], &["a.nc", "--axis", "X"]].map(|it| rows(&current(folder.path(), it)));
+    assert_eq!(every, listed);
     let arguments = [
         "a.nc",
         "--axis",
@@ -177,7 +181,7 @@ fn what_cannot_be_done_is_said() {
             "error[FC915]",
         ),
         (vec!["b.nc", "--axis", "X"], 2, "there is no file `b.nc`"),
-        (vec!["a.nc"], 2, "--axis"),
+        (vec!["a.nc", "--isolated"], 2, "no axis has an accepted"),
     ] {
         let output = current(folder.path(), &arguments);
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -233,7 +237,7 @@ fn rows_that_are_no_cycles_are_refused_or_resampled() {
     std::fs::write(folder.path().join("v.lis"), list).expect("a list");
     let run = |trace: &str, more: &[&str]| {
         std::fs::write(folder.path().join("t.csv"), trace).expect("a trace");
-        let arguments = ["--trace", "t.csv", "--value-list", "v.lis"];
+        let arguments = ["--recording", "t.csv", "--value-list", "v.lis"];
         let output = current(folder.path(), &[&arguments, more].concat());
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         (output.status.code(), rows(&output), said)
@@ -361,7 +365,7 @@ fn channels_of_several_rates_are_resampled_or_refused() {
     let trace = "Name\tx\tName\tv\n\n0\t0\t0\t0\n1\t10\t2\t2000\n2\t20\t4\t4000\n3\t30\n4\t40\n";
     std::fs::write(folder.path().join("t.csv"), trace).expect("a trace");
     let run = |more: &[&str]| {
-        let arguments = ["--trace", "t.csv", "--value-list", "v.lis"];
+        let arguments = ["--recording", "t.csv", "--value-list", "v.lis"];
         let units = ["--unit", "x=0.1um", "--unit", "v=um/s"];
         let output = current(folder.path(), &[&arguments, &units, more].concat());
         let said = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -261,7 +261,7 @@ fn options_without_effect_are_refused() {
         ("v.lis", "frict_comp.mode 0\n"),
         ("t.csv", "t,x\n0,0\n"),
     ]);
-    let trace = ["current", "--trace", "t.csv", "--value-list", "v.lis"];
+    let trace = ["current", "--recording", "t.csv", "--value-list", "v.lis"];
     for arguments in [
         &["run", "--changes", "--full", "a.nc"][..],
         &["run", "--full", "--format", "ndjson", "a.nc"],
@@ -281,8 +281,8 @@ fn options_without_effect_are_refused() {
         &[&trace[..], &["--max-cycles", "5"]].concat(),
         &[&trace[..], &["--isolated"]].concat(),
         &[&trace[..], &["--axis", "X"]].concat(),
-        &["circle", "--trace", "t.csv", "--feed", "100"],
-        &["circle", "--trace", "t.csv", "--cycle-time", "1"],
+        &["circle", "--recording", "t.csv", "--feed", "100"],
+        &["circle", "--recording", "t.csv", "--cycle-time", "1"],
     ] {
         let said = refused(&bench, arguments);
         assert!(said.starts_with("error: "), "{arguments:?}: {said}");
@@ -299,9 +299,13 @@ fn every_format_holds_what_the_text_holds() {
         let lines = bench.stdout(&["show", shown, "--format", "ndjson", "a.nc"]);
         let document = json(&bench.stdout(&["show", shown, "--format", "json", "a.nc"]));
         let records = document["records"].as_array().expect("records");
-        assert_eq!(text.lines().count(), lines.lines().count());
-        assert_eq!(text.lines().count(), records.len());
-        for (line, record) in text.lines().zip(records) {
+        let headline = text.lines().next().unwrap_or_default();
+        let summary = records.last().expect("a summary");
+        assert_eq!(summary["headline"]["text"], headline);
+        let places: Vec<&str> = text.lines().skip(2).collect();
+        assert_eq!(places.len() + 1, lines.lines().count());
+        assert_eq!(places.len() + 1, records.len());
+        for (line, record) in places.into_iter().zip(records) {
             let place = format!("a.nc:{}:{}", record["line"], record["column"]);
             assert!(line.starts_with(record["name"].as_str().expect("a name")));
             assert!(line.ends_with(&place), "{line} {place}");

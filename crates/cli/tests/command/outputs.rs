@@ -74,7 +74,7 @@ fn no_output_destroys_an_input() {
     both(&["run", "call.nc", "--html", "hard"], "part.nc");
     both(&["lists", "v.lis", "-o", "v.lis"], "v.lis");
     both(&["lists", "v.lis", "--svg", "v.lis"], "v.lis");
-    let trace = ["current", "--trace", "t.csv", "--value-list", "v.lis"];
+    let trace = ["current", "--recording", "t.csv", "--value-list", "v.lis"];
     both(&[&trace[..], &["-o", "t.csv"]].concat(), "t.csv");
     both(&[&trace[..], &["--svg", "v.lis"]].concat(), "v.lis");
     let program = ["current", "part.nc", "--axis", "X"];
@@ -88,7 +88,10 @@ fn no_output_destroys_an_input() {
         "plant.toml",
     );
     both(&["circle", "--value-list", "v.lis", "-o", "v.lis"], "v.lis");
-    both(&["circle", "--trace", "t.csv", "--html", "t.csv"], "t.csv");
+    both(
+        &["circle", "--recording", "t.csv", "--html", "t.csv"],
+        "t.csv",
+    );
     both(
         &[
             "tune",
@@ -449,9 +452,15 @@ mod unix {
             &["run", "--state", "s", "part.nc"],
             &["golden", "part.nc"],
             &["golden", "--update", "part.nc"],
-            &["current", "--trace", "f.csv", "--value-list", "v.lis"],
-            &["current", "--trace", "/dev/zero", "--value-list", "v.lis"],
-            &["circle", "--trace", "/dev/zero"],
+            &["current", "--recording", "f.csv", "--value-list", "v.lis"],
+            &[
+                "current",
+                "--recording",
+                "/dev/zero",
+                "--value-list",
+                "v.lis",
+            ],
+            &["circle", "--recording", "/dev/zero"],
             &["circle", "--plant", "f.toml"],
         ] {
             let said = refused(&bench, arguments);
@@ -508,13 +517,14 @@ fn golden_tells_missing_from_drifted() {
     let bench = bench();
     let output = bench.call(&["golden", "part.nc"]);
     assert_eq!(output.status.code(), Some(1));
-    let said = stderr(&output);
-    assert!(said.contains("of 1 timeline 1 missing"), "{said}");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.starts_with("1 timeline: 1 is missing"), "{said}");
     assert_eq!(bench.status(&["golden", "--update", "part.nc"]), Some(0));
     assert_eq!(bench.status(&["golden", "part.nc"]), Some(0));
     bench.write("part.nc", "N10 M30\n");
-    let said = stderr(&bench.call(&["golden", "part.nc"]));
-    assert!(said.contains("of 1 timeline 1 drifted"), "{said}");
+    let output = bench.call(&["golden", "part.nc"]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.starts_with("1 timeline: 1 differs"), "{said}");
 }
 
 #[test]

@@ -221,7 +221,6 @@ const FILLED_IN: &[&str] = &[
     "report::svg::SecondUnit",
     "report::svg::Series",
     "report::svg::XMark",
-    "host::CircleChannels",
     "host::ContourSetup",
     "host::GoldenKind",
     "host::Input",

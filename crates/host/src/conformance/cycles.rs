@@ -104,7 +104,7 @@ impl ExpectedCycles {
         Some(format!("{found} drive units in cycle {at}"))
     }
 
-    /// Returns the commanded motion as a table that `frictcomp current --trace` reads.
+    /// Returns the commanded motion as a table that `frictcomp current --recording` reads.
     pub(super) fn table(&self) -> String {
         let mut text = "x,v,comp\n".to_owned();
         for ((position, velocity), switched) in self

@@ -10,7 +10,7 @@ use frictcomp::machine::Machine;
 use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_recordings::identify::{StatedAxis, stated_axis};
 use frictcomp_recordings::trace::{
-    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Clock, NotAligned,
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Clock, NotAligned, Pick,
     SelectError, TimeSource, TraceRecording,
 };
 
@@ -167,7 +167,9 @@ impl ReplayChannels {
         for (axis, channel) in &self.active {
             axes.push(FoundAxis {
                 name: axis.clone(),
-                state: named(channel)?.channel,
+                state: self
+                    .of_axis(axis, (channel, ChannelQuantity::Time), channels)?
+                    .channel,
                 position: None,
             });
         }
@@ -213,6 +215,20 @@ impl ReplayChannels {
         })
     }
 
+    /// Returns the channel that is named for an axis.
+    fn of_axis(
+        &self,
+        axis: &str,
+        (name, quantity): (&str, ChannelQuantity),
+        channels: &[Channel],
+    ) -> Result<Pick, SelectError> {
+        let selection = ChannelSelection {
+            axis: Some(axis.to_owned()),
+            ..self.selection.clone()
+        };
+        selection.pick_named(name, quantity, channels)
+    }
+
     /// Returns the channel of the positions of an axis with its factor to mm.
     fn position_of(
         &self,
@@ -222,7 +238,7 @@ impl ReplayChannels {
         let position = ChannelQuantity::Position;
         let given = self.positions.iter().find(|(name, _)| name == axis);
         let pick = match given {
-            Some((_, name)) => Some(self.selection.pick_named(name, position, channels)?),
+            Some((_, name)) => Some(self.of_axis(axis, (name, position), channels)?),
             None => position_column(&self.selection, axis, channels)?,
         };
         Ok(pick.map(|pick| (pick.channel, pick.unit.factor / POSITION_UNITS_PER_MM)))

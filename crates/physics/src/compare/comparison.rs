@@ -4,6 +4,7 @@ use similar::{Algorithm, DiffOp, capture_diff_slices};
 
 use frictcomp::comp::{Kind, State};
 
+use super::moves::ChangedMoves;
 use super::obstacle::Obstacle;
 use super::switch::{Switch, SwitchIdentity};
 use super::version::Version;
@@ -42,7 +43,7 @@ frictcomp::words! {
     pub enum Agreement {
         /// Both versions switch the same.
         Same = "same",
-        /// A block switches in one version and not in the other.
+        /// A block switches, or a feed move lacks friction compensation, in one version and not in the other.
         Different = "different",
         /// At least one version is not known as a whole, whatever differs in the known part.
         NotComparable = "not-comparable",
@@ -55,6 +56,7 @@ pub struct VersionComparison {
     pairs: Vec<PairedSwitch>,
     obstacles: [Option<Obstacle>; 2],
     ends: Vec<ChangedEnd>,
+    moves: Vec<ChangedMoves>,
 }
 
 /// State of an axis at the program end that differs between the versions.
@@ -85,7 +87,10 @@ impl VersionComparison {
             };
             (old != new).then_some(changed)
         };
+        let mut moves = new.moves.beyond(&old.moves, Which::New);
+        moves.extend(old.moves.beyond(&new.moves, Which::Old));
         Self {
+            moves,
             ends: new.end.iter().filter_map(end).collect(),
             pairs: pair(old.switches, new.switches),
             obstacles: [old.obstacle, new.obstacle],
@@ -100,6 +105,11 @@ impl VersionComparison {
     /// The states at the program end that differ.
     pub fn ends(&self) -> &[ChangedEnd] {
         &self.ends
+    }
+
+    /// The feed moves that only one version makes without friction compensation.
+    pub fn moves(&self) -> &[ChangedMoves] {
+        &self.moves
     }
 
     /// The switches of only one version.
@@ -125,7 +135,7 @@ impl VersionComparison {
     pub fn agreement(&self) -> Agreement {
         if self.obstacles().next().is_some() {
             Agreement::NotComparable
-        } else if self.differences().next().is_some() {
+        } else if self.differences().next().is_some() || !self.moves.is_empty() {
             Agreement::Different
         } else {
             Agreement::Same

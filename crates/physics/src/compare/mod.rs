@@ -25,12 +25,14 @@
 mod alignment;
 mod comparison;
 mod contour;
+mod moves;
 mod obstacle;
 mod switch;
 mod version;
 
 pub use comparison::{Agreement, ChangedEnd, PairedSwitch, VersionComparison, Which};
 pub use contour::{BlockChange, ContourAgreement, ContourComparison, VersionContour};
+pub use moves::ChangedMoves;
 pub use obstacle::{Obstacle, Reason};
 pub use switch::Switch;
 pub use version::Version;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
+use super::moves::UncompensatedMoves;
 use super::obstacle::{Obstacle, Reason};
 use super::switch::Switch;
 use frictcomp::comp::{Kind, KindSet, State};
@@ -15,6 +16,7 @@ use frictcomp::timeline::{Record, Row, Sink};
 pub struct Version {
     kinds: KindSet,
     pub(super) switches: Vec<Switch>,
+    pub(super) moves: UncompensatedMoves,
     /// An error or a bound; the end shows whether it stopped the program.
     candidate: Option<Obstacle>,
     pub(super) obstacle: Option<Obstacle>,
@@ -30,6 +32,7 @@ impl Version {
         Self {
             kinds,
             switches: Vec::new(),
+            moves: UncompensatedMoves::default(),
             candidate: None,
             obstacle: None,
             file: String::new(),
@@ -55,6 +58,9 @@ impl Version {
                 });
             }
             self.switches.push(switch);
+        }
+        if self.kinds.contains(Kind::Frict) {
+            self.moves.take(row);
         }
         row.diagnostics.iter().for_each(|said| self.judge(said));
     }

@@ -81,17 +81,23 @@ pub enum FollowError {
     /// An axis on which compensation is assumed.
     #[error("the friction values of axis `{0}` are not known, only assumed to exist")]
     Assumed(String),
+    /// All axes of a machine without value lists.
+    #[error("no axis has an accepted compensation value list, so there is no current")]
+    NoList,
 }
 
-/// Finds axes by their names, each once. A given value list replaces theirs.
+/// Finds axes by their names, each once; without names, all that have a value list.
 ///
 /// # Errors
-/// The machine has no axis of a name, or no values for it.
-pub fn axes_to_follow(
-    names: &[String],
-    machine: &mut Machine,
-    list: Option<&FrictionList>,
-) -> Result<Vec<AxisIndex>, FollowError> {
+/// The machine has no axis of a name, or no values for it; without names, no axis has a value list.
+pub fn axes_to_follow(names: &[String], machine: &Machine) -> Result<Vec<AxisIndex>, FollowError> {
+    let listed = machine.axes.iter();
+    let listed = listed.filter(|it| matches!(it.friction, Parameterisation::Accepted(_)));
+    let listed: Vec<String> = listed.map(|it| it.name.clone()).collect();
+    let names = if names.is_empty() { &listed } else { names };
+    if names.is_empty() {
+        return Err(FollowError::NoList);
+    }
     let mut followed: Vec<AxisIndex> = Vec::new();
     for name in names {
         let Some(index) = machine.find(name) else {
@@ -102,11 +108,7 @@ pub fn axes_to_follow(
             continue;
         }
         followed.push(index);
-        let axis = &mut machine.axes[index.get()];
-        if let Some(list) = list {
-            axis.friction = Parameterisation::Accepted(list.clone());
-        }
-        if axis.friction == Parameterisation::Assumed {
+        if machine.axis(index).friction == Parameterisation::Assumed {
             return Err(FollowError::Assumed(name.clone()));
         }
     }

@@ -1,5 +1,7 @@
 //! Finding channels by name, comment or symbol, or as an object of the CNC (R6.3).
 
+use std::borrow::Cow;
+
 use super::channel::{Channel, ChannelIndex, CncObject, parse_address};
 use super::error::SelectError;
 use super::unit::ChannelQuantity::Position;
@@ -10,7 +12,7 @@ use frictcomp::diagnostic::did_you_mean;
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChannelSelection {
-    /// The axis whose channels are meant, by its name or its number.
+    /// The axis whose channels are meant, by its name or its number; `%` stands for it in the names below.
     pub axis: Option<String>,
     /// The channel of the times.
     pub time: Option<String>,
@@ -182,8 +184,21 @@ impl ChannelSelection {
         })
     }
 
+    /// Returns the name of a channel with that of the axis in place of `%`, and with `%` in place of `%%`. A name
+    /// that a channel has exactly as it is written stays.
+    fn with_axis<'a>(&self, wanted: &'a str, channels: &[Channel]) -> Cow<'a, str> {
+        let is_name = |it: &Channel| it.name == wanted || it.symbol == wanted;
+        match &self.axis {
+            Some(axis) if wanted.contains('%') && !channels.iter().any(is_name) => {
+                let between = wanted.split("%%").map(|it| it.replace('%', axis));
+                between.collect::<Vec<_>>().join("%").into()
+            }
+            _ => wanted.into(),
+        }
+    }
+
     fn named(&self, wanted: &str, channels: &[Channel]) -> Result<ChannelIndex, SelectError> {
-        let wanted = wanted.trim();
+        let wanted = &*self.with_axis(wanted.trim(), channels);
         let object = parse_object(wanted);
         // From an exact fit to a loose one; the first that finds any decides.
         let fits: [&dyn Fn(&Channel) -> bool; 7] = [
@@ -453,6 +468,24 @@ mod tests {
             let torque = selection.named("ActTorque", &two_axes()).map(|it| it.0);
             assert_eq!(torque, Ok(found), "{axis}");
         }
+    }
+
+    #[test]
+    fn the_sign_stands_for_the_axis_unless_it_is_in_the_name() {
+        // R6.3
+        let channels = [
+            channel("load X", "", 0x1_0017),
+            channel("load %", "", 0x2_0017),
+            channel("load X %", "", 0x3_0017),
+        ];
+        let selection = ChannelSelection {
+            axis: Some("X".to_owned()),
+            ..ChannelSelection::default()
+        };
+        let find = |wanted: &str| selection.named(wanted, &channels).map(|it| it.0);
+        assert_eq!(find("load %"), Ok(1));
+        assert_eq!(find("load % %%"), Ok(2));
+        assert_eq!(find("LOAD %"), Ok(0));
     }
 
     #[test]

@@ -7,10 +7,12 @@ use unicode_width::UnicodeWidthStr;
 
 use super::contour::{ContourRecord, ContoursReport, push_contours};
 use crate::headline::{Headline, Standing};
-use crate::strings::to_pretty;
+use crate::strings::{counted, to_pretty};
 use crate::visible::visible_line;
 use frictcomp::comp::{Kind, State};
-use frictcomp_physics::compare::{Agreement, Obstacle, Reason, Switch, VersionComparison, Which};
+use frictcomp_physics::compare::{
+    Agreement, ChangedMoves, Obstacle, Reason, Switch, VersionComparison, Which,
+};
 
 /// A comparison, and its subjects.
 #[derive(Debug)]
@@ -47,20 +49,38 @@ impl VersionsReport {
         };
         let contours = self.contours.iter();
         let contours = contours.map(|it| format!("contour: {}", it.verdict()));
-        let parts: Vec<String> = ends.chain([self.verdict()]).chain(contours).collect();
+        let moves = self.comparison.moves().iter().map(|it| {
+            let ChangedMoves {
+                axis, count, line, ..
+            } = it;
+            let verb = if *count == 1 { "is" } else { "are" };
+            let of_axis = format!("{} of {axis}", counted(*count, "feed move"));
+            match it.which {
+                Which::New => format!("{of_axis} {verb} now without compensation, from line {line}"),
+                Which::Old => format!(
+                    "{of_axis} {verb} no longer without compensation, from line {line} of the old version"
+                ),
+            }
+        });
+        let parts = ends.chain(moves).chain(self.verdict()).chain(contours);
+        let parts: Vec<String> = parts.collect();
         Headline::new(standing, parts.join("; "))
     }
 
-    /// Returns the result of the comparison, a sentence without its end.
-    fn verdict(&self) -> String {
+    /// Returns the result of the comparison of the switches, a sentence without its end.
+    fn verdict(&self) -> Option<String> {
         match self.comparison.agreement() {
             Agreement::Same => {
-                let count = self.comparison.common();
-                let plural = if count == 1 { "" } else { "s" };
-                format!("no difference: {count} change{plural} of state in both")
+                let common = counted(self.comparison.common(), "change");
+                Some(format!("no difference: {common} of state in both"))
             }
-            Agreement::Different => "the versions switch differently".to_owned(),
-            Agreement::NotComparable => "the versions cannot be compared as a whole".to_owned(),
+            Agreement::Different => {
+                let switches = self.comparison.differences().next();
+                switches.map(|_| "the versions switch differently".to_owned())
+            }
+            Agreement::NotComparable => {
+                Some("the versions cannot be compared as a whole".to_owned())
+            }
         }
     }
 }
@@ -91,11 +111,22 @@ pub fn render_text(report: &VersionsReport) -> String {
     }
     let places = differences.iter().map(|(_, switch)| switch.place().width());
     let width = places.max().unwrap_or_default().max(LINE);
+    let mut lines: Vec<(String, u64)> = Vec::new();
     for (which, switch) in differences {
         let (sign, place) = (sign(which), switch.place());
         let place = visible_line(&place);
         let (what, text) = (switch.to_string(), visible_line(switch.first_line()));
-        let _ = writeln!(out, "{sign} {place:>width$}  {what:<28}  {text}");
+        let line = format!("{sign} {place:>width$}  {what:<28}  {text}");
+        match lines.iter_mut().find(|it| it.0 == line) {
+            Some((_, times)) => *times += 1,
+            None => lines.push((line, 1)),
+        }
+    }
+    for (line, times) in lines {
+        let _ = match times {
+            1 => writeln!(out, "{line}"),
+            _ => writeln!(out, "{line}  ({times} times)"),
+        };
     }
     for (_, obstacle) in comparison.obstacles() {
         let told = obstacle.to_string();
@@ -117,9 +148,18 @@ struct ComparisonDocument<'a> {
     verdict: &'static str,
     common: usize,
     differences: Vec<DifferenceRecord<'a>>,
+    moves: Vec<MovesRecord<'a>>,
     obstacles: Vec<Hindrance<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     contour: Option<ContourRecord<'a>>,
+}
+
+#[derive(Serialize)]
+struct MovesRecord<'a> {
+    version: &'static str,
+    axis: &'a str,
+    count: u64,
+    line: u32,
 }
 
 #[derive(Serialize)]
@@ -186,6 +226,12 @@ impl<'a> Hindrance<'a> {
 /// The comparison as a JSON document.
 pub fn render_json(report: &VersionsReport) -> String {
     let comparison = &report.comparison;
+    let moves = comparison.moves().iter().map(|it| MovesRecord {
+        version: it.which.as_str(),
+        axis: &it.axis,
+        count: it.count,
+        line: it.line,
+    });
     let document = ComparisonDocument {
         schema: 1,
         old: &report.old,
@@ -198,6 +244,7 @@ pub fn render_json(report: &VersionsReport) -> String {
             .differences()
             .map(DifferenceRecord::new)
             .collect(),
+        moves: moves.collect(),
         obstacles: comparison.obstacles().map(Hindrance::new).collect(),
         contour: report.contours.as_ref().map(ContourRecord::new),
     };

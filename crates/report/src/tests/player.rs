@@ -112,6 +112,7 @@ impl<'a> Player<'a> {
             changes: &changes,
             state: state!(self),
             modal: &Modal::new(self.machine.axes.len()),
+            uncompensated: &[],
             motion: None,
             branch: None,
             diagnostics: said,

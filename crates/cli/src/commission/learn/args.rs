@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::axis_list::AxisList;
-use crate::channels::parse_unit;
+use crate::channels::CircleChannelArgs;
 use crate::cnc_build::CncBuildArgs;
 use crate::cycle::CycleArgs;
+use crate::per_axis::PerAxis;
 use crate::readings::CurrentReadingArgs;
 use crate::result::ResultArgs;
 use crate::simulated::ModelArgs;
@@ -15,7 +15,6 @@ use frictcomp::lists::Points;
 use frictcomp_physics::circle::{Learner, PlaneAxis, Ranges};
 use frictcomp_physics::simulation::Plant;
 use frictcomp_recordings::commission::MOST_CURRENT;
-use frictcomp_recordings::trace::Unit;
 use frictcomp_report::learn::LearningFile;
 
 /// Learn value lists from recorded circles, round by round
@@ -35,30 +34,23 @@ pub(crate) struct LearnArgs {
     /// For the first round: the measured friction as `identify` or `commission run` wrote it, one list for both axes or `X=LIST` and
     /// `Y=LIST`; no list adds more than 1.3 times this
     #[arg(long, value_name = "LIST")]
-    pub(super) friction: Vec<AxisList>,
+    pub(super) friction: Vec<PerAxis>,
     /// The lists of the first round, for example from `tune`; by default those of `--friction`
     #[arg(long, value_name = "LIST", requires = "friction")]
-    pub(super) value_list: Vec<AxisList>,
+    pub(super) value_list: Vec<PerAxis>,
     #[command(flatten)]
     pub(super) model: ModelArgs,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
     #[command(flatten)]
     pub(super) reading: CurrentReadingArgs,
-    /// The channel of the times in the recordings
-    #[arg(long, value_name = "CHANNEL")]
-    pub(super) time: Option<String>,
-    /// The channel of the first axis in the recordings: its name, comment or CNC object
-    #[arg(long = "x", value_name = "CHANNEL")]
-    pub(super) x_channel: Option<String>,
-    /// The channel of the second axis
-    #[arg(long = "y", value_name = "CHANNEL")]
-    pub(super) y_channel: Option<String>,
-    /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
-    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
-    pub(super) unit: Vec<(String, Unit)>,
+    #[command(flatten)]
+    pub(super) channels: CircleChannelArgs,
     #[command(flatten)]
     pub(super) build: CncBuildArgs,
+    /// Write the best list so far of every axis, or of `X=FILE`, to this file
+    #[arg(long, value_name = "FILE")]
+    pub(super) write_list: Vec<PerAxis>,
     #[command(flatten)]
     pub(super) result: ResultArgs,
 }

@@ -5,10 +5,13 @@ mod folder;
 mod recorded;
 mod start;
 
+use std::path::Path;
+
 use crate::console::Console;
 use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::outputs::{Outputs, write_text};
+use crate::per_axis::ByAxis;
 use crate::progress;
 use crate::result::ResultFormat;
 use folder::LearningFolder;
@@ -53,6 +56,7 @@ pub(super) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
         let mut file = outputs.file("learning.json", &folder.json())?;
         write_text(&mut file, &render_file(&folder.file))?;
     }
+    write_best(args, &folder, (&learned, &mut outputs))?;
     outputs.check()?;
     let report = report(&plant, &folder, &learned, is_over);
     target.text(&match args.result.format {
@@ -97,6 +101,34 @@ fn next_round(
         });
     }
     folder.add_round(&texts, predictions, outputs)
+}
+
+/// Writes the best list of each axis for which a file is given.
+fn write_best(
+    args: &LearnArgs,
+    folder: &LearningFolder,
+    (learned, outputs): (&Learned, &mut Outputs),
+) -> Result<(), Failure> {
+    let files = ByAxis {
+        option: "--write-list",
+        given: &args.write_list,
+        axes: &["X", "Y"],
+    };
+    for (at, progress) in learned.progress.iter().enumerate() {
+        let Some(file) = files.of(files.axes[at])? else {
+            continue;
+        };
+        if progress.verdicts.is_empty() {
+            return Err(
+                Failure::new("no round is recorded yet, so there is no best list").with_help(
+                    "leave `--write-list` out until the circles of a round are recorded",
+                ),
+            );
+        }
+        let text = read_text(&folder.list(progress.best, at))?;
+        write_text(&mut outputs.list("--write-list", Path::new(file))?, &text)?;
+    }
+    Ok(())
 }
 
 /// Returns the result of a call.

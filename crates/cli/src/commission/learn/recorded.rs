@@ -7,10 +7,9 @@ use super::args::LearnArgs;
 use super::folder::LearningFolder;
 use crate::failure::{Failure, shown};
 use crate::machine::value_list;
-use frictcomp_host::{CircleChannels, Disk, FileRegistry, in_order, processors, read_turns};
+use frictcomp_host::{Disk, FileRegistry, in_order, processors, read_turns};
 use frictcomp_physics::circle::{Circle, LearnedRound, LearningProgress};
 use frictcomp_recordings::commission::{LearnError, LearnedCircles, RecordedTurn};
-use frictcomp_recordings::trace::ChannelSelection;
 
 /// The recorded rounds of X and of Y, and their improvement.
 pub(super) struct Learned {
@@ -61,14 +60,7 @@ pub(super) fn learned(
 impl LearnArgs {
     /// Returns all turns of recordings, in the order of the files.
     fn turns(&self, paths: &[PathBuf]) -> Result<Vec<RecordedTurn>, Failure> {
-        let channels = CircleChannels {
-            names: [self.x_channel.clone(), self.y_channel.clone()],
-            selection: ChannelSelection {
-                time: self.time.clone(),
-                units: self.unit.clone(),
-                ..ChannelSelection::default()
-            },
-        };
+        let channels = self.channels.selections()?;
         let mut turns = Vec::new();
         let mut failed = None;
         let read = |path: &PathBuf| {

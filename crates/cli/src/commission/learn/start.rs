@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::args::LearnArgs;
 use super::folder::LearningFolder;
-use crate::axis_list::files_of;
 use crate::failure::{Failure, shown};
 use crate::machine::value_list;
 use crate::outputs::Outputs;
+use crate::per_axis::{ByAxis, PerAxis};
 use frictcomp_host::{FileRegistry, read_text, sha256_of};
 use frictcomp_physics::circle::{PlaneAxis, TooMuchCurrent};
 use frictcomp_recordings::commission::MOST_CURRENT;
@@ -26,10 +26,10 @@ pub(super) fn begin(
             "begin with the measured friction, `--friction X=comp_x.lis --friction Y=comp_y.lis`";
         return Err(Failure::new(message).with_help(help));
     }
-    let frictions = files_of("--friction", &args.friction)?;
+    let frictions = both("--friction", &args.friction)?;
     let lists = match &args.value_list[..] {
         [] => frictions,
-        given => files_of("--value-list", given)?,
+        given => both("--value-list", given)?,
     };
     let friction = |at: usize| measured(PlaneAxis::ALL[at], frictions[at], registry);
     let friction = [friction(0)?, friction(1)?];
@@ -44,6 +44,17 @@ pub(super) fn begin(
     let texts = [read_text(lists[0])?, read_text(lists[1])?];
     folder.add_round(&texts, [None; 2], outputs)?;
     Ok(folder)
+}
+
+/// Returns the lists of both axes.
+fn both<'a>(option: &'static str, given: &'a [PerAxis]) -> Result<[&'a Path; 2], Failure> {
+    let axes = &["X", "Y"];
+    let lists = ByAxis {
+        option,
+        given,
+        axes,
+    };
+    Ok([lists.required(axes[0])?, lists.required(axes[1])?])
 }
 
 /// Returns the measured friction of an axis.

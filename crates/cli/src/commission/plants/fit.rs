@@ -11,7 +11,7 @@ use frictcomp_host::{in_order, processors, read_text, sha256_of_text};
 use frictcomp_physics::circle::{DriveFit, FittedDrive, ObservedCircle, PlaneAxis};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::Plant;
-use frictcomp_recordings::commission::{PlantAxis, PlantFound, held_out};
+use frictcomp_recordings::commission::{PlantAxis, PlantFound, Stage, held_out};
 
 impl Fitting<'_> {
     /// Returns the plant of rounds: as found by an earlier run, or fitted now.
@@ -22,7 +22,7 @@ impl Fitting<'_> {
         rounds: &[RoundCircles<'_>],
         outputs: &mut Outputs,
     ) -> Result<PlantFound, NoPlant> {
-        let key = self.key(axes, off, rounds);
+        let key = self.key(axes, off, rounds)?;
         if let Some(known) = self.known.iter().find(|it| it.key == key) {
             self.write_plant(known, outputs)?;
             return Ok(known.clone());
@@ -67,7 +67,12 @@ impl Fitting<'_> {
         axes: &[FittedAxis<'_>],
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
-    ) -> String {
+    ) -> Result<String, Failure> {
+        let reading = &self.args.reading;
+        let first = self.plans.iter().filter(|it| it.plan.stage == Stage::Off);
+        let channels = first.map(|it| reading.circle_channels(&it.plan));
+        let channels = channels.collect::<Result<Vec<_>, _>>()?;
+        let cycle = reading.cycle.seconds()?;
         let frictions: Vec<_> = axes.iter().map(|it| &it.drive).collect();
         let sums = |circles: &[Driven<'_>]| {
             let sums = circles.iter().map(|it| it.result.sha256.clone());
@@ -75,8 +80,9 @@ impl Fitting<'_> {
         };
         let on = rounds.iter().map(|it| (it.shas(), sums(&it.circles)));
         let on: Vec<_> = on.collect();
-        let (reading, off) = (self.args.reading.circles_key(), sums(off));
-        sha256_of_text(&format!("{reading} {frictions:?} {off:?} {on:?}"))
+        let off = sums(off);
+        let all = format!("{channels:?} {cycle:?} {frictions:?} {off:?} {on:?}");
+        Ok(sha256_of_text(&all))
     }
 
     /// Returns the recorded reversals of each axis at the feeds of the fit.

@@ -147,7 +147,7 @@ fn an_agreed_contour_has_a_tolerance() {
     };
     assert_eq!(golden(&[]).0, Some(1), "missing");
     assert_eq!(golden(&["--update"]).0, Some(0));
-    assert_eq!(golden(&[]), (Some(0), String::new()));
+    assert_eq!(golden(&[]), (Some(0), "1 contour as agreed\n".to_owned()));
     let agreed = bench.read("a.nc.contour");
     assert!(agreed.contains(" µm  N40 G03 X25 Y0 I-25 J0\n"), "{agreed}");
     // 0.2 µm are within the tolerance, and --update leaves them as agreed.

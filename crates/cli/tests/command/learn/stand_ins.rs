@@ -11,7 +11,7 @@ const AXES: [&str; 2] = ["X", "Y"];
 const START: [f64; 2] = [40.0, 0.0];
 
 /// The channels of the recordings.
-const CHANNELS: [&str; 4] = ["--x", "X.ActPos", "--y", "Y.ActPos"];
+const CHANNELS: [&str; 4] = ["--position", "X=X.ActPos", "--position", "Y=Y.ActPos"];
 
 /// A circle about the origin: a turn and a half in each direction.
 fn program(feed: f64) -> Program {

@@ -111,11 +111,17 @@ fn a_caller_that_needs_it_otherwise_is_named_and_nothing_is_changed_for_it() {
     assert!(
         said.contains(
             "tool.nc: a block that mends this would change the state in which axes move in `needs.nc`, \
-             which calls it; write `X[COMP ON FRICT]` wherever it is needed by hand\n"
+             which calls it; write `X[COMP ON FRICT]` wherever it is needed by hand, or take the block with `--unsafe`\n"
         ),
         "{said}"
     );
     assert!(!said.contains("this mends"), "{said}");
+    // Only with `--unsafe`, and the program whose motion changes is named.
+    let (shown, said) = audited(&bench, &["--diff=leavers", "--unsafe", "."]);
+    assert_eq!(changed(&shown), ["tool.nc"], "{shown}{said}");
+    let changes = "tool.nc: a block changes the state in which axes move in needs.nc\n";
+    assert!(said.contains(changes), "{said}");
+    assert_eq!(bench.status(&["audit", "--unsafe", "."]), Some(2));
 }
 
 #[test]

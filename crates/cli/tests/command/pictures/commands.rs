@@ -39,7 +39,7 @@ fn commands_draw_what_they_compute() {
     assert!(svg.contains("Value list of axis X"), "{svg}");
     let recorded = [
         "current",
-        "--trace",
+        "--recording",
         "t.csv",
         "--value-list",
         "v.lis",

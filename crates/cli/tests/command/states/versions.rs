@@ -60,6 +60,33 @@ fn what_is_not_known_is_not_comparable() {
 }
 
 #[test]
+fn a_feed_move_without_compensation_is_a_difference() {
+    // R18.22
+    let old = "N10 G01 X1 F100\nN20 X[COMP OFF FRICT]\nN30 X2\nN40 X[COMP ON FRICT]\nN50 X3\nM30\n";
+    let moved = old.replace(
+        "N30 X2\nN40 X[COMP ON FRICT]",
+        "N40 X[COMP ON FRICT]\nN30 X2",
+    );
+    let (status, shown) = diff(old, &moved, &[]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert_eq!(
+        shown,
+        "1 feed move of X is no longer without compensation, from line 3 of the old version\n"
+    );
+    let (status, shown) = diff(&moved, old, &["--format", "json"]);
+    assert_eq!(status, Some(1), "{shown}");
+    let document: serde_json::Value = serde_json::from_str(&shown).expect("a document");
+    assert_eq!(document["verdict"], "different");
+    let move_of_x = serde_json::json!({ "version": "new", "axis": "X", "count": 1, "line": 3 });
+    assert_eq!(document["moves"], serde_json::json!([move_of_x]));
+    // Motion with compensation, and rapid motion, make no difference.
+    let more = old
+        .replace("N50 X3", "N50 X3\nN55 X4")
+        .replace("N30 X2", "N25 G00 X5\nN30 G01 X2");
+    assert_eq!(diff(old, &more, &[]).0, Some(0));
+}
+
+#[test]
 fn a_silenced_message_makes_nothing_comparable() {
     // R9.81
     let bench = Bench::new(&[

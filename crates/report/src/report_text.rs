@@ -32,7 +32,7 @@ pub(crate) enum ReportBlock<'a> {
 }
 
 /// A report: the verdict, then sentences and tables. A terminal shows it as it is displayed, a page renders its blocks.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct ReportText {
     headline: Headline,
     #[serde(rename = "blocks", serialize_with = "serialize_blocks")]

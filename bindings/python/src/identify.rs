@@ -196,7 +196,7 @@ impl AxisRecordings {
     /// Circles at several feeds.
     fn on_circles(self) -> Result<PyIdentified, Failure> {
         let recordings = self
-            .traces
+            .recordings
             .iter()
             .map(|path| Ok::<_, Failure>(read_axis(path, &self.selection, self.cycle_s)?));
         let recordings: Vec<_> = recordings.collect::<Result<_, _>>()?;

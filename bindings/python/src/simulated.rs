@@ -19,7 +19,6 @@ use frictcomp_physics::circle::{
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::circle::{CircleReport, ListOrigin, render_json};
 use frictcomp_report::pictures;

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use frictcomp::comp::AxisIndex;
 use frictcomp::comp::State;
-use frictcomp::machine::{Machine, Parameterisation};
+use frictcomp::machine::Machine;
 use frictcomp::session::{Motions, SessionOptions};
 use frictcomp_host::{Axes, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{
@@ -122,7 +123,7 @@ pub(crate) fn answer(
     };
     run_alone(&input, &loaded, alone, &mut currents)?;
     currents.finish();
-    let notes = notes(&loaded.machine, &names, &mut currents);
+    let notes = notes(&loaded.machine, &followed, &mut currents);
     let has_cycles = currents.cycles() > 0;
     let svg = has_cycles.then(|| currents.sink().plot.chart().render(Frame::Alone));
     Ok(json(&CurrentAnswer { svg, notes }))
@@ -131,14 +132,12 @@ pub(crate) fn answer(
 /// What the picture rests on and what is missing in it.
 fn notes(
     machine: &Machine,
-    names: &[String],
+    followed: &[AxisIndex],
     currents: &mut ProgramCurrents<Drawing>,
 ) -> Vec<String> {
     let mut notes = Vec::new();
-    let drawn = machine
-        .axes
-        .iter()
-        .filter(|axis| names.contains(&axis.name));
+    let drawn = followed.iter().map(|axis| machine.axis(*axis));
+    let names: Vec<&str> = drawn.clone().map(|axis| axis.name.as_str()).collect();
     let assumed: Vec<AssumedLimits> = drawn.filter_map(AssumedLimits::of).collect();
     notes.extend(assumed_limits(&assumed));
     let (errors, remarks) = currents.diagnostics();

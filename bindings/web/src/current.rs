@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, State};
 use frictcomp::interpreter::Motions;
-use frictcomp::machine::{Axis, Machine};
+use frictcomp::machine::Machine;
 use frictcomp::session::SessionOptions;
 use frictcomp_host::{Axes, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{
@@ -136,9 +136,9 @@ fn notes(
     currents: &mut ProgramCurrents<Drawing>,
 ) -> Vec<String> {
     let mut notes = Vec::new();
-    let drawn: Vec<&Axis> = followed.iter().map(|axis| machine.axis(*axis)).collect();
-    let names: Vec<&str> = drawn.iter().map(|axis| axis.name.as_str()).collect();
-    let assumed: Vec<AssumedLimits> = drawn.into_iter().filter_map(AssumedLimits::of).collect();
+    let drawn = followed.iter().map(|axis| machine.axis(*axis));
+    let names: Vec<&str> = drawn.clone().map(|axis| axis.name.as_str()).collect();
+    let assumed: Vec<AssumedLimits> = drawn.filter_map(AssumedLimits::of).collect();
     notes.extend(assumed_limits(&assumed));
     let (errors, remarks) = currents.diagnostics();
     let said = errors.iter().chain(remarks);

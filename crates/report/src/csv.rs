@@ -275,8 +275,7 @@ pub(super) fn field(out: &mut Vec<u8>, text: &str) {
         return;
     }
     let is_special = |byte: u8| !(0x20..0x7f).contains(&byte) || matches!(byte, b',' | b'"');
-    let is_number = text.parse::<f64>().is_ok();
-    let computes = !is_number && text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    let computes = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if !computes && !any_byte(text.as_bytes(), is_special) {
         out.extend_from_slice(text.as_bytes());
         return;

@@ -82,7 +82,12 @@ pub fn csv_row(reversal: &ContourReversal, names: &[String]) -> String {
         if at > 0 {
             row.push(b',');
         }
-        field(&mut row, text);
+        if text.parse::<f64>().is_ok() {
+            // A negative number is no text that a spreadsheet would compute (R9.76).
+            row.extend_from_slice(text.as_bytes());
+        } else {
+            field(&mut row, text);
+        }
     }
     row.push(b'\n');
     String::from_utf8_lossy(&row).into_owned()

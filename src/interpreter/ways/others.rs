@@ -207,10 +207,15 @@ impl LoopHeads {
         Some((arrival, &head.state))
     }
 
-    /// Drops the heads among blocks of the running program, and in the programs that these blocks call.
+    /// Drops the heads among blocks of the running program, and in the programs that these blocks call. The passes of a
+    /// `$FOR` begin at the block after its opener, which may open one of these loops.
     pub(crate) fn drop_within(&mut self, calls: &CallStack, blocks: &RangeInclusive<EntryIndex>) {
         let range = places(calls, blocks);
-        self.0.retain(|place, _| !range.contains(place));
+        let is_around = |place: &HeadPlace, head: &LoopHead| {
+            place.len() == calls.depth() && head.blocks.start() < blocks.start()
+        };
+        self.0
+            .retain(|place, head| !range.contains(place) || is_around(place, head));
     }
 
     /// Drops the others.

@@ -421,11 +421,11 @@ const tests = {
     await page.locator("#recorded-circle img").waitFor();
     const wanted = (...args) => printed("recorded/learning/round-1", ...args);
     assert.equal(await told(page, "channels"), wanted("trace", "F2000-1.csv"));
-    assert.equal(await told(page, "recorded-circle"), wanted("circle", "--trace", "F2000-1.csv"));
+    assert.equal(await told(page, "recorded-circle"), wanted("circle", "--recording", "F2000-1.csv"));
     await page.getByLabel("commanded radius").fill("20");
     await page.getByRole("button", { name: "Evaluate the circle" }).click();
     await page.locator("#recorded-circle").getByText("mean radial deviation").waitFor();
-    assert.equal(await told(page, "recorded-circle"), wanted("circle", "--trace", "F2000-1.csv", "--radius", "20"));
+    assert.equal(await told(page, "recorded-circle"), wanted("circle", "--recording", "F2000-1.csv", "--radius", "20"));
     await look(page, "recorded-circle");
     await page.locator("#no-value-list").waitFor();
     await drop(page, join(demo, "recordings/friction_x.csv"), join(demo, "lists/comp_x.lis"));

@@ -102,10 +102,14 @@ function listen(svg: SVGSVGElement, stretches: readonly Stretch[]): void {
     svg.classList.toggle("leading", near !== undefined);
     document.getElementById("pointed")?.replaceChildren(...(near ? [line(near)] : []));
   });
-  svg.addEventListener("click", (event) => {
-    const near = at(event);
-    if (near) {
-      host.postMessage({ kind: "goto", file: near.file, line: near.line });
+  // The focus that comes with a click may scroll the page: what counts is what was there before.
+  let pressed: Stretch | undefined;
+  svg.addEventListener("pointerdown", (event) => {
+    pressed = at(event);
+  });
+  svg.addEventListener("click", () => {
+    if (pressed) {
+      host.postMessage({ kind: "goto", file: pressed.file, line: pressed.line });
     }
   });
 }

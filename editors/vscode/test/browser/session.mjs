@@ -281,8 +281,7 @@ async function contour(page) {
   await page.mouse.move(box.x + place.x, box.y + place.y);
   await shown.locator("#pointed polyline").waitFor();
   await page.mouse.click(box.x + place.x, box.y + place.y);
-  // Several lines drive there.
-  await here.filter({ hasText: /Line 1[5-9]\d drives/ }).waitFor();
+  await here.filter({ hasText: /Line (16[5-9]|17[0-9]) drives/ }).waitFor();
 
   for (const name of THEMES) {
     theme(name);

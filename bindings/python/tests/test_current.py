@@ -71,6 +71,8 @@ def test_places_are_a_mapping_or_pairs() -> None:
 def test_what_cannot_be_computed_is_an_error() -> None:
     with pytest.raises(frictcomp.Error, match="no axis `QQ`"):
         frictcomp.current(REVERSAL, ["QQ"])
+    with pytest.raises(frictcomp.Error, match="no axis was given"):
+        frictcomp.current(REVERSAL, [])
     with pytest.raises(frictcomp.Error):
         frictcomp.current([REVERSAL, REVERSAL], ["X"])  # type: ignore[arg-type]
     for cycle in (0, -1, float("nan"), 1e9):

@@ -35,14 +35,7 @@ pub(crate) struct MotionChannels {
 impl MotionChannels {
     /// Returns the user's selection of the channels of one of some axes.
     pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<ChannelSelection, Failure> {
-        let of = |option, given| {
-            ByAxis {
-                option,
-                given,
-                axes,
-            }
-            .channel(name)
-        };
+        let of = |option, given| ByAxis::new(option, given, axes).channel(name);
         Ok(ChannelSelection {
             axis: (!name.is_empty()).then(|| name.to_owned()),
             time: self.time.clone(),
@@ -71,13 +64,7 @@ impl TorqueChannel {
 
     /// Returns the channel of one of some axes.
     pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<Option<String>, Failure> {
-        let (option, given) = ("--torque", &self.torque);
-        ByAxis {
-            option,
-            given,
-            axes,
-        }
-        .channel(name)
+        ByAxis::new("--torque", &self.torque, axes).channel(name)
     }
 }
 
@@ -99,14 +86,7 @@ impl FollowedChannels {
         others: ChannelSelection,
         (name, axes): (&str, &[&str]),
     ) -> Result<ChannelSelection, Failure> {
-        let of = |option, given| {
-            ByAxis {
-                option,
-                given,
-                axes,
-            }
-            .channel(name)
-        };
+        let of = |option, given| ByAxis::new(option, given, axes).channel(name);
         Ok(ChannelSelection {
             actual_position: of("--actual-position", &self.actual_position)?,
             following_error: of("--following-error", &self.following_error)?,
@@ -155,16 +135,10 @@ impl CircleChannelArgs {
     pub(crate) fn selections(&self) -> Result<[ChannelSelection; 2], Failure> {
         let axes = &["X", "Y"];
         let of = |axis: &str| {
-            let (option, given) = ("--position", &self.position);
             Ok::<_, Failure>(ChannelSelection {
                 axis: Some(axis.to_owned()),
                 time: self.time.clone(),
-                position: ByAxis {
-                    option,
-                    given,
-                    axes,
-                }
-                .channel(axis)?,
+                position: ByAxis::new("--position", &self.position, axes).channel(axis)?,
                 units: self.unit.unit.clone(),
                 ..ChannelSelection::default()
             })

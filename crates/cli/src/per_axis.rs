@@ -38,6 +38,14 @@ pub(crate) struct ByAxis<'a> {
 }
 
 impl<'a> ByAxis<'a> {
+    pub(crate) fn new(option: &'static str, given: &'a [PerAxis], axes: &'a [&'a str]) -> Self {
+        Self {
+            option,
+            given,
+            axes,
+        }
+    }
+
     /// Returns the value for an axis: the one that names it, otherwise the one for every axis.
     pub(crate) fn of(self, axis: &str) -> Result<Option<&'a OsStr>, Failure> {
         let mut own = Vec::new();

@@ -95,10 +95,18 @@ pub(crate) fn current(
 ) -> PyResult<PyCurrents> {
     let py = program.py();
     expect_numpy(py)?;
+    let axes = axes.map(|it| it.0);
+    if axes.as_ref().is_some_and(Vec::is_empty) {
+        let failure = Failure::new("no axis was given").with_help(
+            "name one, `['X']`; without `axes` the current is that of all axes with a value list",
+        );
+        return Err(failure.into_error(py));
+    }
+    let axes = axes.unwrap_or_default();
     let job = ProgramsJob {
         programs: GivenPrograms::one(program)?,
         machine: machine_options(machine)?,
-        axes: axes.map_or_else(Vec::new, |it| it.0),
+        axes,
         value_list,
         cycle_s: cycle_time_ms.map(|ms| ms / 1000.0),
         reading: meant("reading", reading)?,

@@ -135,14 +135,7 @@ impl ReplayArgs {
     fn channels(&self, machine: &Machine) -> Result<ReplayChannels, Failure> {
         let axes: Vec<&str> = machine.axes.iter().map(|it| it.name.as_str()).collect();
         let axes = &axes;
-        let of_each = |option, given| {
-            ByAxis {
-                option,
-                given,
-                axes,
-            }
-            .channels()
-        };
+        let of_each = |option, given| ByAxis::new(option, given, axes).channels();
         Ok(ReplayChannels {
             selection: ChannelSelection {
                 time: self.time.clone(),

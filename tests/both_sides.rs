@@ -25,7 +25,7 @@ use frictcomp::interpreter::{
     EndedBy, Event, Interpreter, Limits, Motions, NoFiles, Options, PossibleStates, RunOutcome,
 };
 use frictcomp::machine::{Machine, Setting};
-use frictcomp::text::SourceFile;
+use frictcomp::text::{SourceFile, TextLines};
 use frictcomp::{diagnostic::Code, syntax::SkipLevels};
 use frictcomp_testing::generator::{Choices, NcProgram, Profile, Style};
 use known::Tally;
@@ -80,6 +80,8 @@ struct Shown {
     end: Option<[Possible; AXES.len()]>,
     /// The lines and axes of which no state is known, nor a set of them.
     unknown: BTreeSet<(u32, usize)>,
+    /// Whether some way never ends.
+    never_ends: bool,
     /// Whether a region was passed over (R2.51), of which further passes have no rows.
     has_region: bool,
     /// The errors at which the control stops, or may: the program's name, the line, the code.
@@ -136,14 +138,22 @@ impl Shown {
                     states(ended.compensation.state(axis, Kind::Frict), possible)
                 };
                 self.end = Some([0, 1, 2].map(of));
+                self.never_ends = ended.ends.iter().any(|end| end.by == EndedBy::Budget);
             }
             _ => {}
         }
     }
 }
 
+/// How a program is handed over.
+#[derive(Clone, Copy, PartialEq)]
+enum Handed {
+    Whole,
+    LineByLine,
+}
+
 /// Runs a program with values of the machine's variables and a decision on blocks with a skip mark, or without.
-fn run(text: &str, given: &[usize], skip: Option<SkipLevels>) -> Shown {
+fn run(text: &str, given: &[usize], skip: Option<SkipLevels>, handed: Handed) -> Shown {
     let machine = machine();
     let compensation = machine.compensation();
     let blocks = if skip.is_some() { 600 } else { 50_000 };
@@ -156,31 +166,34 @@ fn run(text: &str, given: &[usize], skip: Option<SkipLevels>) -> Shown {
     }
     let mut shown = Shown::default();
     let mut said = Vec::new();
-    let source = SourceFile::new("a.nc", text);
-    let outcome = run.program(
-        source,
-        &mut |name: &str, _: &str| called(name),
-        &mut |event: Event<'_>| {
-            if let Event::Executed(executed) = &event {
-                let errors = executed.diagnostics.iter();
-                let errors = errors
-                    .filter(|it| it.code.severity() == frictcomp::diagnostic::Severity::Error);
-                for error in errors {
-                    let place = (executed.file.to_string(), executed.line, error.code);
-                    if STOPS.contains(&error.code) {
-                        shown.stops.insert(place);
-                    } else if skip.is_some() || error.code != Code::Fc311 {
-                        // A jump to any label may lead past what no value of these runs leads past.
-                        said.push(error.message.clone());
-                    }
+    let mut finder = |name: &str, _: &str| called(name);
+    let mut observer = |event: Event<'_>| {
+        if let Event::Executed(executed) = &event {
+            let errors = executed.diagnostics.iter();
+            let errors =
+                errors.filter(|it| it.code.severity() == frictcomp::diagnostic::Severity::Error);
+            for error in errors {
+                let place = (executed.file.to_string(), executed.line, error.code);
+                if STOPS.contains(&error.code) {
+                    shown.stops.insert(place);
+                } else if skip.is_some() || error.code != Code::Fc311 {
+                    // A jump to any label may lead past what no value of these runs leads past.
+                    said.push(error.message.clone());
                 }
             }
-            shown.event(&event);
-            ControlFlow::Continue(())
-        },
-    );
+        }
+        shown.event(&event);
+        ControlFlow::Continue(())
+    };
+    let outcome = match handed {
+        Handed::Whole => run.program(SourceFile::new("a.nc", text), &mut finder, &mut observer),
+        Handed::LineByLine => {
+            let mut lines = TextLines::new(text);
+            run.stream("a.nc", &mut lines, &mut finder, &mut observer)
+        }
+    };
     assert!(said.is_empty(), "{text}\n{said:?}");
-    if outcome == RunOutcome::Ended(EndedBy::Budget) {
+    if outcome == RunOutcome::Ended(EndedBy::Budget) || shown.never_ends {
         // Some way never ends, so nothing is reported about the end.
         let any = states(State::Unknown, None);
         shown.end = skip.is_none().then(|| [0, 1, 2].map(|_| any.clone()));
@@ -213,7 +226,7 @@ fn enumerated(program: &NcProgram, text: &str) -> Shown {
         });
         let given: Vec<usize> = given.collect();
         for skip in skips {
-            let mut shown = run(text, &given, Some(*skip));
+            let mut shown = run(text, &given, Some(*skip), Handed::Whole);
             if is_left_out(&shown) {
                 shown.end = None;
             }
@@ -245,7 +258,10 @@ impl Sort {
 fn compare(seed: u64, sort: Sort) -> Tally {
     let mut program = NcProgram::choose(&sort.profile(), &mut Choices::of_seed(seed));
     let text = program.write(Style::default());
-    let told = run(&text, &[], None);
+    let told = run(&text, &[], None, Handed::Whole);
+    let arriving = run(&text, &[], None, Handed::LineByLine);
+    let is_same = (&arriving.lines, &arriving.end) == (&told.lines, &told.end);
+    assert!(is_same, "seed {seed}, line by line\n{text}");
     let found = enumerated(&program, &text);
     let holds = |(told, found): (&[Possible; 3], &[Possible; 3]), place: &str| {
         for ((told, found), axis) in told.iter().zip(found).zip(AXES) {

@@ -231,7 +231,7 @@ impl BlockContext<'_> {
 }
 
 /// The block that ends the program.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct OwnEnd {
     pub(crate) place: Place,
     /// Whether no jump goes to it.
@@ -270,7 +270,6 @@ pub(crate) struct PassedBlocks {
 /// The buffers are used again for each block.
 #[derive(Default, Clone)]
 pub(crate) struct BlockScratch {
-    pub(crate) block: Block,
     pub(crate) outcomes: Vec<Outcome>,
     pub(crate) changes: Vec<Change>,
     /// Kinds that may or may not have been switched.

@@ -291,9 +291,9 @@ pub(crate) struct Destination {
     pub(crate) entry: Option<EntryIndex>,
 }
 
-/// A block of a main program that is read line by line, and the message if it is never reached.
+/// A block of a main program that is read line by line, and the message if it is not kept.
 #[derive(Clone, Debug)]
 pub(crate) struct AwaitedBlock {
     pub(crate) label: LabelName,
-    pub(crate) missing: Diagnostic,
+    pub(crate) lost: Diagnostic,
 }

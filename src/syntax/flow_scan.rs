@@ -1,7 +1,8 @@
 //! Whether a program needs its whole text at once.
 
 /// Looks through the bytes of a program, piece by piece, for anything that needs the whole text at
-/// once: a `$` statement, `#IF`, a local subprogram (`%L name`), a part of the program (`L SEQUENCE`).
+/// once: a `$` statement, `#IF`, a local subprogram (`%L name`), a call (`L name`), whose program may return to a block
+/// further up, or which runs a part of this one (`L SEQUENCE`).
 #[derive(Debug, Clone, Default)]
 pub struct FlowScan {
     found: bool,
@@ -12,14 +13,14 @@ impl FlowScan {
     pub fn feed(&mut self, piece: &[u8]) {
         let mut from = 0;
         while !self.found {
-            let found = memchr::memchr3(b'$', b'%', b'Q', &piece[from..]);
+            let found = memchr::memchr3(b'$', b'%', b'L', &piece[from..]);
             let Some(at) = found.map(|at| from + at) else {
                 break;
             };
             self.found = match piece[at] {
                 b'$' => true,
                 b'%' => Self::opens_subprogram(&piece[at + 1..]),
-                _ => Self::calls_part(&piece[..at], &piece[at + 1..]),
+                _ => Self::calls_program(&piece[..at], &piece[at + 1..]),
             };
             from = at + 1;
         }
@@ -33,14 +34,13 @@ impl FlowScan {
         self.found
     }
 
-    /// The word `SEQUENCE` around its `Q`; the part in another piece is taken as fitting. Lower case is
-    /// rare, and reported where a block of it was not kept.
-    fn calls_part(before: &[u8], after: &[u8]) -> bool {
-        let before = before.iter().rev().zip(b"ES");
-        let after = after.iter().zip(b"UENCE");
-        before
-            .chain(after)
-            .all(|(found, wanted)| found.eq_ignore_ascii_case(wanted))
+    /// `L` alone with a separator after it; a piece that ends before that is taken as one.
+    fn calls_program(before: &[u8], after: &[u8]) -> bool {
+        let is_alone = before.last().is_none_or(|byte| !byte.is_ascii_alphabetic());
+        is_alone
+            && after
+                .first()
+                .is_none_or(|byte| matches!(byte, b' ' | b'\t'))
     }
 
     /// `#IF`; a piece that ends before that is taken as one.

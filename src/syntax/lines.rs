@@ -10,12 +10,12 @@ use super::hash_words::opening_command;
 use super::hidden_code::{faults_of_lines, open_region, reordered, words_without_value};
 use super::mask::{Masked, mask, mask_number};
 use super::pieces::is_blank;
-use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Stretch};
+use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Remark, Stretch};
 use super::remarks::LatestRemarks;
 use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};
 use crate::language::{HashAction, HashWords};
-use crate::text::{LineSource, Span};
+use crate::text::{LineSource, PhysicalLine, Span};
 
 /// Bytes that one continued block, or one `#VAR` region, may have. The documents state no bound;
 /// without one a damaged file would be read into memory whole.
@@ -48,6 +48,10 @@ pub struct BlockReader<S> {
     /// The code of the last block that was not parsed by hand.
     pub(super) code: String,
     remarks: LatestRemarks,
+    /// Kind of the last stretch.
+    stretch: Stretch,
+    /// The comments of the last block, where it was parsed by hand.
+    plain: Option<Comments>,
 }
 
 impl<S: LineSource> BlockReader<S> {
@@ -61,6 +65,8 @@ impl<S: LineSource> BlockReader<S> {
             text: String::new(),
             code: String::new(),
             remarks: LatestRemarks::default(),
+            stretch: Stretch::Block,
+            plain: None,
         }
     }
 
@@ -89,41 +95,42 @@ impl<S: LineSource> BlockReader<S> {
                 && let Some(plain) = fast::parse(self.source.ahead(), block)
             {
                 self.line += 1;
+                self.plain = Some(plain.comments);
+                let remark = self.remarks.above(self.line);
                 let line = self.source.take(plain.length);
-                return Some(RawBlock {
-                    stretch: Stretch::Block,
-                    text: trimmed(line.text),
-                    line: self.line,
-                    offset: line.offset,
-                    comments: plain.comments,
-                    plain: true,
-                    remark: self.remarks.above(self.line),
-                });
+                return Some(plain_block(line, self.line, plain.comments, remark));
             }
             if !self.source.advance() {
                 self.remarks.end();
                 return None;
             }
             self.line += 1;
-            let stretch = self.slow(block);
-            if let Some(stretch) = stretch {
-                let (line, offset) = self.start;
-                return Some(RawBlock {
-                    stretch,
-                    text: &self.text,
-                    line,
-                    offset,
-                    comments: Comments::Possible,
-                    plain: false,
-                    remark: match stretch {
-                        Stretch::Block => self.remarks.above(line),
-                        Stretch::Program { .. } => {
-                            self.remarks.end();
-                            None
-                        }
-                    },
-                });
+            if let Some(stretch) = self.slow(block) {
+                (self.stretch, self.plain) = (stretch, None);
+                match stretch {
+                    Stretch::Block => _ = self.remarks.above(self.start.0),
+                    Stretch::Program { .. } => self.remarks.end(),
+                }
+                return Some(self.last());
             }
+        }
+    }
+
+    /// The stretch read last.
+    pub(crate) fn last(&self) -> RawBlock<'_> {
+        let remark = self.remarks.heard();
+        if let Some(comments) = self.plain {
+            return plain_block(self.source.line(), self.line, comments, remark);
+        }
+        let (line, offset) = self.start;
+        RawBlock {
+            stretch: self.stretch,
+            text: &self.text,
+            line,
+            offset,
+            comments: Comments::Possible,
+            plain: false,
+            remark,
         }
     }
 
@@ -319,6 +326,25 @@ impl<S: LineSource> BlockReader<S> {
             Fault::new(Code::Fc208, opener, format!("`{name}` has no `{end}`"))
                 .with_help(format!("write `{end}` in a separate block"))
         });
+    }
+}
+
+/// A block that was parsed by hand.
+#[inline]
+fn plain_block<'a>(
+    line: PhysicalLine<'a>,
+    number: u32,
+    comments: Comments,
+    remark: Option<&'a Remark>,
+) -> RawBlock<'a> {
+    RawBlock {
+        stretch: Stretch::Block,
+        text: trimmed(line.text),
+        line: number,
+        offset: line.offset,
+        comments,
+        plain: true,
+        remark,
     }
 }
 

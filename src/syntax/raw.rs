@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::ast::Block;
 use super::fault::Fault;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{Place, Span};
@@ -56,10 +57,14 @@ impl RawBlock<'_> {
             .saturating_add(u32::try_from(lines + 1).unwrap_or(u32::MAX))
     }
 
-    /// Turns a fault of a `%` line, which no run reaches, into a message about its file.
-    pub(crate) fn opening_said(&self, file: &Arc<str>, fault: Fault) -> Diagnostic {
-        let place = self.place(file, fault.span);
-        fault.into_diagnostic(place, |_| None)
+    /// Returns the messages on a `%` line, which no run reaches.
+    pub(crate) fn opening_said(&self, file: &Arc<str>, block: &Block) -> Vec<Diagnostic> {
+        let faults = block.faults.iter();
+        let said = faults.map(|fault| {
+            let place = self.place(file, fault.span);
+            fault.clone().into_diagnostic(place, |_| None)
+        });
+        said.collect()
     }
 }
 

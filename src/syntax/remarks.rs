@@ -60,6 +60,11 @@ impl LatestRemarks {
         Some(&self.remark)
     }
 
+    /// Returns the remark directly above the block read last.
+    pub(super) fn heard(&self) -> Option<&Remark> {
+        (self.last > 0 && self.is_heard).then_some(&self.remark)
+    }
+
     /// No block follows any more.
     pub(super) fn end(&mut self) {
         if self.last > 0 && !self.is_heard {

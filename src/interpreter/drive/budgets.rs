@@ -69,32 +69,23 @@ impl Executor {
             format!("this block made more than {budget} units of work beyond its own text"),
         )
         .with_help(Advice::RaiseBudget(Budget::Work));
-        let diagnostic = at.diagnostic(fault);
-        match self.state.control.frames.running() {
-            Some(frame) => self.with_loop(diagnostic, frame.unit, frame.next.saturating_sub(1)),
-            None => diagnostic,
-        }
+        self.with_loop(at.diagnostic(fault))
     }
 
     /// The budget's message with the loop that used it up.
-    pub(crate) fn with_loop(
-        &self,
-        diagnostic: Diagnostic,
-        unit: usize,
-        entry: EntryIndex,
-    ) -> Diagnostic {
-        let index = self.programs.index(unit);
-        match index.innermost_loop(entry) {
-            Some(opener) => {
-                let place = index.block_place(opener);
-                let passes = match self.state.track.passes(unit, opener) {
-                    Some(passes) => format!("in this loop, after {passes} passes"),
-                    None => "in this loop".to_owned(),
-                };
-                diagnostic.with_label(place, passes)
-            }
-            None => diagnostic,
-        }
+    pub(crate) fn with_loop(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let Some(frame) = self.state.control.frames.running() else {
+            return diagnostic;
+        };
+        let index = self.programs.index(frame.unit);
+        let Some(opener) = index.innermost_loop(frame.next.saturating_sub(1)) else {
+            return diagnostic;
+        };
+        let passes = match self.state.track.passes(frame.unit, opener) {
+            Some(passes) => format!("in this loop, after {passes} passes"),
+            None => "in this loop".to_owned(),
+        };
+        diagnostic.with_label(index.block_place(opener), passes)
     }
 }
 
@@ -208,7 +199,7 @@ impl OtherPaths {
             here.enter_path(way);
             let is_here = |it: &Path| {
                 let frames = &here.state.control.frames;
-                it.control.frames.comes_before(frames).is_none()
+                it.control.frames.order_of_execution(frames).is_eq()
             };
             let others: Vec<Path> = std::iter::from_fn(|| ways.next_if(is_here)).collect();
             for other in others {

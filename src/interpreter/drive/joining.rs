@@ -19,8 +19,8 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
-use crate::interpreter::ways::others::{FirstWaiting, OtherPaths};
-use crate::interpreter::ways::path::{BranchSide, EndedPath, Last, Meeting, Passed, Path};
+use crate::interpreter::ways::others::OtherPaths;
+use crate::interpreter::ways::path::{BranchSide, EndedPath, Last, Meeting, Path};
 use crate::interpreter::ways::possible_state::{change_since, shown, ways_of};
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
@@ -55,13 +55,13 @@ impl OtherPaths {
         let mut joined = false;
         loop {
             let first = self.waiting.first_from(&here.state.control.frames);
-            if first == FirstWaiting::After {
+            if first.is_gt() {
                 return joined;
             }
             let Some(other) = self.waiting.take_first() else {
                 return joined;
             };
-            if first == FirstWaiting::Here {
+            if first.is_eq() {
                 self.join_path(here, other);
                 joined = true;
             } else {
@@ -289,10 +289,7 @@ impl OtherPaths {
     pub(crate) fn end_path(&mut self, here: &mut Executor, by: EndedBy) -> Option<EndedBy> {
         let is_covered = std::mem::take(&mut here.scratch.ending.covered);
         let is_alone = self.waiting.is_empty() && here.state.ended.is_empty();
-        let waits_for_lines = by == EndedBy::EndOfFile
-            && here.state.control.frames.depth() == 1
-            && here.programs.index(0).entries.is_empty();
-        if is_alone || (waits_for_lines && !is_covered) {
+        if is_alone {
             return Some(by);
         }
         if by == EndedBy::Budget && !here.scratch.ending.endless && !is_covered {
@@ -327,10 +324,7 @@ impl OtherPaths {
             return None;
         }
         let last = here.state.ended.pop()?;
-        here.scratch.ending.at = last.at.map(|(place, passed)| OwnEnd {
-            place,
-            is_passed_into: passed == Passed::Into,
-        });
+        here.scratch.ending.at = last.at;
         here.state.last = last.last;
         here.enter_path(last.path);
         Some(last.by)
@@ -369,11 +363,7 @@ impl OtherPaths {
         };
         let is_stop = matches!(by, EndedBy::Error | EndedBy::Budget);
         here.scratch.ending.endless = by == EndedBy::Budget;
-        let at = at.filter(|_| !is_stop);
-        here.scratch.ending.at = at.map(|(place, passed)| OwnEnd {
-            place,
-            is_passed_into: passed == Passed::Into,
-        });
+        here.scratch.ending.at = at.filter(|_| !is_stop);
         here.state.last = last;
         here.enter_path(path);
         for other in ways {
@@ -397,7 +387,7 @@ impl RunState {
     fn ends_of(&self, ended: &[EndedPath]) -> Vec<ProgramEnd> {
         let mut ends: Vec<ProgramEnd> = Vec::new();
         for end in ended {
-            let place = end.at.as_ref().map(|(place, _)| place.clone());
+            let place = end.at.as_ref().map(|at| at.place.clone());
             let Some(place) = place.or_else(|| end.last.as_ref().map(Last::place)) else {
                 continue;
             };
@@ -415,7 +405,7 @@ impl RunState {
             ends.push(ProgramEnd {
                 place,
                 by: end.by,
-                is_passed_into: matches!(end.at, Some((_, Passed::Into))),
+                is_passed_into: end.at.as_ref().is_some_and(|at| at.is_passed_into),
                 cause: cause
                     .filter(|_| !ends.is_empty())
                     .map(|found| found.cause.clone()),

@@ -14,6 +14,7 @@ use crate::interpreter::block::{
 use crate::interpreter::control::{ChannelAxes, ControlState, ModalCycles, OptionalSection};
 use crate::interpreter::drive::host::Interpreter;
 use crate::interpreter::drive::joining::MetWays;
+use crate::interpreter::drive::lines::MainLines;
 use crate::interpreter::events::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::executor::{Executor, MentionedUnknowns, RunState};
 use crate::interpreter::options::{RunOutcome, SourceMode, StopPolicy};
@@ -56,37 +57,48 @@ impl Interpreter {
             .main
             .and_then(|main| index.sections[main].name.clone());
         self.here.programs.clear();
-        self.here.awaited = None;
         self.here.programs.hold(index);
         if self.here.announce(name.as_deref(), observer).is_break() {
             self.here.state.parked = Some(ControlStep::Begin);
             return RunOutcome::Paused;
         }
-        self.begin(finder, observer)
+        self.begin(None, finder, observer)
     }
 
-    /// Runs the announced program from the start of its section.
+    /// Runs the announced program from its start: the lines, or the main program in memory.
     pub(crate) fn begin(
         &mut self,
+        mut lines: Option<MainLines<'_>>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        if self.here.is_refused() {
-            return self.refuse(observer);
+        if let Some(by) = self.here.end_by_refusal() {
+            return self.close(RunOutcome::Ended(by), observer);
         }
-        self.lost.extend(self.here.programs.index(0).no_block());
-        match self.here.programs.index(0).main {
-            Some(section) => self.here.enter(0, section),
-            None => self
-                .lost
-                .extend(self.here.programs.index(0).no_main_program()),
-        }
-        let main = Arc::clone(self.here.programs.index(0).source.name());
+        let main = if let Some(lines) = &lines {
+            self.here.enter(0, 0);
+            Arc::clone(&lines.file)
+        } else {
+            self.enter_main()
+        };
         if let Err(missing) = self.here.start_program(&main, finder) {
             return self.ended(EndedBy::Error, &one(*missing), observer);
         }
-        let outcome = self.run(finder, observer);
+        let outcome = self.run(&mut lines, finder, observer);
+        self.leave_lines(lines, outcome);
         self.close(outcome, observer)
+    }
+
+    /// Enters the main program in memory. Returns the name of its file.
+    fn enter_main(&mut self) -> Arc<str> {
+        let index = self.here.programs.index(0);
+        let name = Arc::clone(index.source.name());
+        self.lost.extend(index.no_block());
+        match index.main {
+            Some(section) => self.here.enter(0, section),
+            None => self.lost.extend(index.no_main_program()),
+        }
+        name
     }
 
     /// Continues a run that an observer stopped. One whose program is read line by line stays
@@ -98,13 +110,13 @@ impl Interpreter {
         self.here.offered.clear();
         let outcome = match self.here.state.parked.take() {
             Some(ControlStep::Begin) => {
-                return self.begin(finder, observer);
+                return self.begin(None, finder, observer);
             }
-            Some(step) => match self.follow_to_end(step) {
-                Some(by) => RunOutcome::Ended(by),
-                None => self.run(finder, observer),
+            Some(step) => match self.take_step(step, &mut None, observer) {
+                ControlFlow::Break(outcome) => outcome,
+                ControlFlow::Continue(()) => self.run(&mut None, finder, observer),
             },
-            None => self.run(finder, observer),
+            None => self.run(&mut None, finder, observer),
         };
         self.close(outcome, observer)
     }
@@ -143,9 +155,11 @@ impl Executor {
         self.scratch.changes.clear();
     }
 
-    /// Whether faults of the main program keep it from running.
-    pub(crate) fn is_refused(&self) -> bool {
-        !self.programs.refused().is_empty() && self.options.stop == StopPolicy::FirstError
+    /// How the run ends before it begins, where faults of the main program keep it from running.
+    pub(crate) fn end_by_refusal(&self) -> Option<EndedBy> {
+        let refused = self.programs.refused();
+        let is_refused = !refused.is_empty() && self.options.stop == StopPolicy::FirstError;
+        is_refused.then(|| ended_by(&refused.said))
     }
 
     /// Calls the configured program that runs before every main program (R2.15).
@@ -211,12 +225,6 @@ pub(crate) enum ProgramStop {
 }
 
 impl Interpreter {
-    /// Ends a program that does not run.
-    pub(crate) fn refuse(&mut self, observer: &mut dyn Observer) -> RunOutcome {
-        let refused = self.here.programs.refused();
-        self.ended(ended_by(&refused.said), &refused, observer)
-    }
-
     /// Ends a program whose text is in memory.
     pub(crate) fn close(&mut self, outcome: RunOutcome, observer: &mut dyn Observer) -> RunOutcome {
         let RunOutcome::Ended(by) = outcome else {

@@ -9,6 +9,7 @@ use crate::interpreter::block::{
 };
 use crate::interpreter::control::OptionalSection;
 use crate::interpreter::drive::host::Interpreter;
+use crate::interpreter::drive::lines::MainLines;
 use crate::interpreter::events::{EndedBy, Event, Executed, Joined, Observer};
 use crate::interpreter::executor::{Executor, RunState};
 use crate::interpreter::options::{RunOutcome, StopPolicy};
@@ -24,147 +25,188 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Item};
 use crate::text::Span;
 
+/// The block that is due.
+enum DueBlock {
+    /// A block of a file in memory.
+    Indexed(usize, EntryIndex),
+    /// The next one of the lines of the main program.
+    Line,
+    /// None on this way: the run first goes on elsewhere.
+    Elsewhere,
+}
+
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
     pub(crate) fn run(
         &mut self,
+        lines: &mut Option<MainLines<'_>>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         loop {
-            self.choose_way(finder, observer);
-            let (unit, next) = match self.due_block() {
-                ControlFlow::Continue(Some(due)) => due,
-                ControlFlow::Continue(None) => continue,
-                ControlFlow::Break(by) => return RunOutcome::Ended(by),
-            };
-            let is_repeated = self.here.programs.was_read(unit, next);
-            let parsed = self.here.programs.parsed(unit, next);
-            if let Some(frame) = self.here.state.control.frames.running_mut() {
-                frame.next = next + 1;
-            }
-            if self.here.is_skipped(&parsed.block) {
-                self.here.seek_beyond(unit, next);
-                continue;
-            }
-            if let Some(level) = self.here.undecided_level(&parsed.block)
-                && self.here.part_by_skip(level, &parsed)
-            {
-                let flow = if self.here.offered.is_empty() {
-                    ControlFlow::Continue(())
-                } else {
-                    let shown = ShownBlockLines::default();
-                    let level = self.here.state.control.frames.level();
-                    self.here
-                        .offer_skip(&BlockContext::of_parsed(&parsed, level, &shown), observer)
-                };
-                if let Some(frame) = self.here.state.control.frames.running_mut() {
-                    frame.next = next;
-                }
-                self.others.take_sides(&mut self.here, None, finder);
-                if flow.is_break() {
-                    return RunOutcome::Paused;
-                }
-                continue;
-            }
-            let called_from = self
-                .here
-                .state
-                .control
-                .frames
-                .running_mut()
-                .and_then(|frame| frame.called_from.take());
-            let level = self.here.state.control.frames.level();
-            let shown = ShownBlockLines::default();
-            let at =
-                BlockContext::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
-            if let Some(over) = self.here.over_budget(&at) {
-                let over = self.here.with_loop(over, unit, next);
-                self.here.scratch.ending.over.push(over);
-                match self.others.end_path(&mut self.here, EndedBy::Budget) {
-                    Some(by) => return RunOutcome::Ended(by),
-                    None => continue,
-                }
-            }
-            let depth = self.here.state.control.frames.depth();
-            let spent = self.here.state.work.spent();
-            let is_on_ways = !self.others.waiting.is_empty();
-            let flow = self.execute(&at, finder, observer);
-            if is_repeated {
-                self.here
-                    .state
-                    .work
-                    .repeat(parsed.weight, self.here.scratch.messages.said, spent);
-            } else {
-                self.here.state.work.grant_ways();
-            }
-            if is_on_ways {
-                self.here.charge_block(parsed.weight);
-            }
-            if let Some(frame) = self.here.state.control.frames.at_depth_mut(depth) {
-                frame.called_from = called_from;
-            }
-            let step = match flow {
-                ControlFlow::Continue(()) => None,
-                ControlFlow::Break(NextBlock::Step(step)) => Some(step),
-                ControlFlow::Break(NextBlock::Paused) => {
-                    let step = self.here.state.parked.take();
-                    self.here.state.parked = self.part_and_step(step, finder);
-                    return RunOutcome::Paused;
-                }
-            };
-            let Some(step) = self.part_and_step(step, finder) else {
-                continue;
-            };
-            if let Some(by) = self.follow_to_end(step) {
-                return RunOutcome::Ended(by);
+            if let ControlFlow::Break(outcome) = self.advance(lines, finder, observer) {
+                return outcome;
             }
         }
     }
 
-    /// The next block of the running program. `None` where the run first goes on elsewhere, `Break` where the last way
-    /// ends.
+    /// Executes the block that is due, and the step after it.
     #[inline]
-    fn due_block(&mut self) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
+    fn advance(
+        &mut self,
+        lines: &mut Option<MainLines<'_>>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<RunOutcome> {
+        self.choose_way(finder, observer);
+        let step = match self.due_block(lines.is_some())? {
+            DueBlock::Indexed(unit, next) => self.run_indexed(unit, next, finder, observer)?,
+            DueBlock::Line => self.run_line(lines, finder, observer)?,
+            DueBlock::Elsewhere => None,
+        };
+        match step {
+            Some(step) => self.take_step(step, lines, observer),
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Executes a block of a file in memory. Returns the step after it, where that is not the next block.
+    fn run_indexed(
+        &mut self,
+        unit: usize,
+        next: EntryIndex,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<RunOutcome, Option<ControlStep>> {
+        let is_repeated = self.here.programs.was_read(unit, next);
+        let parsed = self.here.programs.parsed(unit, next);
+        if let Some(frame) = self.here.state.control.frames.running_mut() {
+            frame.next = next + 1;
+        }
+        if self.here.is_skipped(&parsed.block) {
+            self.here.seek_beyond(unit, next);
+            return ControlFlow::Continue(None);
+        }
+        let level = self.here.state.control.frames.level();
+        let shown = ShownBlockLines::default();
+        let at = BlockContext::of_parsed(&parsed, level, &shown);
+        if let Some(skip) = self.here.undecided_level(&parsed.block)
+            && self.here.part_by_skip(skip, &parsed)
+        {
+            let flow = if self.here.offered.is_empty() {
+                ControlFlow::Continue(())
+            } else {
+                self.here.offer_skip(&at, observer)
+            };
+            if let Some(frame) = self.here.state.control.frames.running_mut() {
+                frame.next = next;
+            }
+            self.others.take_sides(&mut self.here, None, finder);
+            return match flow {
+                ControlFlow::Continue(()) => ControlFlow::Continue(None),
+                ControlFlow::Break(()) => ControlFlow::Break(RunOutcome::Paused),
+            };
+        }
+        let frames = &mut self.here.state.control.frames;
+        let depth = frames.depth();
+        let called_from = frames
+            .running_mut()
+            .and_then(|frame| frame.called_from.take());
+        let at = at.with_caller(called_from.as_ref());
+        let step = self.run_block(&at, (is_repeated, parsed.weight), finder, observer);
+        if let Some(frame) = self.here.state.control.frames.at_depth_mut(depth) {
+            frame.called_from = called_from;
+        }
+        step
+    }
+
+    /// Executes a block, unless a budget is used up, and parts the run after it. Returns the step after it, where that
+    /// is not the next block.
+    #[inline]
+    pub(crate) fn run_block(
+        &mut self,
+        at: &BlockContext<'_>,
+        (is_repeated, weight): (bool, u64),
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<RunOutcome, Option<ControlStep>> {
+        if let Some(over) = self.here.over_budget(at) {
+            let over = self.here.with_loop(over);
+            self.here.scratch.ending.over.push(over);
+            return self.end_way(EndedBy::Budget).map_continue(|()| None);
+        }
+        let spent = self.here.state.work.spent();
+        let is_on_ways = !self.others.waiting.is_empty();
+        let flow = self.execute(at, finder, observer);
+        if is_repeated {
+            self.here
+                .state
+                .work
+                .repeat(weight, self.here.scratch.messages.said, spent);
+        } else {
+            self.here.state.work.grant_ways();
+        }
+        if is_on_ways {
+            self.here.charge_block(weight);
+        }
+        let step = match flow {
+            ControlFlow::Continue(()) => None,
+            ControlFlow::Break(NextBlock::Step(step)) => Some(step),
+            ControlFlow::Break(NextBlock::Paused) => {
+                let step = self.here.state.parked.take();
+                self.here.state.parked = self.part_and_step(step, finder);
+                return ControlFlow::Break(RunOutcome::Paused);
+            }
+        };
+        ControlFlow::Continue(self.part_and_step(step, finder))
+    }
+
+    /// Ends the way. Another one goes on if there is one.
+    pub(crate) fn end_way(&mut self, by: EndedBy) -> ControlFlow<RunOutcome> {
+        match self.others.end_path(&mut self.here, by) {
+            Some(by) => ControlFlow::Break(RunOutcome::Ended(by)),
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// The next block of the running program, `Break` where the last way ends.
+    #[inline]
+    fn due_block(&mut self, has_lines: bool) -> ControlFlow<RunOutcome, DueBlock> {
         let Some(frame) = self.here.state.control.frames.running() else {
             let ending = self.here.state.control.ending.take();
-            return self.go_on_elsewhere(ending.unwrap_or(EndedBy::EndOfFile));
+            self.end_way(ending.unwrap_or(EndedBy::EndOfFile))?;
+            return ControlFlow::Continue(DueBlock::Elsewhere);
         };
         let (unit, section, next) = (frame.unit, frame.section, frame.next);
         let (passage, level) = (frame.passage, frame.level);
         if !frame.waiting.is_empty() {
-            return match self.others.call_waiting(&mut self.here) {
-                ControlFlow::Continue(()) => ControlFlow::Continue(None),
-                ControlFlow::Break(by) => self.go_on_elsewhere(by),
-            };
+            if let ControlFlow::Break(by) = self.others.call_waiting(&mut self.here) {
+                self.end_way(by)?;
+            }
+            return ControlFlow::Continue(DueBlock::Elsewhere);
+        }
+        if has_lines && level == 0 {
+            return ControlFlow::Continue(DueBlock::Line);
         }
         let is_past = next >= self.here.programs.section(ProgramId { unit, section }).end;
         if is_past && frame.seeking.is_some() && self.here.ends_in_open_if() {
-            return self.go_on_elsewhere(EndedBy::Error);
+            self.end_way(EndedBy::Error)?;
+            return ControlFlow::Continue(DueBlock::Elsewhere);
         }
         if is_past || passage.is_some_and(|passage| next > passage.last) {
             if level == 0 {
-                return self.go_on_elsewhere(EndedBy::EndOfFile);
+                self.end_way(EndedBy::EndOfFile)?;
+            } else {
+                self.others.end_of_pass(&mut self.here);
             }
-            self.others.end_of_pass(&mut self.here);
-            return ControlFlow::Continue(None);
+            return ControlFlow::Continue(DueBlock::Elsewhere);
         }
         if !self.others.loop_heads.is_empty() && self.others.enters_covered(&mut self.here, next) {
             self.here.scratch.ending.covered = true;
-            return self.go_on_elsewhere(EndedBy::EndOfFile);
+            self.end_way(EndedBy::EndOfFile)?;
+            return ControlFlow::Continue(DueBlock::Elsewhere);
         }
-        ControlFlow::Continue(Some((unit, next)))
-    }
-
-    /// Ends the way. Another one goes on if there is one.
-    fn go_on_elsewhere(
-        &mut self,
-        by: EndedBy,
-    ) -> ControlFlow<EndedBy, Option<(usize, EntryIndex)>> {
-        match self.others.end_path(&mut self.here, by) {
-            Some(by) => ControlFlow::Break(by),
-            None => ControlFlow::Continue(None),
-        }
+        ControlFlow::Continue(DueBlock::Indexed(unit, next))
     }
 
     /// Continues on the way whose block comes first in the text; past their budget, all ways are joined.
@@ -186,12 +228,21 @@ impl Interpreter {
         track.follow_again(&control.frames, is_alone);
     }
 
-    /// Executes a step. Returns the end of the run if it is the last one of the last way.
-    pub(crate) fn follow_to_end(&mut self, step: ControlStep) -> Option<EndedBy> {
-        let ControlFlow::Break(by) = self.others.follow(&mut self.here, step) else {
-            return None;
-        };
-        self.others.end_path(&mut self.here, by)
+    /// Executes a step. `Break` if it is the last one of the last way.
+    pub(crate) fn take_step(
+        &mut self,
+        step: ControlStep,
+        lines: &mut Option<MainLines<'_>>,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<RunOutcome> {
+        if let ControlFlow::Break(by) = self.others.follow(&mut self.here, step) {
+            return self.end_way(by);
+        }
+        if let Some(awaited) = self.here.awaited.take() {
+            self.go_to_awaited(awaited, lines);
+            self.here.tell_joined(observer);
+        }
+        ControlFlow::Continue(())
     }
 
     /// Parts the run after a block that asked. Returns the remaining step, which is that of the way on which no jump is
@@ -359,7 +410,7 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// Announces that ways meet.
+    /// Announces the states before the next block, where they are not those after the last one.
     #[cold]
     fn tell_joined(&mut self, observer: &mut dyn Observer) {
         let Some(frame) = self.state.control.frames.running() else {

@@ -75,7 +75,7 @@ pub enum ResumeError {
 
 impl Snapshot {
     /// The number of the format that is written and read.
-    pub const SCHEMA: u32 = 16;
+    pub const SCHEMA: u32 = 17;
 
     /// The number of the format that the snapshot has.
     pub fn schema(&self) -> u32 {

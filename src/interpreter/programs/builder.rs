@@ -132,9 +132,8 @@ impl Builder {
                     let file = Arc::clone(self.index.source.name());
                     let opening = raw.place(&file, name);
                     self.section(Some(name.of(raw.text).to_owned()), Some(opening), local);
-                    for fault in block.faults.drain(..) {
-                        self.index.openings.push(raw.opening_said(&file, fault));
-                    }
+                    let said = raw.opening_said(&file, &block);
+                    self.index.openings.extend(said);
                 }
                 Stretch::Block => {
                     let entry = Span::new(self.index.entries.len(), raw.offset);

@@ -85,6 +85,12 @@ impl ProgramStore {
         &self.units[unit].index
     }
 
+    /// Whether the first blocks of a file were read line by line and are not kept.
+    pub(crate) fn is_cut(&self, unit: usize) -> bool {
+        let source = &self.index(unit).source;
+        unit == 0 && (source.name().is_empty() || source.lines().first() > 1)
+    }
+
     /// A program.
     #[inline]
     pub(crate) fn section(&self, program: ProgramId) -> &ProgramSection {

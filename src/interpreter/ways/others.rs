@@ -2,6 +2,7 @@
 //! the first of them (R14.4); the states in which loops that only the machine ends begin their passes (R14.3); the effects of
 //! programs that were called on other ways (R14.4).
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
@@ -28,7 +29,7 @@ pub(crate) struct OtherPaths {
     pub(crate) call_effects: CallEffects,
     /// How often the program has used up its budget of ways.
     pub(crate) widened: u64,
-    /// Messages on paths that joined before the current block.
+    /// Messages on what came before the current block: paths that joined, a block that is not kept.
     #[serde(skip)]
     pub(crate) joined: Vec<Diagnostic>,
     /// Such messages that are withheld, because they were reported before or nothing differs.
@@ -63,17 +64,6 @@ impl OtherPaths {
 #[serde(transparent)]
 pub(crate) struct WaitingPaths(Vec<Path>);
 
-/// The relation of the first waiting way to a block.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FirstWaiting {
-    /// Its block comes before.
-    Before,
-    /// It waits at the block.
-    Here,
-    /// Its block comes after, or no way waits.
-    After,
-}
-
 impl WaitingPaths {
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
@@ -105,19 +95,17 @@ impl WaitingPaths {
     /// A way waits, after those that wait at the same block.
     pub(crate) fn push(&mut self, path: Path) {
         let frames = &path.control.frames;
-        let is_later = |it: &Path| frames.comes_before(&it.control.frames) == Some(true);
+        let is_later = |it: &Path| frames.order_of_execution(&it.control.frames).is_lt();
         let place = self.0.partition_point(is_later);
         self.0.insert(place, path);
     }
 
-    /// Compares the first way with the block that would be executed next.
-    pub(crate) fn first_from(&self, here: &CallStack) -> FirstWaiting {
+    /// Compares the first way with the block that would be executed next; `Greater` where no way waits.
+    pub(crate) fn first_from(&self, here: &CallStack) -> Ordering {
         let first = self.0.last();
-        match first.map(|path| path.control.frames.comes_before(here)) {
-            Some(Some(true)) => FirstWaiting::Before,
-            Some(None) => FirstWaiting::Here,
-            Some(Some(false)) | None => FirstWaiting::After,
-        }
+        first.map_or(Ordering::Greater, |path| {
+            path.control.frames.order_of_execution(here)
+        })
     }
 
     /// Takes the way whose block comes first in the text. One that may be at any of several labels goes on waiting at the

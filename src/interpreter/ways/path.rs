@@ -12,7 +12,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{AxisIndex, Compensation, Kind, Membership};
-use crate::interpreter::block::{BlockContext, FailedAt};
+use crate::interpreter::block::{BlockContext, FailedAt, OwnEnd};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::RunState;
@@ -404,18 +404,8 @@ impl RunState {
 pub(crate) struct EndedPath {
     pub(crate) path: Path,
     pub(crate) by: EndedBy,
-    /// The block that ends the program, and whether no jump goes to it.
-    pub(crate) at: Option<(Place, Passed)>,
+    pub(crate) at: Option<OwnEnd>,
     pub(crate) last: Option<Last>,
-}
-
-/// Whether the block before a program end leads to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Passed {
-    /// No jump goes to it.
-    Into,
-    /// A jump may.
-    Perhaps,
 }
 
 /// Target of one answer of the machine.
@@ -450,27 +440,24 @@ impl BranchSide {
 }
 
 impl CallStack {
-    /// Returns whether a way is executed before another: the one that comes first in the text, a
-    /// called program before the rest of its caller. `None` for two ways at the same block.
-    pub(crate) fn comes_before(&self, other: &Self) -> Option<bool> {
+    /// Returns which of two ways is executed first: the one that comes first in the text, a called program before the
+    /// rest of its caller. Ways at the same block are equal.
+    pub(crate) fn order_of_execution(&self, other: &Self) -> Ordering {
         for (mine, theirs) in self.iter().zip(other.iter()) {
             match order(mine).cmp(&order(theirs)) {
+                Ordering::Equal if mine.waiting != theirs.waiting => return Ordering::Greater,
                 Ordering::Equal => {}
-                order => return Some(order == Ordering::Less),
-            }
-            if mine.waiting != theirs.waiting {
-                return Some(false);
+                order => return order,
             }
         }
-        match self.depth().cmp(&other.depth()) {
-            Ordering::Equal => {}
-            order => return Some(order == Ordering::Greater),
-        }
-        let (mine, theirs) = (self.running()?, other.running()?);
-        match (&mine.seeking, &theirs.seeking) {
-            (mine, theirs) if mine == theirs => None,
-            (mine, _) => Some(mine.is_none()),
-        }
+        let running = [self, other].map(Self::running);
+        let [mine, theirs] = running.map(|frame| frame.and_then(|frame| frame.seeking.as_ref()));
+        let by_search = match mine {
+            _ if mine == theirs => Ordering::Equal,
+            None => Ordering::Less,
+            Some(_) => Ordering::Greater,
+        };
+        other.depth().cmp(&self.depth()).then(by_search)
     }
 }
 

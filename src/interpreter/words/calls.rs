@@ -483,16 +483,9 @@ impl Executor {
 
     /// Reports that a program has no such block; lines read one after another are not kept.
     fn no_block(&mut self, name: &LabelName, unit: usize, span: Span, at: &BlockContext<'_>) {
-        let source = &self.programs.index(unit).source;
-        let is_cut = unit == 0 && (source.name().is_empty() || source.lines().first() > 1);
-        let fault = if is_cut {
+        let fault = if self.programs.is_cut(unit) {
             self.havoc_all(&Unknown::text("L SEQUENCE"));
-            Fault::new(
-                Code::Fc902,
-                span,
-                format!("`{name}` is in a part of the program that was read line by line and is not kept; the call is passed over, and every axis becomes unknown"),
-            )
-            .with_help("give the program as a file")
+            not_kept(name, span, "the call is passed over")
         } else {
             Fault::new(
                 Code::Fc209,
@@ -677,20 +670,19 @@ impl Executor {
                 let program = frame.map_or(ProgramId::FIRST, CallFrame::program);
                 let found = self.programs.block_of(program, &name, &self.state.work);
                 if found.is_none() {
-                    let missing = Fault::new(
-                        Code::Fc209,
-                        back.span,
-                        format!(
-                            "jump label `{name}` does not exist in the program that is returned to"
-                        ),
-                    );
-                    let arrives = self.programs.index(program.unit).source.name().is_empty();
-                    if !arrives || level > 0 {
-                        return Err(Box::new(missing));
+                    if !self.programs.is_cut(program.unit) || level > 0 {
+                        return Err(Box::new(Fault::new(
+                            Code::Fc209,
+                            back.span,
+                            format!(
+                                "jump label `{name}` does not exist in the program that is returned to"
+                            ),
+                        )));
                     }
+                    let lost = not_kept(&name, back.span, "the dry run continues after the call");
                     self.awaited = Some(AwaitedBlock {
+                        lost: at.diagnostic(lost),
                         label: name,
-                        missing: at.diagnostic(missing),
                     });
                 }
                 found
@@ -699,6 +691,14 @@ impl Executor {
         outcome.step = Some(ControlStep::ReturnTo(Destination { level, entry }));
         Ok(())
     }
+}
+
+/// FC902: a block of a program whose lines are read one after another and not kept.
+fn not_kept(name: &LabelName, span: Span, then: &str) -> Fault {
+    let message = format!(
+        "`{name}` is in a part of the program that was read line by line and is not kept; {then}, and every axis becomes unknown"
+    );
+    Fault::new(Code::Fc902, span, message).with_help("give the program as a file")
 }
 
 impl BlockScratch {

@@ -14,7 +14,7 @@ use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::plain::{Asking, ConditionSubject, Writer, reads, text_of};
-use crate::interpreter::ways::path::{EndedPath, Passed};
+use crate::interpreter::ways::path::EndedPath;
 use crate::interpreter::ways::possible_state::ways_of;
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
@@ -467,18 +467,10 @@ impl Executor {
         let mut path = self.state.leave_path();
         path.track.assumed.undo(&mut path.control.memory);
         path.control.frames.clear();
-        let at = self.scratch.ending.at.take().map(|end| {
-            let passed = if end.is_passed_into {
-                Passed::Into
-            } else {
-                Passed::Perhaps
-            };
-            (end.place, passed)
-        });
         EndedPath {
             path,
             by,
-            at,
+            at: self.scratch.ending.at.take(),
             last: self.state.last.clone(),
         }
     }

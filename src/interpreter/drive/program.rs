@@ -441,9 +441,7 @@ impl Executor {
                 continue;
             }
             let mut block = Block::default();
-            let Some(mut reader) = unit.index.reader(entry) else {
-                continue;
-            };
+            let mut reader = unit.index.reader(entry);
             // A skipped block is also passed over by the run.
             if let Some(raw) = reader.next(&mut block)
                 && !self.is_skipped(&block)

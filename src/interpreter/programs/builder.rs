@@ -7,6 +7,7 @@ use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::programs::index::{
     EntryIndex, Index, IndexEntry, JumpTargets, LabelName, Links, ProgramSection, not_a_program,
 };
+use crate::interpreter::programs::store::Parsed;
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::syntax::{
@@ -14,6 +15,9 @@ use crate::syntax::{
     control_part, is_statement, no_program, with_macros,
 };
 use crate::text::{Place, SourceFile, Span, TextLines};
+
+/// Blocks that are kept as they were parsed for the index; a run parses the others when it reaches them.
+const MAX_PARSED: usize = 10_000;
 
 /// A control block that is not closed yet.
 struct Open {
@@ -47,6 +51,7 @@ impl Index {
             index: Self {
                 source,
                 entries: Vec::new(),
+                parsed: Vec::new(),
                 sections: Vec::new(),
                 links: BTreeMap::new(),
                 loops: BTreeMap::new(),
@@ -148,6 +153,11 @@ impl Builder {
                         self.index.skips.insert(entry.start, level);
                     }
                     self.block(entry.start, &block, raw.text);
+                    if self.index.parsed.len() < MAX_PARSED {
+                        let file = self.index.source.name();
+                        let parsed = Parsed::new(file, &raw, std::mem::take(&mut block));
+                        self.index.parsed.push(Arc::new(parsed));
+                    }
                 }
             }
         }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::interpreter::programs::store::Parsed;
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, BlockReference, Operand};
 use crate::syntax::{BlockReader, FastPath, LostRemarks, Remark, Stretch};
@@ -153,6 +154,8 @@ impl JumpTargets {
 pub(crate) struct Index {
     pub(crate) source: SourceFile,
     pub(crate) entries: Vec<IndexEntry>,
+    /// The first blocks, parsed, until a run takes them.
+    pub(crate) parsed: Vec<Arc<Parsed>>,
     pub(crate) sections: Vec<ProgramSection>,
     pub(crate) links: BTreeMap<EntryIndex, Links>,
     /// The loops.
@@ -310,9 +313,7 @@ impl Index {
         let Some(section) = self.sections.get(section) else {
             return numbers;
         };
-        let Some(mut reader) = self.reader(section.start) else {
-            return numbers;
-        };
+        let mut reader = self.reader(section.start);
         let mut block = Block::default();
         for entry in section.start..section.end {
             while let Some(raw) = reader.next(&mut block) {
@@ -333,10 +334,7 @@ impl Index {
     /// The place of a span in the text of a block.
     pub(crate) fn place(&self, entry: EntryIndex, span: Span) -> Place {
         let mut block = Block::default();
-        let Some(mut reader) = self.reader(entry) else {
-            return self.block_place(entry);
-        };
-        reader.next(&mut block).map_or_else(
+        self.reader(entry).next(&mut block).map_or_else(
             || self.block_place(entry),
             |raw| Place {
                 file: self.source.name().clone(),
@@ -413,11 +411,12 @@ impl Index {
         self.remarks.get(&entry).cloned()
     }
 
-    /// A reader that is positioned before a block.
-    pub(crate) fn reader(&self, entry: EntryIndex) -> Option<BlockReader<TextLines<'_>>> {
-        let entry = self.entries.get(entry as usize)?;
-        let lines = TextLines::starting_at(self.source.text(), entry.offset as usize);
-        Some(BlockReader::new(lines, entry.line, FastPath::On))
+    /// A reader that is positioned before a block, or at the end of the text.
+    pub(crate) fn reader(&self, entry: EntryIndex) -> BlockReader<TextLines<'_>> {
+        let text = self.source.text();
+        let entry = self.entries.get(entry as usize);
+        let (offset, line) = entry.map_or((text.len(), 1), |it| (it.offset as usize, it.line));
+        BlockReader::new(TextLines::starting_at(text, offset), line, FastPath::On)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::interpreter::programs::index::{
 use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
 use crate::syntax::allow::MARK;
 use crate::syntax::ast::{Block, CallScope, Item};
-use crate::syntax::{Comments, Fault, Remark, Stretch, no_program};
+use crate::syntax::{Comments, Fault, RawBlock, Remark, Stretch, no_program};
 use crate::text::{Place, SourceFile};
 
 /// Limit of the names that a run compares with those of calls that find nothing.
@@ -109,7 +109,12 @@ impl ProgramStore {
         let unit = self.units.len();
         let name = index.source.name().clone();
         self.names.entry(name).or_insert(unit);
-        self.units.push(SourceUnit::new(index));
+        let mut held = SourceUnit::new(index);
+        if self.kept + held.kept.len() > MAX_KEPT {
+            held.kept = Vec::new();
+        }
+        self.kept += held.kept.len();
+        self.units.push(held);
         unit
     }
 
@@ -130,17 +135,17 @@ impl ProgramStore {
         self.units[unit].executed[entry as usize]
     }
 
-    /// A parsed block; those that are executed again are kept.
+    /// A parsed block; the first ones and those that are executed again are kept.
     pub(crate) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
         let place = entry as usize;
         let unit = &mut self.units[unit];
+        unit.executed[place] = true;
+        let again = entry < unit.high;
+        unit.high = unit.high.max(entry + 1);
         if let Some(Some(kept)) = unit.kept.get(place) {
             return Arc::clone(kept);
         }
-        unit.executed[place] = true;
         let parsed = Arc::new(unit.parse(entry));
-        let again = entry < unit.high;
-        unit.high = unit.high.max(entry + 1);
         if again && self.kept < MAX_KEPT {
             if unit.kept.len() <= place {
                 unit.kept.resize(unit.index.entries.len(), None);
@@ -327,7 +332,7 @@ fn on_machine_only(name: &str) -> String {
 #[derive(Clone)]
 pub(crate) struct SourceUnit {
     pub(crate) index: Arc<Index>,
-    /// Blocks that were executed more than once, parsed.
+    /// The first blocks and those that were executed more than once, parsed.
     pub(crate) kept: Vec<Option<Arc<Parsed>>>,
     /// Blocks below this one were executed before.
     pub(crate) high: EntryIndex,
@@ -338,9 +343,10 @@ pub(crate) struct SourceUnit {
 }
 
 impl SourceUnit {
-    pub(crate) fn new(index: Index) -> Self {
+    pub(crate) fn new(mut index: Index) -> Self {
+        let parsed = std::mem::take(&mut index.parsed);
         Self {
-            kept: Vec::new(),
+            kept: parsed.into_iter().map(Some).collect(),
             high: 0,
             executed: vec![false; index.entries.len()],
             returned: false,
@@ -349,31 +355,21 @@ impl SourceUnit {
     }
 
     pub(crate) fn parse(&self, entry: EntryIndex) -> Parsed {
+        let mut reader = self.index.reader(entry);
         let mut block = Block::default();
-        let mut text = String::new();
-        let mut comments = Comments::Possible;
-        let mut remark = None;
-        if let Some(mut reader) = self.index.reader(entry)
-            && let Some(raw) = reader.next(&mut block)
-        {
-            debug_assert_eq!(raw.stretch, Stretch::Block);
-            raw.text.clone_into(&mut text);
-            comments = raw.comments;
-            remark = raw.remark.cloned();
-        }
+        reader.next(&mut block);
+        let raw = reader.last();
+        debug_assert_eq!(raw.stretch, Stretch::Block);
+        let parsed = Parsed::new(self.index.source.name(), &raw, block);
         Parsed {
-            weight: weight(&block, &text),
-            block,
-            file: Arc::clone(self.index.source.name()),
-            line: self.index.entries[entry as usize].line,
-            text,
-            comments,
-            remark: remark.or_else(|| self.index.remark(entry)),
+            remark: self.index.remark(entry),
+            ..parsed
         }
     }
 }
 
 /// A parsed block with its text and its place.
+#[derive(Debug)]
 pub(crate) struct Parsed {
     pub(crate) block: Block,
     /// Work of executing it again.
@@ -383,6 +379,20 @@ pub(crate) struct Parsed {
     pub(crate) text: String,
     pub(crate) comments: Comments,
     pub(crate) remark: Option<Remark>,
+}
+
+impl Parsed {
+    pub(crate) fn new(file: &Arc<str>, raw: &RawBlock<'_>, block: Block) -> Self {
+        Self {
+            weight: weight(&block, raw.text),
+            block,
+            file: Arc::clone(file),
+            line: raw.line,
+            text: raw.text.to_owned(),
+            comments: raw.comments,
+            remark: raw.remark.cloned(),
+        }
+    }
 }
 
 /// A block, whatever it contains.

@@ -699,7 +699,7 @@ impl ParameterValues {
         }
         let (page, place) = page_of(index);
         if self.pages.len() <= page {
-            self.pages.resize_with(page + 1, Shared::default);
+            self.pages.resize(page + 1, Shared::default());
         }
         self.pages[page][place] = Some(value);
     }

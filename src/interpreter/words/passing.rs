@@ -103,9 +103,7 @@ struct EffectReader<'a> {
 impl EffectReader<'_> {
     fn blocks(&mut self, unit: usize, range: Range<EntryIndex>) {
         let index = self.run.programs.index(unit);
-        let Some(mut reader) = index.reader(range.start) else {
-            return;
-        };
+        let mut reader = index.reader(range.start);
         let mut block = Block::default();
         let mut left = range.end.saturating_sub(range.start);
         while left > 0 && !self.run.is_exhausted() {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::cure::{Cure, Mending};
+use super::mending::{Cure, Mending};
 use super::program::{AxisAudit, ProgramAudit};
 use crate::comp::Kind;
 use crate::interpreter::FoundVariables;

@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::cure::{Cure, Mending};
+use serde::Serialize;
+
 use super::effect::{Inherits, ProgramEffect};
 use super::insertion::{Insertion, with_blocks};
 use super::observation::Observation;
 use super::places::places;
 use super::program::{Auditor, AxisAudit};
 use super::runs::ProgramRuns;
-
 use crate::interpreter::{Interpreter, Observer};
 use crate::text::Numbering;
 
@@ -321,4 +321,30 @@ impl<R> Trial<'_, R> {
             }
         }
     }
+}
+
+crate::words! {
+    /// The programs to mend: the side of each hazard with fewer programs (R10.3).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    #[non_exhaustive]
+    pub enum Cure {
+        /// There is no hazard.
+        None = "none",
+        /// Those that leave the axis away from its start-up state; mended by a command before the
+        /// end.
+        Leavers = "leavers",
+        /// Those that inherit it; mended by a command before the first motion.
+        Inheritors = "inheritors",
+    }
+}
+
+/// A subject to mend in a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct Mending {
+    /// The position of the axis and kind in [`ProgramAudit::axes`](super::ProgramAudit::axes).
+    pub at: usize,
+    /// Side of the hazards to mend: [`Cure::Leavers`] or [`Cure::Inheritors`].
+    pub cure: Cure,
 }

@@ -12,7 +12,6 @@
 //! hands out.
 
 mod archive;
-mod cure;
 mod effect;
 mod insertion;
 mod mending;
@@ -27,10 +26,10 @@ mod ways;
 mod within;
 
 pub use archive::{Archive, AxisFinding, MendedEnd};
-pub use cure::{Cure, Mending};
 pub use effect::{FirstMotion, Inherits, ProgramEffect, Site, WhyUnknown};
 pub use insertion::{Insertion, insertions};
 pub use mending::{Affected, CuredMotions, Mended, Missed, WhyMissed, mend};
+pub use mending::{Cure, Mending};
 pub use program::{Auditor, AxisAudit, Ending, ProgramAudit};
 pub use scope::{AuditedKind, Scope, Selected};
 pub use sequence::{Sequence, Step, StepAxis};

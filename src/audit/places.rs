@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::cure::{Cure, Mending};
+use super::mending::{Cure, Mending};
 use super::observation::Observation;
 use super::runs::ProgramRuns;
 use crate::interpreter::EndedBy;

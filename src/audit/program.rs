@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::cure::Cure;
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
+use super::mending::Cure;
 use super::observation::{FoundSide, Observation};
 use super::runs::{ProgramRuns, RunStart};
 use super::scope::{AuditedKind, Scope};

@@ -6,7 +6,6 @@ use super::axis::{AxisIndex, AxisSetup};
 use super::command::{CompCommand, Selection};
 use super::error::CompensationError;
 use super::kind::{Kind, KindSet, Membership};
-use super::state::{Change, State};
 
 /// The compensation of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -325,4 +324,37 @@ pub enum Coupling {
     Perhaps,
     /// It does not.
     None,
+}
+
+crate::words! {
+    /// State of one kind on one axis, as a user sees it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+    pub enum State {
+        /// Selected, configured and parameterised: it works.
+        Active = "active",
+        /// Selected, but no value list was accepted: it does nothing.
+        Ineffective = "ineffective",
+        /// Configured, but not selected.
+        Inactive = "inactive",
+        /// The axis parameter that enables it is 0.
+        Unconfigured = "unconfigured",
+        /// The command that decides it depends on a value that only the machine knows.
+        Unknown = "unknown",
+    }
+}
+
+/// One state that a command changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct Change {
+    /// Position of the axis in the machine.
+    pub axis: AxisIndex,
+    /// Kind of compensation.
+    pub kind: Kind,
+    /// The state before the command.
+    pub from: State,
+    /// The state after it.
+    pub to: State,
 }

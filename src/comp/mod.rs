@@ -11,13 +11,12 @@ mod compensation;
 mod error;
 mod facts;
 mod kind;
-mod state;
 
 pub use axis::{AxisIndex, AxisSetup};
 pub use build::{CncBuild, NoBuild};
 pub use command::{CompCommand, Selection};
+pub use compensation::{Change, State};
 pub use compensation::{Compensation, Coupling};
 pub use error::CompensationError;
 pub use facts::Facts;
 pub use kind::{Kind, KindSet, Membership, UnknownKind};
-pub use state::{Change, State};

@@ -9,7 +9,7 @@ use std::str::FromStr;
 
 use serde::{Serialize, Serializer};
 
-use super::severity::Severity;
+use super::message::Severity;
 
 macro_rules! codes {
     ($($name:ident $text:literal $severity:ident $title:literal;)+) => {

@@ -1,15 +1,15 @@
 //! One statement about a program or a list.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use serde::ser::SerializeStruct;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::advice::{Advice, Wording};
 use super::codes::Code;
 use super::fix::Fix;
 use super::reached::ReachedFrom;
-use super::severity::Severity;
 use crate::text::{Place, Span};
 
 /// A second place that explains the first.
@@ -217,5 +217,65 @@ impl Serialize for Diagnostic {
             object.serialize_field("reached_from_count", &count)?;
         }
         object.end()
+    }
+}
+
+crate::words! {
+    /// Severity of a diagnostic.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+    pub enum Severity {
+        /// For information.
+        Info = "info",
+        /// Likely a mistake, or an effect that outlives the program.
+        Warning = "warning",
+        /// The control stops here, or rejects the list.
+        Error = "error",
+    }
+}
+
+/// Number of messages listed for one file; further ones are counted (R2.85).
+pub const MAX_MESSAGES: usize = 10_000;
+
+/// Messages that are collected before they are reported: a limited number is kept, the rest are counted by code.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct Collected {
+    /// The messages.
+    pub said: Vec<Diagnostic>,
+    /// Number of further messages by code.
+    pub unsaid: BTreeMap<Code, u64>,
+}
+
+impl Collected {
+    /// Takes a message. One more is kept than is reported, for the place from which the rest are only counted.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        if self.said.len() <= MAX_MESSAGES {
+            self.said.push(diagnostic);
+        } else {
+            *self.unsaid.entry(diagnostic.code).or_default() += 1;
+        }
+    }
+
+    /// Takes the messages of another collection.
+    pub fn append(&mut self, other: &Self) {
+        for diagnostic in &other.said {
+            self.push(diagnostic.clone());
+        }
+        for (code, times) in &other.unsaid {
+            *self.unsaid.entry(*code).or_default() += times;
+        }
+    }
+
+    /// Whether there are no messages.
+    pub fn is_empty(&self) -> bool {
+        self.said.is_empty()
+    }
+}
+
+impl Extend<Diagnostic> for Collected {
+    fn extend<T: IntoIterator<Item = Diagnostic>>(&mut self, messages: T) {
+        messages.into_iter().for_each(|message| self.push(message));
     }
 }

@@ -1,9 +1,9 @@
 //! The control's checks of a friction value list (chapter 3.4).
 
 use super::friction::{Field, FrictionDraft};
+use super::friction::{FrictionList, TablePoint};
 use super::parameter::{AxisType, Parameter};
 use super::plausible::doubts;
-use super::table::{FrictionList, TablePoint};
 use super::value::{Given, Number, Written};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Diagnostic, Severity};

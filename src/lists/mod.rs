@@ -19,7 +19,6 @@ mod project;
 mod reference;
 mod single;
 mod startup;
-mod table;
 mod value;
 mod write;
 
@@ -30,6 +29,7 @@ pub use channel_settings::{ChannelDraft, ChannelSettings, ChannelSwitch, FeedUni
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use dynamics::{DynamicsDraft, ListedDynamics};
 pub use entry::Entry;
+pub use friction::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 #[cfg(feature = "unstable")]
 pub use keywords::{KnownKey, known_keys};
@@ -43,6 +43,5 @@ pub(crate) use project::{NoProject, Project, ProjectList, ProjectReference};
 pub use single::{NoValues, ReadList};
 pub(crate) use startup::AxisPlacement;
 pub use startup::{ChannelAxis, ChannelList, NamedList, StartupList};
-pub use table::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 pub use value::{Given, Number, Written};
 pub use write::{ListHead, Points, write_value_list};

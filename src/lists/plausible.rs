@@ -1,8 +1,8 @@
 //! Values that the control accepts although they are implausible (FC139).
 
+use super::friction::TablePoint;
 use super::friction::{Field, FrictionDraft};
 use super::parameter::AxisType;
-use super::table::TablePoint;
 use super::value::Number;
 use crate::diagnostic::{Code, Diagnostic, ReadableNumber, Severity};
 

@@ -6,8 +6,8 @@ use thiserror::Error;
 
 use super::check::{Conditions, Verdict};
 use super::friction::FrictionDraft;
+use super::friction::FrictionList;
 use super::line::Entries;
-use super::table::FrictionList;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::text::SourceFile;
 
@@ -60,7 +60,7 @@ impl FrictionList {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::TablePoint;
+    use super::super::friction::TablePoint;
     use super::super::write::{ListHead, Points, write_value_list};
     use super::*;
 

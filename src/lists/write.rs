@@ -3,7 +3,7 @@
 use std::fmt::{Display, Write as _};
 
 use super::friction::{Field, STRUCTURE};
-use super::table::{FrictionList, TablePoint};
+use super::friction::{FrictionList, TablePoint};
 use crate::comp::CncBuild;
 use crate::text::is_hidden;
 

@@ -1,6 +1,6 @@
 //! Facts about each question: the one table.
 
-use super::alternative::Alternative::{self, First};
+use super::question::Alternative::{self, First};
 use Way::{Note, Program, Recording};
 
 crate::words! {

@@ -1,6 +1,7 @@
-//! The names of the questions.
+//! The questions that the documents leave open: their names, their two readings, and sets of them.
 
-use super::alternative::Alternative;
+use serde::{Deserialize, Serialize};
+
 use super::facts::{FACTS, QuestionFacts};
 
 /// A question that the documents leave open (R15.1).
@@ -124,5 +125,45 @@ impl Question {
     /// Returns the name of a reading.
     pub fn name_of(self, reading: Alternative) -> &'static str {
         self.facts().readings[reading as usize]
+    }
+}
+
+/// One of the two readings of a question, in the order of [`QuestionFacts::readings`](super::QuestionFacts::readings).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Alternative {
+    /// The first reading.
+    First,
+    /// The second reading.
+    Second,
+}
+
+/// A set of questions, such as those on whose answers a result rests (R15.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct QuestionSet(u32);
+
+impl QuestionSet {
+    /// Adds a question.
+    pub fn insert(&mut self, question: Question) {
+        self.0 |= 1 << question as u32;
+    }
+
+    /// Returns whether a question is in the set.
+    pub fn contains(self, question: Question) -> bool {
+        self.0 & 1 << question as u32 != 0
+    }
+
+    /// Returns the questions of either set.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Returns the questions, in the order of their rules.
+    pub fn iter(self) -> impl Iterator<Item = Question> {
+        Question::ALL
+            .into_iter()
+            .filter(move |it| self.contains(*it))
     }
 }

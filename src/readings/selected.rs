@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::alternative::Alternative;
+use super::question::Alternative;
 use super::question::Question;
 use crate::comp::CncBuild;
 

@@ -140,7 +140,7 @@ impl OtherPaths {
     }
 
     /// Leaves programs down to the one that is returned to.
-    fn go_back(&mut self, here: &mut Executor, to: &Destination) {
+    pub(crate) fn go_back(&mut self, here: &mut Executor, to: &Destination) {
         while here
             .state
             .control

@@ -215,13 +215,16 @@ const LONGEST_PERIOD: u64 = 8;
 const MAX_WEIGHT: usize = 10_000;
 
 impl OtherPaths {
-    /// Returns the next step where a block jumps back.
-    pub(crate) fn come_round(
+    /// Returns the next step where a block jumps.
+    pub(crate) fn jump(
         &mut self,
         here: &mut Executor,
         target: EntryIndex,
         finder: &mut dyn Finder,
     ) -> ControlStep {
+        if !here.state.control.frames.is_passed(target) {
+            return ControlStep::Jump(target);
+        }
         let repeats = here.note_pass(target);
         let is_left = self.left_meanwhile(&here.state).next().is_some();
         // The program may wait for what the PLC writes (R2.99).

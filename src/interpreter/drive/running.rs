@@ -15,7 +15,7 @@ use crate::interpreter::executor::{Executor, RunState};
 use crate::interpreter::options::{RunOutcome, StopPolicy};
 use crate::interpreter::programs::calls::Finder;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::stack::{ControlStep, NextBlock, Request};
+use crate::interpreter::stack::{ControlStep, Destination, NextBlock, Request};
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::history::{BlockSite, KindEffect};
 use crate::interpreter::ways::path::{Last, RunTrack};
@@ -390,9 +390,16 @@ impl Interpreter {
             here.step(outcome, calls, at, finder)
         };
         match step {
-            Some(ControlStep::Jump(target)) if here.state.control.frames.is_passed(target) => {
-                Some(self.others.come_round(here, target, finder))
+            // A return to an earlier block repeats what is between them, as a jump does.
+            Some(ControlStep::ReturnTo(Destination {
+                level,
+                entry: Some(target),
+            })) if here.sides.is_empty() => {
+                let entry = None;
+                self.others.go_back(here, &Destination { level, entry });
+                Some(self.others.jump(here, target, finder))
             }
+            Some(ControlStep::Jump(target)) => Some(self.others.jump(here, target, finder)),
             Some(ControlStep::End(EndedBy::Error)) => Some(here.end_by_error(at)),
             step => step,
         }

@@ -141,7 +141,7 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
-const FOLDERS: [(&str, &str, &[&str]); 22] = [
+const FOLDERS: [(&str, &str, &[&str]); 24] = [
     ("interpreter", "", &["motion", "programs", "values", "ways"]),
     (
         "interpreter",
@@ -165,29 +165,38 @@ const FOLDERS: [(&str, &str, &[&str]); 22] = [
     (
         "report",
         "",
-        &["assumptions", "circle", "commission", "text"],
+        &[
+            "assumptions",
+            "circle",
+            "commission",
+            "document",
+            "pictures",
+            "text",
+        ],
     ),
-    ("report", "audit", &["assumptions"]),
-    ("report", "circle", &["assumptions"]),
-    ("report", "commission", &["assumptions"]),
-    ("report", "compare", &["contour"]),
-    ("report", "contour", &["assumptions", "pictures"]),
+    ("report", "audit", &["assumptions", "document"]),
+    ("report", "circle", &["assumptions", "document", "pictures", "svg"]),
+    ("report", "commission", &["assumptions", "document"]),
+    ("report", "compare", &["contour", "document"]),
+    ("report", "contour", &["assumptions", "document", "pictures"]),
+    ("report", "document", &["svg"]),
     (
         "report",
         "html",
         &[
             "assumptions",
             "audit",
-            "circle",
             "commission",
             "compare",
             "contour",
+            "document",
             "pictures",
             "svg",
         ],
     ),
-    ("report", "pictures", &["circle", "commission", "svg"]),
-    ("report", "text", &["assumptions"]),
+    ("report", "messages", &["document"]),
+    ("report", "pictures", &["commission", "svg"]),
+    ("report", "text", &["assumptions", "document"]),
     ("cli", "commission", &["identify"]),
 ];
 

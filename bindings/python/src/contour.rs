@@ -14,7 +14,7 @@ use frictcomp_physics::contour::{ContourLimits, ContourOptions};
 use frictcomp_physics::motion::PlannerOptions;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_report::Detail;
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, contour_remarks, document};
+use frictcomp_report::contour::{ContourRecorder, ContourSubject, contour_remarks, render_json};
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
 use pyo3::prelude::*;
@@ -148,7 +148,7 @@ impl ContourJob {
         let picture = picture.expect("the recorder draws");
         let chart = picture.chart(&subject.heading(&contour));
         Ok(Driven {
-            record: document(&mut contour, &ContourLimits::default()),
+            record: render_json(&mut contour, &ContourLimits::default()),
             svg: chart.render(Frame::Alone),
             remarks: contour_remarks(&contour, Detail::Full),
             said: GivenMessages::of_trace(contour.diagnostics(), &loaded),

@@ -20,7 +20,7 @@ use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::circle::{CircleReport, ListOrigin, render_json};
+use frictcomp_report::circle::{CircleReport, ListOrigin, picture, render_json};
 use frictcomp_report::pictures;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::tune::{TuneReport, render_json as render_tune};
@@ -64,7 +64,7 @@ impl From<&CircleReport> for PyCircle {
     fn from(report: &CircleReport) -> Self {
         Self {
             record: render_json(report),
-            svg: pictures::circle(report).render(Frame::Alone),
+            svg: picture(report).render(Frame::Alone),
         }
     }
 }

@@ -13,7 +13,7 @@ interface Table {
   rows: string[][];
 }
 
-/** A report as `crates/report/src/report_text.rs` writes it. */
+/** A report as `crates/report/src/document/shown.rs` writes it. */
 export interface Report {
   headline: { standing: "good" | "bad" | "open" | "plain"; text: string };
   blocks: ({ line: string } | { table: Table })[];

@@ -7,11 +7,8 @@ use frictcomp_host::{Watch, compare};
 use frictcomp_physics::circle::{Circle, CircularTest, Method};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Preset};
-use frictcomp_report::Detail;
-use frictcomp_report::circle::{CircleReport, ListOrigin, report_text};
-use frictcomp_report::html::render_circle;
-use frictcomp_report::pictures::circle;
-use frictcomp_report::svg::Frame;
+use frictcomp_report::circle::{CircleReport, ListOrigin, document};
+use frictcomp_report::html::render_document;
 use serde::{Deserialize, Serialize};
 
 use crate::drawn_report::DrawnReport;
@@ -32,9 +29,9 @@ pub(crate) struct CircleSettings {
 }
 
 #[derive(Serialize)]
-struct CircleAnswer {
+struct CircleAnswer<'a> {
     #[serde(flatten)]
-    drawn: DrawnReport,
+    drawn: DrawnReport<'a>,
     /// Where the value lists come from.
     lists: String,
 }
@@ -106,10 +103,7 @@ fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
 pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
     let (report, lists) = simulate(dropped, settings)?;
     Ok(json(&CircleAnswer {
-        drawn: DrawnReport {
-            svg: Some(circle(&report).render(Frame::Alone)),
-            report: report_text(&report, Detail::Brief),
-        },
+        drawn: DrawnReport::from(&document(&report)),
         lists,
     }))
 }
@@ -118,6 +112,7 @@ pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result
 pub(crate) fn report(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
     let (report, _) = simulate(dropped, settings)?;
     let mut written = Vec::new();
-    render_circle(&report, &mut written).map_err(|error| Refusal::new(error.to_string()))?;
+    render_document(&document(&report), &mut written)
+        .map_err(|error| Refusal::new(error.to_string()))?;
     Ok(written)
 }

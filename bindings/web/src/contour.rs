@@ -9,7 +9,7 @@ use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_report::Detail;
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, report_text};
+use frictcomp_report::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
@@ -40,9 +40,9 @@ pub(crate) struct ContourSettings {
 }
 
 #[derive(Serialize)]
-struct ContourAnswer {
+struct ContourAnswer<'a> {
     #[serde(flatten)]
-    drawn: DrawnReport,
+    drawn: DrawnReport<'a>,
     /// What stopped the program or the trace, and what the trace simplifies.
     notes: Vec<String>,
 }
@@ -115,10 +115,13 @@ pub(crate) fn answer(
     let has_moved = contour.machine_time_s() > 0.0;
     let picture = contour.sink().take_picture().filter(|_| has_moved);
     let chart = picture.map(|picture| picture.chart(&subject.heading(&contour)));
-    let report = report_text(&mut contour, &subject, Detail::Brief);
+    let document = document(&mut contour, &subject);
     let svg = chart.map(|chart| chart.render(Frame::Alone));
     Ok(json(&ContourAnswer {
-        drawn: DrawnReport { svg, report },
+        drawn: DrawnReport {
+            svg,
+            report: document.shown(Detail::Brief),
+        },
         notes: notes(&contour, has_moved),
     }))
 }

@@ -11,8 +11,6 @@ use frictcomp_recordings::identify::{Predictor, verify_followed};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
 use frictcomp_report::Detail;
 use frictcomp_report::circle::{self, CircleReport};
-use frictcomp_report::pictures;
-use frictcomp_report::svg::Frame;
 use frictcomp_report::trace::{self, TraceReport};
 use frictcomp_report::verify::{self, VerifyReport};
 use serde::{Deserialize, Serialize};
@@ -45,11 +43,11 @@ pub(crate) struct VerifySettings {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct RecordingAnswer<'a> {
-    channels: DrawnReport,
+    channels: DrawnReport<'a>,
     /// The names of the channels.
     names: Vec<&'a str>,
     /// Where two axes circle.
-    circle: Option<DrawnReport>,
+    circle: Option<DrawnReport<'a>>,
     /// Why positions of two axes are no circle.
     no_circle: Option<String>,
 }
@@ -69,10 +67,7 @@ pub(crate) fn answer(
         name: settings.path.clone(),
         recording: &recording,
     };
-    let channels = DrawnReport {
-        svg: Some(pictures::channels(&report).render(Frame::Alone)),
-        report: trace::report_text(&report),
-    };
+    let channels = trace::document(&report);
     let unnamed = <[ChannelSelection; 2]>::default();
     let turns = read_turns(path, &unnamed, settings.radius_mm, &disk);
     let circle = turns.and_then(|circles| {
@@ -91,18 +86,15 @@ pub(crate) fn answer(
         // It has no two axes.
         Err(_) => (None, None),
     };
-    let circle = circle.map(|report| DrawnReport {
-        svg: Some(pictures::circle(&report).render(Frame::Alone)),
-        report: circle::report_text(&report, Detail::Brief),
-    });
+    let circle = circle.as_ref().map(circle::document);
     Ok(json(&RecordingAnswer {
-        channels,
+        channels: DrawnReport::from(&channels),
         names: recording
             .channels()
             .iter()
             .map(|it| it.name.as_str())
             .collect(),
-        circle,
+        circle: circle.as_ref().map(DrawnReport::from),
         no_circle,
     }))
 }
@@ -131,5 +123,5 @@ pub(crate) fn verify(dropped: &mut Dropped, settings: &VerifySettings) -> Result
         recording,
         verified,
     };
-    Ok(json(&verify::report_text(&report, Detail::Brief)))
+    Ok(json(&verify::document(&report).shown(Detail::Brief)))
 }

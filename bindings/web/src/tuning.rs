@@ -7,11 +7,8 @@ use frictcomp_host::{Watch, tune};
 use frictcomp_physics::circle::{Circle, Ranges, Shaping, Task, TuningAim};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_report::Detail;
 use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::pictures::tuning;
-use frictcomp_report::svg::Frame;
-use frictcomp_report::tune::{TuneReport, report_text};
+use frictcomp_report::tune::{TuneReport, document};
 use frictcomp_report::value_lists::render_tuned;
 use serde::{Deserialize, Serialize};
 
@@ -35,9 +32,9 @@ pub(crate) struct TuneSettings {
 }
 
 #[derive(Serialize)]
-struct TuningAnswer {
+struct TuningAnswer<'a> {
     #[serde(flatten)]
-    drawn: DrawnReport,
+    drawn: DrawnReport<'a>,
     /// The value list of the drives.
     list: String,
 }
@@ -48,10 +45,7 @@ pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     // Both drives of an example are equal, and so are their lists.
     let [axis, _] = &report.tuned.axes;
     Ok(json(&TuningAnswer {
-        drawn: DrawnReport {
-            svg: Some(tuning(std::slice::from_ref(&report)).render(Frame::Alone)),
-            report: report_text(&report, Detail::Brief),
-        },
+        drawn: DrawnReport::from(&document(std::slice::from_ref(&report))),
         list: render_tuned(&report, axis, None, &ListHead::default()),
     }))
 }

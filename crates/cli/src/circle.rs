@@ -9,8 +9,9 @@ use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
+use super::html::{HtmlArgs, write_page};
 use super::machine::value_list;
-use super::outputs::{Outputs, write_text};
+use super::outputs::{Outputs, write_picture};
 use super::per_axis::{ByAxis, PerAxis};
 use super::progress;
 use super::quantities;
@@ -21,11 +22,7 @@ use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, compare, find_plant, memory_for_simulation, read_circles};
 use frictcomp_physics::circle::{Circle, CircularTest, CommandedCircle, Method, PathCentre};
-use frictcomp_report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
-use frictcomp_report::fitted;
-use frictcomp_report::html::render_circle;
-use frictcomp_report::pictures::circle;
-use frictcomp_report::svg::Frame;
+use frictcomp_report::circle::{CircleReport, ListOrigin, document, render_csv, render_json};
 
 /// Make a circular test, simulated or recorded
 ///
@@ -69,9 +66,8 @@ pub(super) struct CircleArgs {
     /// Draw the circle with magnified deviation, compensation off and on, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Write an HTML report with the picture and the figures to this file
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    #[command(flatten)]
+    html: HtmlArgs,
 }
 
 /// A format of the result.
@@ -93,7 +89,7 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = outputs.optional("--html", args.html.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     let report = if args.recording.is_empty() {
         args.channels.refuse_without_recording()?;
         let (test, origin) = simulation(args, &registry)?;
@@ -117,17 +113,14 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         )?;
         CircleReport::recorded(recording)
     };
+    let document = document(&report);
     let text = match args.result.format {
-        CircleFormat::Text => fitted(&render_text(&report, console.detail), result.look.width),
+        CircleFormat::Text => document.text(console.detail, result.look.width),
         CircleFormat::Json => render_json(&report),
         CircleFormat::Csv => render_csv(&report),
     };
-    if let Some(mut svg) = svg {
-        write_text(&mut svg, &circle(&report).render(Frame::Alone))?;
-    }
-    if let Some(mut html) = html {
-        render_circle(&report, &mut html).map_err(Failure::output)?;
-    }
+    write_picture(svg, &document)?;
+    write_page(html, &document)?;
     result.text(&text)?;
     outputs.finish()?;
     Ok(exit::CLEAN)

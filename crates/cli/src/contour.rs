@@ -20,10 +20,9 @@ use frictcomp_host::{
 };
 use frictcomp_physics::contour::{ContourLimits, ContourOptions, ProgramContour};
 use frictcomp_report::contour::{
-    ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_text,
+    ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_json,
     summary_record, why_not_judged,
 };
-use frictcomp_report::fitted;
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
@@ -107,8 +106,8 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     };
     pictures.draw(&mut contour, &subject)?;
     let text = match args.result.format {
-        ContourFormat::Text => fitted(&render_text(&mut contour, &subject, console.detail), width),
-        ContourFormat::Json => document(&mut contour, &limits),
+        ContourFormat::Text => document(&mut contour, &subject).text(console.detail, width),
+        ContourFormat::Json => render_json(&mut contour, &limits),
         ContourFormat::Ndjson => {
             let mut record = summary_record(&contour, &limits);
             record["record"] = "summary".into();

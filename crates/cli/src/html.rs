@@ -1,10 +1,39 @@
-//! The HTML report of `run`: the digest of the session, and its sources read once more.
+//! Results as HTML pages: a document, or for `run` the digest of the session, with its sources read once more.
+
+use std::path::PathBuf;
+
+use clap::Args;
 
 use super::failure::Failure;
+use super::outputs::Outputs;
 use frictcomp::comp::KindSet;
 use frictcomp::text::LineSource;
 use frictcomp_host::{LoadedMachine, OutputFile, reopen};
-use frictcomp_report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
+use frictcomp_report::Document;
+use frictcomp_report::html::{
+    GivenForRun, RunDigest, RunInputs, Sources, render_document, render_run,
+};
+
+/// The page of a result.
+#[derive(Debug, Clone, Args)]
+pub(super) struct HtmlArgs {
+    /// Write the result with its pictures as an HTML page to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+}
+
+impl HtmlArgs {
+    /// Returns the file of the page, if there is one.
+    pub(super) fn page(&self, outputs: &mut Outputs) -> Result<Option<OutputFile>, Failure> {
+        outputs.optional("--html", self.html.as_deref())
+    }
+}
+
+/// Writes a document as a page, if a file is given.
+pub(super) fn write_page(file: Option<OutputFile>, document: &Document<'_>) -> Result<(), Failure> {
+    let written = file.map(|mut file| render_document(document, &mut file));
+    written.unwrap_or(Ok(())).map_err(Failure::output)
+}
 
 /// A report that is written at the end of the session.
 pub(super) struct HtmlFile {

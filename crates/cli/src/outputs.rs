@@ -9,6 +9,7 @@ use super::failure::Failure;
 use frictcomp::session::SavedState;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, OutputFile, OutputFiles, Replaces, StateFile};
+use frictcomp_report::Document;
 
 /// The name for standard output.
 const STDOUT: &str = "-";
@@ -142,6 +143,17 @@ impl Outputs {
         let console = self.console;
         let placed = |path: &Path| console.remark(&format!("wrote `{}`", shown_path(path)));
         Ok(self.files.finish(placed)?)
+    }
+}
+
+/// Draws the picture of a document, if a file is given.
+pub(super) fn write_picture(
+    file: Option<OutputFile>,
+    document: &Document<'_>,
+) -> Result<(), Failure> {
+    match (file, document.picture()) {
+        (Some(mut file), Some(picture)) => write_text(&mut file, &picture),
+        _ => Ok(()),
     }
 }
 

@@ -7,12 +7,12 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
+use super::html::{HtmlArgs, write_page};
 use super::outputs::Outputs;
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp_host::FileRegistry;
 use frictcomp_physics::stiction::{Quantity, StictionError, solve};
-use frictcomp_report::fitted;
-use frictcomp_report::stiction::{guideline, render_stiction, stiction_document};
+use frictcomp_report::stiction::{document, guideline, record};
 
 /// Compute stiction compensation of the Heidenhain TNC 407, 415 and 425 (MP1511 to MP1513)
 ///
@@ -60,6 +60,8 @@ pub(super) struct StictionArgs {
     mp1513: Option<f64>,
     #[command(flatten)]
     result: ResultArgs,
+    #[command(flatten)]
+    html: HtmlArgs,
 }
 
 impl StictionArgs {
@@ -104,9 +106,12 @@ pub(super) fn run(args: &StictionArgs, console: Console) -> Result<u8, Failure> 
         .map_err(|error| Failure::new(error.to_string()).with_help(help(&error)))?;
     let mut outputs = Outputs::new(&FileRegistry::default(), console);
     let mut target = outputs.result(args.result.output.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
+    let document = document(&solution);
+    write_page(html, &document)?;
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_stiction(&solution), target.look.width),
-        ResultFormat::Json => format!("{:#}\n", stiction_document(&solution)),
+        ResultFormat::Text => document.text(console.detail, target.look.width),
+        ResultFormat::Json => format!("{:#}\n", record(&solution)),
     })?;
     outputs.finish()?;
     for kept in &solution.guidelines {

@@ -7,15 +7,13 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
-use super::outputs::{Outputs, write_text};
+use super::html::{HtmlArgs, write_page};
+use super::outputs::{Outputs, write_picture};
 use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_trace};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
-use frictcomp_report::html::render_trace;
-use frictcomp_report::pictures::channels;
-use frictcomp_report::svg::Frame;
-use frictcomp_report::trace::{TraceReport, render_json, render_text};
+use frictcomp_report::trace::{TraceReport, document, render_json};
 
 /// List the channels of a recording: rates, lengths, ranges, gaps
 ///
@@ -35,9 +33,8 @@ pub(super) struct TraceArgs {
     /// Draw the channels over time to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Write an HTML report with the channels over time to this file
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    #[command(flatten)]
+    html: HtmlArgs,
 }
 
 /// Runs the command.
@@ -47,7 +44,7 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = outputs.optional("--html", args.html.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     outputs.check()?;
     let selection = ChannelSelection {
         time: args.time.clone(),
@@ -61,14 +58,11 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
         name: shown_path(&args.recording),
         recording: &read,
     };
-    if let Some(mut svg) = svg {
-        write_text(&mut svg, &channels(&report).render(Frame::Alone))?;
-    }
-    if let Some(mut html) = html {
-        render_trace(&report, &mut html).map_err(Failure::output)?;
-    }
+    let document = document(&report);
+    write_picture(svg, &document)?;
+    write_page(html, &document)?;
     result.text(&match args.result.format {
-        ResultFormat::Text => render_text(&report),
+        ResultFormat::Text => document.shown(console.detail).to_string(),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

@@ -9,8 +9,9 @@ use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
+use super::html::{HtmlArgs, write_page};
 use super::machine::MachineArgs;
-use super::outputs::{Outputs, write_text};
+use super::outputs::{Outputs, write_picture, write_text};
 use super::progress;
 use super::quantities;
 use super::readings::CurrentReadingArgs;
@@ -28,11 +29,9 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::simulation::Plant;
 use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::pictures::tuning;
-use frictcomp_report::svg::Frame;
-use frictcomp_report::tune::{TuneReport, render_json, render_text, round};
+use frictcomp_report::tune::{TuneReport, document, render_json, round};
 use frictcomp_report::value_lists::render_tuned;
-use frictcomp_report::{fitted, visible_line};
+use frictcomp_report::visible_line;
 
 /// Largest number of circles tuned at once.
 const MAX_CIRCLES: usize = 32;
@@ -107,6 +106,8 @@ pub(super) struct TuneArgs {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
+    html: HtmlArgs,
+    #[command(flatten)]
     build: CncBuildArgs,
     /// Write the value list of the first plant to this file; if X and Y have different lists, that of X
     #[arg(long, value_name = "FILE")]
@@ -166,6 +167,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         None => Vec::new(),
     };
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     outputs.check()?;
     let model = args.model.model();
     let mut reports = Vec::new();
@@ -216,11 +218,11 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     for report in &reports {
         console.show(&worse_than_off(report));
     }
-    if let Some(mut svg) = svg {
-        write_text(&mut svg, &tuning(&reports).render(Frame::Alone))?;
-    }
+    let document = document(&reports);
+    write_picture(svg, &document)?;
+    write_page(html, &document)?;
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&reports, console.detail), target.look.width),
+        ResultFormat::Text => document.text(console.detail, target.look.width),
         ResultFormat::Json => render_json(&reports),
     })?;
     outputs.finish()?;

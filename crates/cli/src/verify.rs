@@ -9,6 +9,7 @@ use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
+use super::html::{HtmlArgs, write_page};
 use super::machine::value_list;
 use super::outputs::Outputs;
 use super::per_axis::{ByAxis, PerAxis};
@@ -17,8 +18,7 @@ use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{Predictor, verify_followed};
-use frictcomp_report::fitted;
-use frictcomp_report::verify::{VerifyReport, render_json, render_text};
+use frictcomp_report::verify::{VerifyReport, document, render_json};
 
 /// Compare a recorded torque with what a value list predicts
 ///
@@ -45,6 +45,8 @@ pub(super) struct VerifyArgs {
     reading: CurrentReadingArgs,
     #[command(flatten)]
     result: ResultArgs,
+    #[command(flatten)]
+    html: HtmlArgs,
 }
 
 /// Runs the command.
@@ -53,6 +55,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     registry.reads("recording", &args.recording);
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     let axis = args.channels.axis();
     let lists = ByAxis {
         option: "--value-list",
@@ -83,8 +86,10 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     } else {
         exit::FOUND
     };
+    let document = document(&report);
+    write_page(html, &document)?;
     result.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report, console.detail), result.look.width),
+        ResultFormat::Text => document.text(console.detail, result.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

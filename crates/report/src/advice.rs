@@ -1,13 +1,12 @@
 //! Advice to the operator after a session, for every report that gives it.
 
+use crate::document::{Headline, Standing};
 use std::collections::BTreeSet;
 
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Code;
 use frictcomp::interpreter::EndedBy;
 use frictcomp::timeline::AxisSummary;
-
-use super::headline::{Headline, Standing};
 
 /// Returns the consequence of errors for the final states, where `errors` were said and the last
 /// program ended so.

@@ -5,8 +5,7 @@ use std::fmt::{self, Write};
 use serde_json::{Value, json};
 
 use crate::advice::listed;
-use crate::headline::{Headline, Standing};
-use crate::table::Table;
+use crate::document::{Headline, Standing, Table};
 use crate::visible::visible_line;
 use frictcomp::drive_interface::{DriveReport, Presence, Signal};
 

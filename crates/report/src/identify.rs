@@ -4,12 +4,10 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::findings::write_findings;
-use super::headline::{Headline, Standing};
+use super::pictures::{friction_curve, residuals_over_position, segments_on_trace};
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::report_text::ReportText;
-use crate::table::Table;
+use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{
     AxisRecording, BranchPoint, DirectionBranches, Fit, FrictionCurve, Identified, TraceFinding,
@@ -64,6 +62,14 @@ impl IdentifyReport {
         Headline::new(standing, text)
     }
 
+    /// What is shown, and of which axis.
+    pub(crate) fn titled(&self, what: &str) -> String {
+        match &self.axis {
+            Some(axis) => format!("{what} of axis {axis}"),
+            None => what.to_owned(),
+        }
+    }
+
     /// Returns the faults of the recording, one line each for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let faults = self
@@ -83,33 +89,36 @@ impl IdentifyReport {
     }
 }
 
-/// Speeds, curve and points, then the findings.
-pub fn render_text(report: &IdentifyReport) -> String {
-    report_text(report).to_string()
+/// The findings, then speeds, curve and points.
+pub fn document(report: &IdentifyReport) -> Document<'_> {
+    let mut out = Document::new(report.titled("Friction"), report.headline());
+    out.figure(|| friction_curve(report));
+    push_identified(&mut out, report);
+    out.section("Residuals over the position");
+    out.figure(|| residuals_over_position(report));
+    out.section("Segments on the trace");
+    out.figure(|| segments_on_trace(report));
+    out
 }
 
-/// The verdict, then speeds, curve and points.
-pub fn report_text(report: &IdentifyReport) -> ReportText {
-    let mut out = ReportText::new(report.headline());
+/// Appends findings, speeds, curve and points.
+pub(super) fn push_identified(out: &mut Document<'_>, report: &IdentifyReport) {
     let found = &report.identified;
     let track = &report.recording.track;
     let length = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);
     let _ = writeln!(
         out,
-        "{}: {} segments of constant speed in {length:.1} s\n",
+        "{}: {} segments of constant speed in {length:.1} s",
         visible_line(&report.name),
         found.segments.len()
     );
-    if report.findings().next().is_some() {
-        // Faults come before the list (R6.21).
-        let mut said = String::new();
-        write_findings(report.findings(), &mut said);
-        out.push_str(said.trim_start());
-        out.push_str("\n");
-    }
-    push_pairs(&mut out, found);
+    // Faults come before the list (R6.21).
+    out.findings(report.findings());
+    out.section("Speeds");
+    out.push_str("\n");
+    push_pairs(out, found);
     if let Some(branches) = found.branches() {
-        push_branches(&mut out, &branches, report.unit());
+        push_branches(out, &branches, report.unit());
     } else {
         let _ = writeln!(
             out,
@@ -119,7 +128,8 @@ pub fn report_text(report: &IdentifyReport) -> ReportText {
         );
         out.push_str(offset_words(found));
     }
-    push_curve(&mut out, found);
+    push_curve(out, found);
+    out.section("Value list");
     let mut table = Table::of_numbers(["in", "out"]);
     table.row(&[&"µm/s", &report.unit()]);
     for point in &found.points {
@@ -135,10 +145,9 @@ pub fn report_text(report: &IdentifyReport) -> ReportText {
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
     }
-    out
 }
 
-fn push_pairs(out: &mut ReportText, found: &Identified) {
+fn push_pairs(out: &mut Document<'_>, found: &Identified) {
     let mut table = Table::of_numbers(["speed", "friction", "±", "offset", "residual", "visits"]);
     table.row(&[&"mm/s"]);
     for pair in &found.pairs {
@@ -158,7 +167,7 @@ fn push_pairs(out: &mut ReportText, found: &Identified) {
 }
 
 /// Both directions, where an offset does not make them one (R6.25).
-fn push_branches(out: &mut ReportText, branches: &DirectionBranches, unit: &str) {
+fn push_branches(out: &mut Document<'_>, branches: &DirectionBranches, unit: &str) {
     let mut table = Table::of_numbers(["speed", "forth", "back"]);
     table.row(&[&"mm/s", &unit, &unit]);
     for point in &branches.points {
@@ -209,7 +218,7 @@ fn offset_words(found: &Identified) -> &'static str {
     }
 }
 
-fn push_curve(out: &mut ReportText, found: &Identified) {
+fn push_curve(out: &mut Document<'_>, found: &Identified) {
     match &found.curve {
         FrictionCurve::Fit(fit) => {
             let _ = writeln!(

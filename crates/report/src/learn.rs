@@ -6,10 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::assumptions::not_modelled_line;
 use super::commission::ValueListUsed;
-use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::table::Table;
+use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::circle::RoundVerdict;
 
@@ -129,13 +128,13 @@ pub struct LearnReport {
 /// The record as JSON.
 pub fn render_json(report: &LearnReport) -> String {
     #[derive(Serialize)]
-    struct Document<'a> {
+    struct LearnRecord<'a> {
         headline: Headline,
         #[serde(flatten)]
         report: &'a LearnReport,
     }
     let headline = report.headline();
-    to_pretty(&Document { headline, report }) + "\n"
+    to_pretty(&LearnRecord { headline, report }) + "\n"
 }
 
 /// The file of a learning process.
@@ -182,9 +181,9 @@ impl LearnReport {
     }
 }
 
-/// The verdict with the next step, and the rounds, for people.
-pub fn render_text(report: &LearnReport) -> String {
-    let mut out = format!("{}\n", report.headline());
+/// The rounds, and the best lists.
+pub fn document(report: &LearnReport) -> Document<'_> {
+    let mut out = Document::new("Learning from recorded circles", report.headline());
     if !report.feeds.is_empty() {
         let feeds: Vec<String> = report.feeds.iter().map(|it| format!("{it:.0}")).collect();
         let _ = writeln!(
@@ -194,7 +193,7 @@ pub fn render_text(report: &LearnReport) -> String {
             visible_line(&report.plant),
             not_modelled_line(&report.not_modelled)
         );
-        let _ = write!(out, "{}", rounds(report));
+        out.table(rounds(report));
     }
     push_best(&mut out, report);
     out
@@ -236,7 +235,7 @@ fn rounds(report: &LearnReport) -> Table {
 }
 
 /// The best list of each axis, and what the simulation expects of the next ones.
-fn push_best(out: &mut String, report: &LearnReport) {
+fn push_best(out: &mut Document<'_>, report: &LearnReport) {
     for axis in &report.axes {
         if let (Some(number), Some(list)) = (axis.best_round, &axis.list) {
             let _ = writeln!(

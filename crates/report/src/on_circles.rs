@@ -4,12 +4,10 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::findings::write_findings;
 use super::identify::PointRecord;
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::headline::{Headline, Standing};
-use crate::table::Table;
+use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, OnCircles, TraceFinding};
 
@@ -85,9 +83,9 @@ impl OnCirclesReport {
     }
 }
 
-/// The verdict, then the friction at each speed, for people.
-pub fn render_text(report: &OnCirclesReport) -> String {
-    let mut out = format!("{}\n", report.headline());
+/// The friction at each speed.
+pub fn document(report: &OnCirclesReport) -> Document<'_> {
+    let mut out = Document::new("Friction on circles", report.headline());
     let found = &report.found;
     let names: Vec<_> = report.names.iter().map(|name| visible_line(name)).collect();
     let _ = writeln!(out, "circles in {}\n", names.join(", "));
@@ -96,9 +94,10 @@ pub fn render_text(report: &OnCirclesReport) -> String {
     for [speed, friction] in &found.points {
         table.row(&[&format_args!("{speed:.3}"), &Rounded(*friction, 3)]);
     }
+    out.table(table);
     let _ = writeln!(
         out,
-        "{table}\noffset {}, inertia {} per mm/s²",
+        "\noffset {}, inertia {} per mm/s²",
         Rounded(found.offset, 3),
         Rounded(found.inertia, 6)
     );
@@ -110,7 +109,7 @@ pub fn render_text(report: &OnCirclesReport) -> String {
             speeds.join(", ")
         );
     }
-    write_findings(report.findings(), &mut out);
+    out.findings(report.findings());
     out
 }
 

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::identify::{self, IdentifyReport};
+use super::identify::{self, IdentifyReport, push_identified};
+use super::pictures::friction_states;
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::headline::{Headline, Standing};
-use crate::table::Table;
+use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::ComparedStates;
 
@@ -65,11 +65,10 @@ impl StatesReport {
 }
 
 /// The states side by side, then the one that the list is for.
-pub fn render_text(report: &StatesReport) -> String {
-    let mut out = format!(
-        "{}\n\nfriction in each state, with its standard error\n\n",
-        report.headline()
-    );
+pub fn document(report: &StatesReport) -> Document<'_> {
+    let mut out = Document::new("Friction in several states", report.headline());
+    out.figure(|| friction_states(report));
+    out.push_str("\nfriction in each state, with its standard error\n\n");
     let names = report.states.iter().map(|(name, _)| visible_line(name));
     let table = names.fold(Table::of_numbers(["speed"]), Table::right);
     let mut table = table.right("spread");
@@ -89,14 +88,12 @@ pub fn render_text(report: &StatesReport) -> String {
     let offsets = report.states.iter().map(|(_, it)| it.identified.offset);
     cells.extend(offsets.map(|offset| Rounded(offset, 3).to_string()));
     table.cells(cells);
-    let _ = write!(out, "{table}");
-    let _ = writeln!(
-        out,
-        "\nthe list is for `{}`:",
-        visible_line(report.working_name())
-    );
-    if let Some((_, working)) = report.states.get(report.working) {
-        out.push_str(&identify::render_text(working));
+    out.table(table);
+    if let Some((name, working)) = report.states.get(report.working) {
+        let name = visible_line(name);
+        out.section(format!("Identified in the state {name}"));
+        let _ = writeln!(out, "\nthe list is for `{name}`:\n{}", working.headline());
+        push_identified(&mut out, working);
     }
     out
 }

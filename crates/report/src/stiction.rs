@@ -1,11 +1,10 @@
 //! Stiction compensation, `stiction`.
 
+use crate::document::{Document, Headline, Standing, Table};
 use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
-use crate::headline::{Headline, Standing};
-use crate::table::Table;
 use frictcomp_physics::stiction::{FeedEffect, Guideline, Quantity, Solution};
 
 /// Returns the verdict: the computed values, and whether stiction is compensated.
@@ -33,14 +32,16 @@ fn headline(solution: &Solution) -> Headline {
     Headline::new(standing, parts.join("; "))
 }
 
-/// The verdict, then the values as a table, the computed ones with their formula, and remarks on them.
-pub fn render_stiction(solution: &Solution) -> String {
+/// The values as a table, the computed ones with their formula, and remarks on them.
+pub fn document(solution: &Solution) -> Document<'_> {
     let mut values = Table::without_headings(3);
     for solved in &solution.values {
         let (quantity, by) = (solved.quantity, solved.by.unwrap_or_default());
         values.row(&[&quantity.symbol(), &quantity.shown(solved.value), &by]);
     }
-    let mut out = format!("{}\n\n{values}", headline(solution));
+    let mut out = Document::new("Stiction compensation", headline(solution));
+    out.push_str("\n");
+    out.table(values);
     if let Some(clipped) = solution.clipped_to {
         let _ = writeln!(
             out,
@@ -62,7 +63,7 @@ pub fn guideline(guideline: Guideline) -> &'static str {
 }
 
 /// The values as a JSON document.
-pub fn stiction_document(solution: &Solution) -> Value {
+pub fn record(solution: &Solution) -> Value {
     let values = solution.values.iter().map(|solved| {
         let value = json!({
             "value": solved.value,
@@ -84,6 +85,7 @@ pub fn stiction_document(solution: &Solution) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnostics::Detail;
     use frictcomp_physics::stiction::solve;
 
     #[test]
@@ -96,7 +98,7 @@ mod tests {
             (Quantity::DeltaSa, 0.002),
         ];
         let solution = solve(&given.into_iter().collect()).expect("a solution");
-        insta::assert_snapshot!(render_stiction(&solution), @r"
+        insta::assert_snapshot!(document(&solution).shown(Detail::Brief).to_string(), @r"
         F_add = 0.008 m/min; stiction is compensated up to a feed of MP1513, and only with feed precontrol
 
         Δs_a    0.002 mm
@@ -105,10 +107,10 @@ mod tests {
         MP1511  8000 µs
         F_add   0.008 m/min     F_add = Δs_a / t_C · k_v · MP1511
         ");
-        let document = stiction_document(&solution);
-        assert_eq!(document["values"]["f_add"]["unit"], "m/min");
+        let record = record(&solution);
+        assert_eq!(record["values"]["f_add"]["unit"], "m/min");
         assert!(
-            (document["values"]["f_add"]["value"]
+            (record["values"]["f_add"]["value"]
                 .as_f64()
                 .unwrap_or_default()
                 - 0.008)

@@ -4,11 +4,10 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::headline::{Headline, Standing};
+use super::pictures::channels;
 use super::strings::{counted, to_pretty};
 use super::visible::visible_line;
-use crate::report_text::ReportText;
-use crate::table::Table;
+use crate::document::{Document, Headline, Standing, Table};
 use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
 
 /// A trace as read.
@@ -21,6 +20,11 @@ pub struct TraceReport<'a> {
 }
 
 impl TraceReport<'_> {
+    /// The title of its picture and of its page.
+    pub(crate) fn title(&self) -> String {
+        format!("Channels of {}", self.name)
+    }
+
     /// The verdict: the layout and the number of channels, and the first thing that is odd (R18.20).
     pub fn headline(&self) -> Headline {
         let recording = self.recording;
@@ -30,14 +34,11 @@ impl TraceReport<'_> {
     }
 }
 
-/// The channels for people, one per line, then their oddities.
-pub fn render_text(report: &TraceReport<'_>) -> String {
-    report_text(report).to_string()
-}
-
-/// The verdict, the channels as a table, and their oddities.
-pub fn report_text(report: &TraceReport<'_>) -> ReportText {
-    let mut out = ReportText::new(report.headline());
+/// The channels over time, as a table, and their oddities.
+pub fn document<'a>(report: &'a TraceReport<'_>) -> Document<'a> {
+    let mut out = Document::new(report.title(), report.headline());
+    out.figure(|| channels(report));
+    out.section("Channels");
     out.push_str("\n");
     let recording = report.recording;
     let table = Table::of_numbers(["samples", "every ms", "length s", "least", "greatest"]);

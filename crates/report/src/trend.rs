@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::headline::{Headline, Standing};
+use super::pictures::friction_trend;
 use super::strings::{counted, to_pretty};
 use super::visible::visible_line;
-use crate::table::Table;
+use crate::document::{Document, Headline, Standing, Table};
 use frictcomp_recordings::identify::{FrictionChange, FrictionLevels, FrictionParameter};
 
 /// The friction of an axis on some dates.
@@ -83,17 +83,18 @@ impl TrendReport {
     }
 }
 
-/// The verdict, a row for each recording, then the changes, then the files left out.
-pub fn render_text(report: &TrendReport) -> String {
-    let mut out = format!("{}\n\n", report.headline());
+/// A row for each recording, then the changes, then the files left out.
+pub fn document(report: &TrendReport) -> Document<'_> {
     let axis = report
         .axis
         .as_deref()
         .map(|it| format!(" of axis {}", visible_line(it)));
+    let axis = axis.unwrap_or_default();
+    let mut out = Document::new(format!("Friction{axis} over time"), report.headline());
+    out.figure(|| friction_trend(report));
     let _ = writeln!(
         out,
-        "friction{} over {}, in {}, fv per mm/s\n",
-        axis.unwrap_or_default(),
+        "\nfriction{axis} over {}, in {}, fv per mm/s\n",
         counted(report.dates.len(), "recording"),
         visible_line(&report.unit)
     );
@@ -115,7 +116,8 @@ pub fn render_text(report: &TrendReport) -> String {
         cells.push(visible_line(&dated.file).into_owned());
         table.cells(cells);
     }
-    let _ = writeln!(out, "{table}");
+    out.table(table);
+    out.push_str("\n");
     for change in &report.changes {
         let _ = writeln!(
             out,

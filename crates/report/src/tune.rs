@@ -6,12 +6,11 @@ use serde::Serialize;
 
 use super::assumptions::not_modelled_line;
 use super::circle::stiction_line;
-use super::diagnostics::Detail;
-use super::headline::{Headline, Standing};
+use super::pictures::tuning;
 use super::strings::to_pretty;
-use super::visible::visible_line;
-use crate::report_text::ReportText;
-use crate::table::Table;
+use super::visible::{last_part, visible_line};
+use crate::document::{Document, Headline, Standing, Table};
+
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::RemainingGlitch;
 use frictcomp_physics::circle::Robust;
@@ -93,6 +92,11 @@ fn checked(tuned: &Tuned) -> String {
 }
 
 impl TuneReport {
+    /// The verdict with the name of the plant.
+    fn verdict(&self) -> String {
+        format!("plant {}: {}", visible_line(&self.plant), self.headline())
+    }
+
     /// The verdict: the largest glitch that is left, and that without compensation (R18.20).
     pub fn headline(&self) -> Headline {
         let feeds = self.tuned.feeds.iter();
@@ -118,55 +122,70 @@ impl TuneReport {
     }
 }
 
-/// The verdict, the parameters and the glitches before and after, for people.
-pub fn render_text(reports: &[TuneReport], detail: Detail) -> String {
-    let mut out = String::new();
+/// The parameters and the glitches before and after, of each plant.
+pub fn document(reports: &[TuneReport]) -> Document<'_> {
+    let mut out = Document::new(title(reports), headline(reports));
+    out.figure(move || tuning(reports));
     for (at, report) in reports.iter().enumerate() {
+        let of_plant = match reports {
+            [_] => String::new(),
+            _ => format!(" of plant {}", last_part(&report.plant)),
+        };
         if at > 0 {
-            out.push('\n');
+            out.section(format!("Parameters{of_plant}"));
+            let _ = writeln!(out, "\n{}", report.verdict());
         }
-        if reports.len() > 1 {
-            let _ = write!(out, "plant {}: ", visible_line(&report.plant));
-        }
-        let _ = write!(out, "{}", report_text(report, detail));
+        push_tuned(&mut out, report, &of_plant);
     }
     out
 }
 
-/// The verdict, the parameters and the glitches before and after of one plant.
-pub fn report_text(report: &TuneReport, detail: Detail) -> ReportText {
-    let mut out = ReportText::new(report.headline());
-    if detail == Detail::Full {
-        let _ = writeln!(
-            out,
-            "plant {}, friction {}, {} {} tried\nreading: {}",
-            visible_line(&report.plant),
-            report.model,
-            report.tuned.trials,
-            if report.tuned.is_stiction() {
-                "sets of parameters"
-            } else {
-                "lists"
-            },
-            report.reading
-        );
+/// Returns the title of the picture and of the page.
+pub(crate) fn title(reports: &[TuneReport]) -> String {
+    match reports {
+        [one] => format!(
+            "Glitch before and after tuning, plant {}",
+            last_part(&one.plant)
+        ),
+        _ => "Glitch before and after tuning".to_owned(),
     }
+}
+
+/// Returns the verdict on the first plant, with its name if there are several.
+fn headline(reports: &[TuneReport]) -> Headline {
+    match reports {
+        [] => Headline::default(),
+        [one] => one.headline(),
+        [first, ..] => Headline::new(first.headline().standing, first.verdict()),
+    }
+}
+
+fn push_tuned(out: &mut Document<'_>, report: &TuneReport, of_plant: &str) {
     let [x, y] = &report.tuned.axes;
     if x == y {
-        parameters(&mut out, "", x);
+        parameters(out, "", x);
     } else {
-        parameters(&mut out, "X: ", x);
-        parameters(&mut out, "Y: ", y);
+        parameters(out, "X: ", x);
+        parameters(out, "Y: ", y);
     }
-    if detail == Detail::Full {
-        let _ = writeln!(
-            out,
-            "{}; beyond that the glitch is not known\n{}{}",
-            tuned_range(&report.tuned),
-            checked(&report.tuned),
-            not_modelled_line(&report.not_modelled)
-        );
-    }
+    out.folded(format!("Conditions{of_plant}"));
+    let _ = writeln!(
+        out,
+        "plant {}, friction {}, {} {} tried\nreading: {}\n{}; beyond that the glitch is not known\n{}{}",
+        visible_line(&report.plant),
+        report.model,
+        report.tuned.trials,
+        if report.tuned.is_stiction() {
+            "sets of parameters"
+        } else {
+            "lists"
+        },
+        report.reading,
+        tuned_range(&report.tuned),
+        checked(&report.tuned),
+        not_modelled_line(&report.not_modelled)
+    );
+    out.section(format!("Glitches{of_plant}"));
     let headings = [
         "v\u{b2}/R mm/s\u{b2}",
         "feed mm/min",
@@ -195,7 +214,6 @@ pub fn report_text(report: &TuneReport, detail: Detail) -> ReportText {
     }
     out.push_str("\n");
     out.table(table);
-    out
 }
 
 /// A feed or a radius with a decimal, if it has one.
@@ -203,7 +221,7 @@ fn short(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 
-fn parameters(out: &mut ReportText, axis: &str, tuned: &TunedAxis) {
+fn parameters(out: &mut Document<'_>, axis: &str, tuned: &TunedAxis) {
     let line = match &tuned.compensation {
         Some(Method::Current(list)) => list_line(list, tuned),
         Some(Method::Stiction(stiction)) => stiction_line(stiction),

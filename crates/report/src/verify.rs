@@ -4,13 +4,9 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::diagnostics::Detail;
-use super::findings::write_findings;
-use super::headline::{Headline, Standing};
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::report_text::ReportText;
-use crate::table::Table;
+use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::{AxisRecording, CONTACT_MM, Timing, TraceFinding, Verified};
 
@@ -57,14 +53,10 @@ impl VerifyReport {
 }
 
 /// The verdict, then the figures that it is based on.
-pub fn render_text(report: &VerifyReport, detail: Detail) -> String {
-    report_text(report, detail).to_string()
-}
-
-/// The verdict, then the figures that it is based on.
-pub fn report_text(report: &VerifyReport, detail: Detail) -> ReportText {
+pub fn document(report: &VerifyReport) -> Document<'_> {
     let verified = &report.verified;
-    let mut out = ReportText::new(report.headline());
+    let title = format!("{} against {}", report.list, report.trace);
+    let mut out = Document::new(title, report.headline());
     for gap in &verified.not_judged {
         let _ = writeln!(
             out,
@@ -84,6 +76,7 @@ pub fn report_text(report: &VerifyReport, detail: Detail) -> ReportText {
             &Rounded(range.scale, 3),
         ]);
     }
+    out.section("Speeds");
     out.push_str("\n");
     out.table(table);
     let _ = writeln!(
@@ -94,7 +87,8 @@ pub fn report_text(report: &VerifyReport, detail: Detail) -> ReportText {
         Rounded(verified.inertia, 6),
         verified.residual
     );
-    if detail == Detail::Full && verified.is_away_from_reversals && !verified.reversals.is_empty() {
+    if verified.is_away_from_reversals && !verified.reversals.is_empty() {
+        out.folded("Conditions");
         let _ = writeln!(
             out,
             "the scales are those of the motion from {CONTACT_MM} mm after each reversal on: nearer, the contact still \
@@ -111,6 +105,7 @@ pub fn report_text(report: &VerifyReport, detail: Detail) -> ReportText {
                 &Rounded(turn.predicted, 3),
             ]);
         }
+        out.section("Reversals");
         out.push_str("\n");
         out.table(table);
         let more = verified.reversals.len().saturating_sub(SHOWN);
@@ -118,10 +113,11 @@ pub fn report_text(report: &VerifyReport, detail: Detail) -> ReportText {
             let _ = writeln!(out, "and {more} more");
         }
     }
+    out.section("What to look at");
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
     }
-    write_findings(&report.recording.findings, &mut out);
+    out.findings(&report.recording.findings);
     out
 }
 

@@ -9,17 +9,15 @@ use crate::console::Console;
 use crate::cycle::CycleArgs;
 use crate::exit;
 use crate::failure::Failure;
+use crate::html::{HtmlArgs, write_page};
 use crate::identify::refusal;
-use crate::outputs::{Outputs, write_text};
+use crate::outputs::{Outputs, write_picture};
 use crate::recorded_files::{copies_among, recordings_in};
 use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
-use frictcomp_report::fitted;
-use frictcomp_report::pictures::friction_trend;
-use frictcomp_report::svg::Frame;
-use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_text};
+use frictcomp_report::trend::{DatedFriction, TrendReport, document, render_json};
 
 /// Follow the friction of an axis over the dates of its recordings
 ///
@@ -42,6 +40,8 @@ pub(crate) struct TrendArgs {
     /// Draw the parameters over the dates to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    #[command(flatten)]
+    html: HtmlArgs,
 }
 
 /// Runs the command.
@@ -53,6 +53,7 @@ pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     let mut target = outputs.result(args.result.output.as_deref())?;
     outputs.check()?;
     let mut report = TrendReport {
@@ -102,11 +103,11 @@ pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     }
     let levels: Vec<FrictionLevels> = report.dates.iter().map(|it| it.levels).collect();
     report.changes = friction_changes(&levels);
-    if let Some(mut svg) = svg {
-        write_text(&mut svg, &friction_trend(&report).render(Frame::Alone))?;
-    }
+    let document = document(&report);
+    write_picture(svg, &document)?;
+    write_page(html, &document)?;
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
+        ResultFormat::Text => document.text(console.detail, target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

@@ -8,6 +8,7 @@ use crate::channels::{AxisChannelArgs, TorqueArgs};
 use crate::cnc_build::CncBuildArgs;
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
+use crate::html::HtmlArgs;
 use crate::quantities;
 use crate::result::ResultArgs;
 use frictcomp::text::shown_path;
@@ -29,13 +30,13 @@ pub(crate) struct IdentifyArgs {
     #[arg(value_name = "RECORDING", required = true)]
     pub(super) recordings: Vec<PathBuf>,
     /// The recordings are of several states of the axis, each named: `warm=FILE cold=FILE`
-    #[arg(long, conflicts_with_all = ["circles", "html"])]
+    #[arg(long, conflicts_with = "circles")]
     pub(super) states: bool,
     /// The state in which the machine works and for which the list is made; by default `warm`
     #[arg(long, value_name = "STATE", requires = "states")]
     pub(super) working: Option<String>,
     /// The recordings are circles, at two or more feeds, instead of constant speeds
-    #[arg(long, conflicts_with_all = ["points", "max_error", "svg", "html"])]
+    #[arg(long, conflicts_with_all = ["points", "max_error", "svg"])]
     pub(super) circles: bool,
     #[command(flatten)]
     pub(super) channels: AxisChannelArgs,
@@ -65,9 +66,8 @@ pub(crate) struct IdentifyArgs {
     /// Draw speeds, curve and residuals to this SVG file
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    pub(super) html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) html: HtmlArgs,
     /// Write the value list to this file
     #[arg(long, value_name = "FILE")]
     pub(super) write_list: Option<PathBuf>,

@@ -10,7 +10,8 @@ pub(crate) use args::{IdentifyArgs, refusal};
 use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
-use crate::outputs::{Outputs, write_text};
+use crate::html::write_page;
+use crate::outputs::{Outputs, write_picture, write_text};
 use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
@@ -19,12 +20,8 @@ use frictcomp_recordings::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, Measured, RequestedPoints, Track,
     identify_measured_circles,
 };
-use frictcomp_report::fitted;
-use frictcomp_report::html::render_identification;
-use frictcomp_report::identify::{render_json, render_text};
+use frictcomp_report::identify::{document, render_json};
 use frictcomp_report::on_circles::{self, OnCirclesReport};
-use frictcomp_report::pictures::friction_curve;
-use frictcomp_report::svg::Frame;
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 
 /// Runs the command.
@@ -44,7 +41,7 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         .map(|path| outputs.list("--write-list", path))
         .transpose()?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = outputs.optional("--html", args.html.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     outputs.check()?;
     let read = |path: &PathBuf| {
         let cycle = args.cycle.seconds()?;
@@ -63,8 +60,10 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
             .map(read)
             .collect::<Result<Vec<_>, _>>()?;
         let report = circles(args, recordings, list)?;
+        let document = on_circles::document(&report);
+        write_page(html, &document)?;
         target.text(&match args.result.format {
-            ResultFormat::Text => fitted(&on_circles::render_text(&report), target.look.width),
+            ResultFormat::Text => document.text(console.detail, target.look.width),
             ResultFormat::Json => on_circles::render_json(&report),
         })?;
         outputs.finish()?;
@@ -80,14 +79,11 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     if let Some(mut list) = list {
         write_text(&mut list, &args.list_of(&report, &[]))?;
     }
-    if let Some(mut svg) = svg {
-        write_text(&mut svg, &friction_curve(&report).render(Frame::Alone))?;
-    }
-    if let Some(mut html) = html {
-        render_identification(&report, &mut html).map_err(Failure::output)?;
-    }
+    let document = document(&report);
+    write_picture(svg, &document)?;
+    write_page(html, &document)?;
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
+        ResultFormat::Text => document.text(console.detail, target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

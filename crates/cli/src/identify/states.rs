@@ -6,16 +6,14 @@ use super::args::IdentifyArgs;
 use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
-use crate::outputs::{Outputs, write_text};
+use crate::html::write_page;
+use crate::outputs::{Outputs, write_picture, write_text};
 use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
-use frictcomp_report::fitted;
-use frictcomp_report::pictures::friction_states;
-use frictcomp_report::states::{StatesReport, render_json, render_text};
-use frictcomp_report::svg::Frame;
+use frictcomp_report::states::{StatesReport, document, render_json};
 use frictcomp_report::visible_line;
 
 /// The state for which the list is made, unless another one is named.
@@ -42,6 +40,7 @@ pub(super) fn run(
         .map(|path| outputs.list("--write-list", path))
         .transpose()?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     outputs.check()?;
     let paths: Vec<PathBuf> = recordings.iter().map(|it| it.1.clone()).collect();
     refuse_copies(&paths)?;
@@ -68,11 +67,11 @@ pub(super) fn run(
     if let (Some(mut list), Some((_, state))) = (list, report.states.get(working)) {
         write_text(&mut list, &args.list_of(state, &[report.spread()]))?;
     }
-    if let Some(mut svg) = svg {
-        write_text(&mut svg, &friction_states(&report).render(Frame::Alone))?;
-    }
+    let document = document(&report);
+    write_picture(svg, &document)?;
+    write_page(html, &document)?;
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
+        ResultFormat::Text => document.text(console.detail, target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

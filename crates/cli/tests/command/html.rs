@@ -425,7 +425,7 @@ fn a_circular_test_has_a_report() {
     );
     let report = bench.read("report.html");
     assert_sound(&report);
-    assert!(part(&report, "picture").contains("deviation magnified"));
+    assert!(part(&report, "result").contains("deviation magnified"));
     let figures = part(&report, "figures");
     let text = String::from_utf8_lossy(&output.stdout);
     let zone = text

@@ -9,7 +9,7 @@ use gen_lsp_types::{
     TextEdit, WorkspaceEdit,
 };
 
-use super::documents::{Document, Documents, Kind};
+use super::documents::{Documents, Kind, OpenDocument};
 use super::view::RequestView;
 use frictcomp::diagnostic::{Code, Diagnostic, Fix, Safety, edits};
 use frictcomp::session::allow_here;
@@ -55,7 +55,7 @@ fn touches(one: Range, other: Range) -> bool {
 }
 
 /// Returns the messages of all checks on a document, each once.
-fn messages<'a>(view: &'a RequestView, document: &Document) -> Vec<&'a Diagnostic> {
+fn messages<'a>(view: &'a RequestView, document: &OpenDocument) -> Vec<&'a Diagnostic> {
     let mut known = BTreeSet::new();
     let analyses = view.analyses_of(document).into_iter();
     let said = analyses.flat_map(|(_, analysis)| &analysis.said);
@@ -70,7 +70,7 @@ fn messages<'a>(view: &'a RequestView, document: &Document) -> Vec<&'a Diagnosti
 /// The fixes of a message, and the comment that silences it.
 fn quick_fixes(
     view: &RequestView,
-    document: &Document,
+    document: &OpenDocument,
     (said, message): (&Diagnostic, &Message),
 ) -> Vec<CodeAction> {
     let mut actions = Vec::new();
@@ -106,7 +106,7 @@ fn quick_fixes(
 }
 
 /// Returns the effect of a fix in words.
-fn title(document: &Document, fix: &Fix) -> String {
+fn title(document: &OpenDocument, fix: &Fix) -> String {
     let old = short(fix.place.span.of(&fix.place.text));
     let new = short(&fix.text);
     let what = match (old.as_str(), new.as_str(), &fix.also) {
@@ -137,7 +137,7 @@ fn short(text: &str) -> String {
 }
 
 /// All changes of a text that are safe to make without a review.
-fn fix_all(view: &RequestView, document: &Document) -> Option<CodeAction> {
+fn fix_all(view: &RequestView, document: &OpenDocument) -> Option<CodeAction> {
     let fixes = safe_fixes(view, document);
     if fixes.is_empty() {
         return None;
@@ -152,7 +152,7 @@ fn fix_all(view: &RequestView, document: &Document) -> Option<CodeAction> {
 
 /// The first safe change of each message about a text. A comment that silences nothing in one run may
 /// be needed in another: it goes only if no run needs it (R9.82).
-fn safe_fixes(view: &RequestView, document: &Document) -> Vec<Fix> {
+fn safe_fixes(view: &RequestView, document: &OpenDocument) -> Vec<Fix> {
     let name = shown_path(&document.path);
     let mut proposed: HashMap<&Fix, (Code, usize)> = HashMap::new();
     let mut runs = 0;

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::documents::{Document, Kind};
+use super::documents::{Kind, OpenDocument};
 use super::settings::MAX_BLOCKS;
 use super::states::StateBook;
 use super::wording::editor;
@@ -23,7 +23,7 @@ use frictcomp_host::{
 /// A text to check, with all other texts, as of the moment of the request.
 pub(super) struct AnalysisJob {
     /// The text that was checked.
-    pub(super) document: Arc<Document>,
+    pub(super) document: Arc<OpenDocument>,
     /// The disk with all open texts.
     pub(super) disk: Disk,
     /// The executed blocks that are checked.

@@ -12,7 +12,7 @@ use gen_lsp_types::{
 };
 use serde_json::{Value, json};
 
-use super::documents::{Document, Kind};
+use super::documents::{Kind, OpenDocument};
 use super::encoding::whole_line;
 use super::navigation::called_at;
 use super::uri::path_of;
@@ -164,7 +164,7 @@ fn symbol(
 
 /// The lens that names the number of programs from which a program is reached; its text is made when the
 /// client asks for it, since the calls of the project may have to be found first.
-pub(super) fn lens(view: &RequestView, document: &Document) -> Option<CodeLens> {
+pub(super) fn lens(view: &RequestView, document: &OpenDocument) -> Option<CodeLens> {
     view.calls.are_known().then(|| CodeLens {
         range: whole_line(0),
         command: None,

@@ -9,7 +9,7 @@ use gen_lsp_types::{
     MarkupContent, MarkupKind, Position, Range, TextEdit,
 };
 
-use super::documents::{Document, Kind as TextKind};
+use super::documents::{Kind as TextKind, OpenDocument};
 use super::parameters::{Page, keys_of, pages_for};
 use super::view::RequestView;
 use frictcomp::comp::Kind;
@@ -154,7 +154,7 @@ fn keyword(word: &str, about: &str) -> CompletionItem {
 
 /// The axes of the machine whose names complete the typed letters, where a word of a block may begin. A
 /// word with a digit is an address with its value: `X1` moves X, even if there is an axis X10.
-fn axes<'t>(view: &RequestView, document: &Document, before: &'t str) -> Option<Offer<'t>> {
+fn axes<'t>(view: &RequestView, document: &OpenDocument, before: &'t str) -> Option<Offer<'t>> {
     let run = view.analysis(&document.uri)?.run.as_ref()?;
     let (above, typed) = split_word(before);
     let begins_a_word = above.is_empty() || above.ends_with([' ', '\t']);
@@ -191,7 +191,7 @@ fn calls(above: &str) -> bool {
 }
 
 /// The parameters that a line of a list may give.
-fn list_keys<'t>(document: &Document, before: &'t str) -> Option<Offer<'t>> {
+fn list_keys<'t>(document: &OpenDocument, before: &'t str) -> Option<Offer<'t>> {
     let typed = before.trim_start();
     if typed.contains([' ', '\t', '(', '#']) {
         return None;
@@ -204,7 +204,7 @@ fn list_keys<'t>(document: &Document, before: &'t str) -> Option<Offer<'t>> {
 }
 
 /// The keys of the table of `frictcomp.toml` that a line belongs to.
-fn toml_keys<'t>(document: &Document, line: u32, before: &'t str) -> Option<Offer<'t>> {
+fn toml_keys<'t>(document: &OpenDocument, line: u32, before: &'t str) -> Option<Offer<'t>> {
     let (above, typed) = split_word(before);
     if !above.trim().is_empty() {
         return None;
@@ -215,7 +215,7 @@ fn toml_keys<'t>(document: &Document, line: u32, before: &'t str) -> Option<Offe
 }
 
 /// Returns the header of the table that a line of a `frictcomp.toml` belongs to; empty above the first one.
-pub(super) fn toml_header(document: &Document, line: u32) -> &str {
+pub(super) fn toml_header(document: &OpenDocument, line: u32) -> &str {
     let above = (0..line).rev().map(|line| document.line(line).trim());
     let mut headers = above.filter(|line| line.starts_with('['));
     let header = headers.next().unwrap_or_default();

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::analysis::options;
-use super::documents::{Document, Documents};
+use super::documents::{Documents, OpenDocument};
 use super::refusal::Refusal;
 use super::settings::ContourSettings;
 use super::view::RequestView;
@@ -24,7 +24,7 @@ use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::{FrictionModel, Preset};
 use frictcomp_report::Detail;
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, report_text};
+use frictcomp_report::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp_report::pictures::{ContourPicture, FollowedContour};
 use frictcomp_report::svg::Frame;
 
@@ -110,11 +110,11 @@ impl Watcher for Asker {
 /// Drives an open program with its text in the editor.
 pub(super) fn contour(view: &RequestView, params: &ContourParams) -> Result<Contour, Refusal> {
     let uri = &params.text_document.uri;
-    let document = view
+    let open = view
         .document(uri)
         .ok_or_else(|| Refusal::Params(format!("`{}` is not open", uri.0)))?;
     let disk = view.documents.disk();
-    let input = Input::Open(document.open_text());
+    let input = Input::Open(open.open_text());
     let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
@@ -123,19 +123,19 @@ pub(super) fn contour(view: &RequestView, params: &ContourParams) -> Result<Cont
     let setup = setup(view, &loaded)?;
     let mut driven = drive_contour(&input, &loaded, &setup, recorder)?;
     let subject = ContourSubject {
-        program: name(document),
+        program: name(open),
         plant: settings.plant.clone(),
     };
     let remarks = remarks(&driven, &loaded, settings);
     let has_moved = driven.machine_time_s() > 0.0;
     let heading = subject.heading(&driven);
     let picture = driven.sink().take_picture().filter(|_| has_moved);
-    let report = json!(report_text(&mut driven, &subject, Detail::Full));
+    let report = json!(document(&mut driven, &subject).shown(Detail::Full));
     let shown = picture.map(|picture| picture.followed(&heading));
     Ok(Contour::of(view, shown, (report, remarks)))
 }
 
-fn name(document: &Document) -> String {
+fn name(document: &OpenDocument) -> String {
     let name = document.path.file_name();
     name.unwrap_or_default().to_string_lossy().into_owned()
 }

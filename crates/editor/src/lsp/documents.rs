@@ -26,7 +26,7 @@ pub(super) enum Kind {
 
 /// A text that the client has open.
 #[derive(Debug, Clone)]
-pub(super) struct Document {
+pub(super) struct OpenDocument {
     /// Its URI, as the client writes it.
     pub(super) uri: Uri,
     /// The file that it replaces; for a text without one, a name in the folder of the project.
@@ -41,7 +41,7 @@ pub(super) struct Document {
     place: PathBuf,
 }
 
-impl Document {
+impl OpenDocument {
     fn new(opened: TextDocumentItem, folder: &Path, languages: &[String]) -> Self {
         let uri = opened.uri;
         let path = path_of(&uri.0).unwrap_or_else(|| folder.join(file_name(&uri.0)));
@@ -133,7 +133,7 @@ impl Document {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Documents {
     /// The texts by their URIs.
-    open: SharedMap<String, Arc<Document>>,
+    open: SharedMap<String, Arc<OpenDocument>>,
     /// The URIs of the texts of a file; there is hardly ever more than one.
     names: SharedMap<PathBuf, BTreeSet<String>>,
     /// Contents of the texts, by the paths of their files.
@@ -152,8 +152,12 @@ impl Documents {
     }
 
     /// Opens a text, in place of one of the same URI; texts of these languages are programs, too.
-    pub(super) fn open(&mut self, opened: TextDocumentItem, languages: &[String]) -> Arc<Document> {
-        let document = Arc::new(Document::new(opened, &self.folder, languages));
+    pub(super) fn open(
+        &mut self,
+        opened: TextDocumentItem,
+        languages: &[String],
+    ) -> Arc<OpenDocument> {
+        let document = Arc::new(OpenDocument::new(opened, &self.folder, languages));
         let uri = document.uri.0.clone();
         self.close(&document.uri);
         let mut names = self.names.remove(&document.path).unwrap_or_default();
@@ -171,7 +175,7 @@ impl Documents {
         (uri, version): (&Uri, i32),
         changes: Vec<TextDocumentContentChangeEvent>,
         encoding: Encoding,
-    ) -> Option<Arc<Document>> {
+    ) -> Option<Arc<OpenDocument>> {
         let document = self.open.get_mut(&uri.0)?;
         // The document alone holds the text while it changes, so that it need not be copied.
         self.texts.remove(&document.place);
@@ -185,7 +189,7 @@ impl Documents {
     }
 
     /// Closes a text; `None` if it is not open.
-    pub(super) fn close(&mut self, uri: &Uri) -> Option<Arc<Document>> {
+    pub(super) fn close(&mut self, uri: &Uri) -> Option<Arc<OpenDocument>> {
         let closed = self.open.remove(&uri.0)?;
         self.texts.remove(&closed.place);
         let mut names = self.names.remove(&closed.path).unwrap_or_default();
@@ -199,12 +203,12 @@ impl Documents {
     }
 
     /// An open text.
-    pub(super) fn get(&self, uri: &Uri) -> Option<&Arc<Document>> {
+    pub(super) fn get(&self, uri: &Uri) -> Option<&Arc<OpenDocument>> {
         self.open.get(&uri.0)
     }
 
     /// All open texts.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Arc<Document>> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Arc<OpenDocument>> {
         self.open.iter().map(|(_, document)| document)
     }
 
@@ -290,14 +294,14 @@ mod tests {
 
     use super::*;
 
-    fn opened(uri: &str, language: &'static str, text: &str) -> Document {
+    fn opened(uri: &str, language: &'static str, text: &str) -> OpenDocument {
         let item = TextDocumentItem {
             uri: uri.into(),
             language_id: LanguageKind::new(language),
             version: 1,
             text: text.to_owned(),
         };
-        Document::new(item, Path::new("/project"), &["gcode".to_owned()])
+        OpenDocument::new(item, Path::new("/project"), &["gcode".to_owned()])
     }
 
     #[test]

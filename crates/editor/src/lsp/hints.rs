@@ -3,7 +3,7 @@
 use gen_lsp_types::{InlayHint, InlayHintParams, Position};
 
 use super::analysis::ProgramRun;
-use super::documents::{Document, Kind};
+use super::documents::{Kind, OpenDocument};
 use super::states::Pass;
 use super::view::RequestView;
 use frictcomp::text::shown_path;
@@ -35,7 +35,7 @@ pub(super) fn inlay_hints(view: &RequestView, params: &InlayHintParams) -> Optio
 }
 
 /// A hint at the end of the last line of a block.
-fn hint(view: &RequestView, document: &Document, line: u32, label: &str) -> InlayHint {
+fn hint(view: &RequestView, document: &OpenDocument, line: u32, label: &str) -> InlayHint {
     let mut last = line.saturating_sub(1);
     while document.line(last).trim_end().ends_with('\\') {
         last += 1;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind, Position};
 
 use super::completion::{about, toml_header};
-use super::documents::{Document, Kind};
+use super::documents::{Kind, OpenDocument};
 use super::markdown::{code, plain};
 use super::moving::{AxisMoves, moves};
 use super::parameters::{page_of, page_of_toml};
@@ -42,7 +42,7 @@ pub(super) fn hover(view: &RequestView, params: &HoverParams) -> Option<Hover> {
 }
 
 /// The states at a block, its COMP commands and its motion.
-fn program(view: &RequestView, document: &Document, position: Position) -> Option<String> {
+fn program(view: &RequestView, document: &OpenDocument, position: Position) -> Option<String> {
     let line = RequestView::block_at(document, position);
     let mut text = String::new();
     for (main, run, name) in view.runs(document) {

@@ -6,7 +6,7 @@ use serde_json::json;
 use super::analysis::limits;
 use super::calls;
 use super::commands::SHOW_TIMELINE;
-use super::documents::{Document, Kind};
+use super::documents::{Kind, OpenDocument};
 use super::encoding::whole_line;
 use super::hints::left;
 use super::view::RequestView;
@@ -52,7 +52,7 @@ pub(super) fn code_lenses(view: &RequestView, params: &CodeLensParams) -> Option
 
 /// The axes that a program moves in a state that it inherits (R10.1); `None` if that cannot be
 /// determined.
-fn inherited(view: &RequestView, document: &Document) -> Option<String> {
+fn inherited(view: &RequestView, document: &OpenDocument) -> Option<String> {
     let disk = view.documents.disk();
     let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);

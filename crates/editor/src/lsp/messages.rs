@@ -11,7 +11,7 @@ use gen_lsp_types::{
 
 use super::analysis::Analysis;
 use super::client::LspClient;
-use super::documents::{Document, Documents};
+use super::documents::{Documents, OpenDocument};
 use super::encoding::whole_line;
 use super::pages::page_uri;
 use frictcomp::diagnostic::{Advice, Code, Diagnostic, Severity};
@@ -47,7 +47,7 @@ pub(super) struct Translator<'a> {
 
 impl Translator<'_> {
     /// Returns the messages of a check, on the text itself and on others.
-    pub(super) fn messages(self, document: &Document, analysis: &Analysis) -> ByText {
+    pub(super) fn messages(self, document: &OpenDocument, analysis: &Analysis) -> ByText {
         let mut messages = ByText::new();
         let own = messages.entry(document.uri.0.clone()).or_default();
         own.extend(self.failure(analysis));

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
 use super::analysis::options;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use super::view::RequestView;
 use frictcomp::interpreter::{CircularArc, Motion, Motions, PathForm, SAME_PLACE, Travel};
 use frictcomp::text::shown_path;
@@ -31,7 +31,7 @@ pub(super) struct AxisMoves {
 
 /// Returns the motion of the axes in the block that starts on a line, from 1; for this the program runs
 /// once more.
-pub(super) fn moves(view: &RequestView, document: &Document, line: u32) -> Vec<AxisMoves> {
+pub(super) fn moves(view: &RequestView, document: &OpenDocument, line: u32) -> Vec<AxisMoves> {
     let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
     let unheard = FileRegistry::default();

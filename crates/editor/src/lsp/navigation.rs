@@ -9,7 +9,7 @@ use gen_lsp_types::{
 };
 
 use super::actions::as_edit;
-use super::documents::{Document, Kind};
+use super::documents::{Kind, OpenDocument};
 use super::outline::{Mention, Name, NameRole, ProgramOutline, definitions};
 use super::refusal::Refusal;
 use super::settings::Settings;
@@ -21,7 +21,7 @@ fn outlined<'a>(
     view: &'a RequestView,
     text: &TextDocumentIdentifier,
     is_wanted: fn(&Settings) -> bool,
-) -> Option<(&'a Document, ProgramOutline)> {
+) -> Option<(&'a OpenDocument, ProgramOutline)> {
     let document = view.document(&text.uri)?;
     let is_wanted = document.kind == Kind::Program && is_wanted(&view.client.settings);
     is_wanted.then(|| (document, ProgramOutline::of(document.text())))
@@ -32,18 +32,18 @@ fn at<'a>(
     view: &'a RequestView,
     place: &TextDocumentPositionParams,
     is_wanted: fn(&Settings) -> bool,
-) -> Option<(&'a Document, ProgramOutline, Mention)> {
+) -> Option<(&'a OpenDocument, ProgramOutline, Mention)> {
     let (document, outline) = outlined(view, &place.text_document, is_wanted)?;
     let offset = document.offset(place.position, view.client.encoding);
     let mention = outline.at(offset)?.clone();
     Some((document, outline, mention))
 }
 
-fn range(view: &RequestView, document: &Document, mention: &Mention) -> Range {
+fn range(view: &RequestView, document: &OpenDocument, mention: &Mention) -> Range {
     document.range(mention.span, view.client.encoding)
 }
 
-fn location(view: &RequestView, document: &Document, mention: &Mention) -> Location {
+fn location(view: &RequestView, document: &OpenDocument, mention: &Mention) -> Location {
     Location {
         uri: document.uri.clone(),
         range: range(view, document, mention),
@@ -83,7 +83,7 @@ pub(super) fn symbols(
 }
 
 /// The lines that a name covers: a subprogram up to the next one, a label with its block.
-fn whole(document: &Document, outline: &ProgramOutline, mention: &Mention) -> Option<Range> {
+fn whole(document: &OpenDocument, outline: &ProgramOutline, mention: &Mention) -> Option<Range> {
     let line_of = |mention: &Mention| {
         let before = document.text().get(..mention.span.start as usize)?;
         u32::try_from(before.matches('\n').count()).ok()
@@ -137,7 +137,7 @@ pub(super) fn called_at(view: &RequestView, place: &TextDocumentPositionParams) 
 
 /// The file of a called program: next to the caller, otherwise the one that the check of the caller
 /// read, wherever the configuration says that programs are.
-fn called(view: &RequestView, document: &Document, name: &str) -> Option<PathBuf> {
+fn called(view: &RequestView, document: &OpenDocument, name: &str) -> Option<PathBuf> {
     let name = name.replace('\\', "/");
     let beside = document.path.parent()?.join(&name);
     if beside.is_file() {

@@ -27,7 +27,7 @@ use super::capabilities::offer;
 use super::checks::{Checks, Outdated};
 use super::client::{LspClient, project};
 use super::delivery::{CheckedFor, Delivery};
-use super::documents::{Document, Documents, Kind, is_of_a_user};
+use super::documents::{Documents, Kind, OpenDocument, is_of_a_user};
 use super::lanes::{Lanes, RoutedRequest};
 use super::log::log;
 use super::messages::{ByText, Translator};
@@ -465,14 +465,14 @@ impl<'c> LspServer<'c> {
     // Checks.
 
     /// Schedules another check of a text, if it is one that is checked.
-    fn expect_check(&mut self, document: &Document, why: Outdated) {
+    fn expect_check(&mut self, document: &OpenDocument, why: Outdated) {
         if document.kind != Kind::Other {
             self.checks.expect(&document.uri.0, why);
         }
     }
 
     /// Schedules another check of the texts whose checks read a text, or may look for it.
-    fn expect_users(&mut self, document: &Document) {
+    fn expect_users(&mut self, document: &OpenDocument) {
         let edited = EditedText::from(document);
         for uri in self.users.concerned(&edited) {
             self.checks.expect(&uri, Outdated::ByOthers);

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::analysis::Analysis;
-use super::documents::{Document, Kind};
+use super::documents::{Kind, OpenDocument};
 
 /// The URIs of texts.
 type Uris = BTreeSet<String>;
@@ -29,8 +29,8 @@ pub(super) struct EditedText {
     kind: Kind,
 }
 
-impl From<&Document> for EditedText {
-    fn from(document: &Document) -> Self {
+impl From<&OpenDocument> for EditedText {
+    fn from(document: &OpenDocument) -> Self {
         Self {
             uri: document.uri.0.clone(),
             path: document.path.clone(),
@@ -47,7 +47,7 @@ struct Noted {
 
 impl Users {
     /// Replaces the files that the check of a text read and looked for.
-    pub(super) fn note(&mut self, document: &Document, analysis: &Analysis) {
+    pub(super) fn note(&mut self, document: &OpenDocument, analysis: &Analysis) {
         let uri = &document.uri.0;
         self.forget(uri);
         let files = analysis.reads.clone();

@@ -7,7 +7,7 @@ use gen_lsp_types::{Position, Uri};
 
 use super::analysis::{Analysis, ProgramRun};
 use super::client::LspClient;
-use super::documents::{Document, Documents};
+use super::documents::{Documents, OpenDocument};
 use super::messages::{MessagesByUri, Translator};
 use super::project_calls::ProjectCalls;
 use super::worker::Cancel;
@@ -46,13 +46,13 @@ impl RequestView {
     }
 
     /// An open text.
-    pub(super) fn document(&self, uri: &Uri) -> Option<&Document> {
+    pub(super) fn document(&self, uri: &Uri) -> Option<&OpenDocument> {
         self.documents.get(uri).map(AsRef::as_ref)
     }
 
     /// Returns the results of the checks of a text, and of others that use it, in the order of
     /// their URIs.
-    pub(super) fn analyses_of(&self, document: &Document) -> Vec<(&str, &Analysis)> {
+    pub(super) fn analyses_of(&self, document: &OpenDocument) -> Vec<(&str, &Analysis)> {
         let analyses = self.analyses.iter();
         let analyses = analyses.map(|(uri, analysis)| (uri.as_str(), analysis.as_ref()));
         let mut using: Vec<_> = analyses
@@ -64,7 +64,10 @@ impl RequestView {
 
     /// The runs that executed a file, each with the name of the file there: the run of the file itself
     /// first, then those of programs that call it.
-    pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &ProgramRun, String)> {
+    pub(super) fn runs(
+        &self,
+        document: &OpenDocument,
+    ) -> Vec<(&OpenDocument, &ProgramRun, String)> {
         let name = shown_path(&document.path);
         let mut runs = Vec::new();
         for (uri, analysis) in self.analyses_of(document) {
@@ -82,7 +85,7 @@ impl RequestView {
     }
 
     /// The line, from 1, of the block at a position.
-    pub(super) fn block_at(document: &Document, position: Position) -> u32 {
+    pub(super) fn block_at(document: &OpenDocument, position: Position) -> u32 {
         document.block_line(position.line).saturating_add(1)
     }
 }

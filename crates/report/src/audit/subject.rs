@@ -1,6 +1,6 @@
 //! The subject of the report: archives by machine, and the words for effects of programs.
 
-use crate::headline::{Headline, Standing};
+use crate::document::{Headline, Standing};
 use crate::strings::counted;
 use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
 use frictcomp::comp::Kind;

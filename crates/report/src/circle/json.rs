@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::super::assumptions::not_modelled;
-use super::super::headline::Headline;
 use super::super::strings::to_pretty;
 use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast, round};
+use crate::document::Headline;
 use frictcomp_physics::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, Glitch, Method, PathCentre, PathFigures,
     Recording, WorseTurn,

@@ -1,12 +1,14 @@
-//! The result of a circular test as text, JSON and CSV.
+//! The result of a circular test as a document, JSON and CSV.
 
 mod csv;
+mod document;
 mod json;
+mod picture;
 mod subject;
-mod text;
 
 pub use csv::render_csv;
+pub(super) use document::stiction_line;
+pub use document::{document, words};
 pub use json::render_json;
+pub use picture::picture;
 pub use subject::{CircleReport, ListOrigin, NamedSide, Subject};
-pub(super) use text::{advice_lines, conditions, stiction_line, table};
-pub use text::{render_text, report_text, words};

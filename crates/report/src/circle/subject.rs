@@ -1,9 +1,8 @@
 //! The subject of the report on a circular test.
 
+use super::document::{advice_lines, no_glitches};
+use crate::document::{Headline, Standing};
 use serde::Serialize;
-
-use super::text::{advice_lines, no_glitches};
-use crate::headline::{Headline, Standing};
 
 use frictcomp_physics::circle::{
     Circle, CircularTest, Comparison, Diagnosis, RecordedCircle, Recording, Side, diagnose,

@@ -8,7 +8,7 @@ use frictcomp_recordings::commission::{ComparedGlitch, PlantAxis, PlantFound, Tu
 use serde::Serialize;
 
 use crate::assumptions::not_modelled_line;
-use crate::table::Table;
+use crate::document::Table;
 use crate::visible::visible_line;
 
 /// The plants of all rounds.

@@ -7,9 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::plants::{PlantVerdict, Plants, push_plants};
 use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
-use crate::headline::{Headline, Standing};
+use crate::document::{Headline, Standing, Table};
 use crate::strings::{counted, to_pretty};
-use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{

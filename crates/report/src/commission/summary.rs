@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 use super::words::{number, told};
+use crate::document::Table;
 use crate::strings::to_pretty;
-use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp_recordings::commission::{MeasuringProgram, Plan, Stage};
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::contour::places::{ProgramBlock, record};
-use crate::table::Table;
+use crate::document::Table;
 use crate::visible::visible_line;
 use frictcomp_physics::compare::{BlockChange, ContourAgreement, ContourComparison, Which};
 

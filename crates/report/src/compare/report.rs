@@ -6,7 +6,7 @@ use serde::Serialize;
 use unicode_width::UnicodeWidthStr;
 
 use super::contour::{ContourRecord, ContoursReport, push_contours};
-use crate::headline::{Headline, Standing};
+use crate::document::{Headline, Standing};
 use crate::strings::{counted, to_pretty};
 use crate::visible::visible_line;
 use frictcomp::comp::{Kind, State};

@@ -3,16 +3,16 @@
 mod agreed;
 mod document;
 mod golden;
+mod json;
 pub(crate) mod places;
 mod recorder;
 mod records;
 mod remarks;
-mod text;
 
 pub use agreed::AgreedContour;
-pub use document::{document, summary_record};
+pub use document::{ContourSubject, document, headline};
 pub use golden::{GoldenContour, agreed_contour};
+pub use json::{render_json, summary_record};
 pub use recorder::ContourRecorder;
 pub use records::{CSV_HEADER, csv_row, reversal_record};
 pub use remarks::{contour_remarks, exceeded, why_not_judged};
-pub use text::{ContourSubject, headline, render_text, report_text};

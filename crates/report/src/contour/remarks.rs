@@ -15,16 +15,18 @@ use frictcomp_physics::motion::{Departure, Transitions};
 /// plant: one line each (R11.23, R11.25).
 pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>, detail: Detail) -> Vec<String> {
     let mut lines: Vec<String> = feed(contour).into_iter().collect();
-    let assumed = detail.full(assumed_limits(contour.assumed_limits()));
-    let assumed = assumed.into_iter().flatten();
-    let rests_on = detail.full(rests_on_text(contour.rests_on())).flatten();
     lines.extend(transitions(&contour.transitions()));
-    lines.extend(assumed);
     let options = contour.options();
     let axes = options.axes.iter();
     lines.extend(axes.filter_map(|axis| misfit(axis, options)));
-    lines.extend(rests_on);
+    lines.extend(detail.full(conditions(contour)).into_iter().flatten());
     lines
+}
+
+/// The assumed limits, and the readings on which the figures rest: one line each.
+pub(super) fn conditions<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
+    let assumed = assumed_limits(contour.assumed_limits()).into_iter();
+    assumed.chain(rests_on_text(contour.rests_on())).collect()
 }
 
 /// "feed: 2000 mm/min programmed, 105 mm/min reached; 98 % of the cutting time is below 80 % of F"

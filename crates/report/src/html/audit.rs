@@ -10,7 +10,7 @@ use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, with_cod
 use super::source::Sources;
 use crate::assumptions::rests_on_text;
 use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
-use crate::headline::Headline;
+use crate::document::Headline;
 use crate::strings::counted;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
 

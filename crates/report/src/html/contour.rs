@@ -5,24 +5,21 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, prose};
+use super::document::render_with;
+use super::page::PagePart;
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable};
 use super::reversed::ReversedFiles;
 use super::source::Sources;
-use crate::contour::{ContourRecorder, ContourSubject, headline, report_text};
-use crate::diagnostics::Detail;
+use crate::contour::{ContourRecorder, ContourSubject, document};
 use crate::pictures::ContourPicture;
-use crate::svg::Frame;
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{ContourReversal, ProgramContour};
 
-const PICTURE: PagePart = PagePart::new("picture", "Path and deviation");
-const FIGURES: PagePart = PagePart::new("figures", "Figures");
-const REVERSALS: PagePart = PagePart::new("reversals", "Reversals by line");
-const SOURCE: PagePart = PagePart::new("source", "Source with its reversals");
+const LINES: PagePart<'_> = PagePart::new("lines", "Reversals by line");
+const SOURCE: PagePart<'_> = PagePart::new("source", "Source with its reversals");
 
 /// Lines with a separate row, those with the worst reversals first.
-const LINES: usize = 500;
+const MAX_LINES: usize = 500;
 
 /// Writes the report of a contour as one page: each mark of the picture leads to its line, and each
 /// line shows its reversals.
@@ -35,24 +32,24 @@ pub fn render_contour(
     sources: &mut dyn Sources,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let headline = headline(contour);
-    let figures = prose(&report_text(contour, subject, Detail::Full));
+    let told = document(contour, subject);
     let name = subject.heading(contour);
     let is_whole = contour.is_whole();
     let reversals = contour.sink().reversals();
     let files = ReversedFiles::of(reversals);
-    let chart = picture.linked_chart(&name, |file, line| files.link(file, line));
-    let parts = [PICTURE, FIGURES, REVERSALS, SOURCE];
-    let mut page = Page::open(out, &chart.title, &headline, &parts)?;
-    page.part(PICTURE, &figure(chart.render(Frame::Inside("contour"))))?;
-    page.part(FIGURES, &figures)?;
-    page.part(REVERSALS, &table(reversals, &files))?;
-    page.long_part(SOURCE, |page| match (reversals, is_whole) {
-        ([], true) => page.push(&html! { p { "No axis reverses." } }),
-        ([], false) => page.push(&html! { p { "No axis reverses in what was driven." } }),
-        _ => files.render(page, sources),
-    })?;
-    page.close()
+    let mut document = told;
+    document.leading_figure(|| {
+        let picture = picture.clone();
+        picture.linked_chart(&name, |file, line| files.link(file, line))
+    });
+    render_with(&document, &[LINES, SOURCE], out, |page| {
+        page.part(LINES, &table(reversals, &files))?;
+        page.long_part(SOURCE, |page| match (reversals, is_whole) {
+            ([], true) => page.push(&html! { p { "No axis reverses." } }),
+            ([], false) => page.push(&html! { p { "No axis reverses in what was driven." } }),
+            _ => files.render(page, sources),
+        })
+    })
 }
 
 /// The reversals of each line, the lines with the worst first.
@@ -68,7 +65,7 @@ fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
     };
     let mut lines: Vec<_> = lines.into_iter().collect();
     lines.sort_by(|one, other| worst(&other.1).total_cmp(&worst(&one.1)));
-    let shown = lines.len().min(LINES);
+    let shown = lines.len().min(MAX_LINES);
     let rows = lines[..shown].iter().map(|((file, line, axis), all)| {
         let off = all.iter().filter(|it| it.state != State::Active).count();
         let most = |of: fn(&ContourReversal) -> f64| {

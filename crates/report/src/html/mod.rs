@@ -7,13 +7,12 @@
 
 mod assumptions;
 mod audit;
-mod circle;
 mod commission;
 mod compare;
 mod contour;
 mod digest;
+mod document;
 mod given;
-mod identify;
 mod machine;
 mod messages;
 mod page;
@@ -27,13 +26,12 @@ mod track;
 mod ways;
 
 pub use audit::render_audit;
-pub use circle::render_circle;
 pub use commission::{Acceptance, render_acceptance};
 pub use compare::render_versions;
 pub use contour::render_contour;
 pub use digest::RunDigest;
+pub use document::render_document;
 pub use given::{GivenForRun, RunInputs};
-pub use identify::{render_identification, render_trace};
 pub use replay::{ReplayReport, ReplayReportAxis, render_replay};
 pub use run::render_run;
 pub use source::Sources;

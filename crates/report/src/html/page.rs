@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use maud::{Markup, PreEscaped, html};
 
 use super::parts::with_code;
-use crate::headline::Headline;
+use crate::document::Headline;
 use crate::svg;
 use crate::visible::visible;
 
@@ -36,13 +36,13 @@ pub(super) struct Page<'a> {
 
 /// A part of the page that the navigation leads to.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PagePart {
-    id: &'static str,
-    pub(super) title: &'static str,
+pub(super) struct PagePart<'a> {
+    id: &'a str,
+    pub(super) title: &'a str,
 }
 
-impl PagePart {
-    pub(super) const fn new(id: &'static str, title: &'static str) -> Self {
+impl<'a> PagePart<'a> {
+    pub(super) const fn new(id: &'a str, title: &'a str) -> Self {
         Self { id, title }
     }
 }
@@ -53,7 +53,7 @@ impl<'a> Page<'a> {
         out: &'a mut dyn Write,
         title: &str,
         headline: &Headline,
-        parts: &[PagePart],
+        parts: &[PagePart<'_>],
     ) -> io::Result<Self> {
         let mut page = Self {
             out,
@@ -71,9 +71,11 @@ impl<'a> Page<'a> {
                 h1 { (title) }
                 p class={ "lead " (headline.standing.as_str()) } { (with_code(&headline.sentence())) }
                 nav aria-label="Parts of the report" {
-                    ul {
-                        @for part in parts {
-                            li { a href={ "#" (part.id) } { (part.title) } }
+                    @if !parts.is_empty() {
+                        ul {
+                            @for part in parts {
+                                li { a href={ "#" (part.id) } { (part.title) } }
+                            }
                         }
                     }
                 }
@@ -94,14 +96,14 @@ impl<'a> Page<'a> {
     }
 
     /// Writes a part whose content is made at once.
-    pub(super) fn part(&mut self, part: PagePart, content: &Markup) -> io::Result<()> {
+    pub(super) fn part(&mut self, part: PagePart<'_>, content: &Markup) -> io::Result<()> {
         self.long_part(part, |page| page.push(content))
     }
 
     /// Writes a part whose content comes piece by piece.
     pub(super) fn long_part(
         &mut self,
-        part: PagePart,
+        part: PagePart<'_>,
         content: impl FnOnce(&mut Self) -> io::Result<()>,
     ) -> io::Result<()> {
         let PagePart { id, title } = part;

@@ -2,7 +2,6 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::report_text::{CaptionedTable, ReportBlock, ReportText};
 use crate::svg::StartUpRelation;
 use frictcomp::comp::State;
 
@@ -88,7 +87,7 @@ impl HtmlTable<'_> {
                     tbody {
                         @for row in rows {
                             tr {
-                                th scope="row" { (row.heading) }
+                                th class=[self.columns[0].class()] scope="row" { (row.heading) }
                                 @for (cell, column) in row.cells.iter().zip(&self.columns[1..]) {
                                     td class=[column.class()] { (cell) }
                                 }
@@ -121,42 +120,6 @@ pub(super) fn with_code(text: &str) -> Markup {
             @if at % 2 == 0 { (piece) } @else { code { (piece) } }
         }
     }
-}
-
-/// Renders what follows the verdict of a report: lines as paragraphs, and tables.
-pub(super) fn prose(text: &ReportText) -> Markup {
-    html! {
-        @for block in text.blocks() {
-            @match block {
-                ReportBlock::Line(line) => p { (with_code(line.trim())) },
-                ReportBlock::Table(captioned) => (text_table(captioned)),
-            }
-        }
-    }
-}
-
-/// Renders a table of a report; empty rows only part others in a terminal.
-pub(super) fn text_table(CaptionedTable { caption, table }: CaptionedTable<'_>) -> Markup {
-    let columns: Vec<ColumnHeading<'_>> = table
-        .headings()
-        .map(|(name, is_number)| {
-            if is_number {
-                ColumnHeading::Number(name)
-            } else {
-                ColumnHeading::Text(name)
-            }
-        })
-        .collect();
-    let first = table.headings().next().map_or("", |(name, _)| name);
-    let shown = HtmlTable {
-        caption: caption.map_or(Caption::Heard(first), Caption::Shown),
-        columns: &columns,
-    };
-    let rows = table.rows().iter().filter(|row| !row.is_empty());
-    shown.render(rows.map(|row| {
-        let cells: Vec<Markup> = row[1..].iter().map(|cell| with_code(cell)).collect();
-        HtmlRow::new(&row[0], cells)
-    }))
 }
 
 /// Renders a number of times, unless it is one.

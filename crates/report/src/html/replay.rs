@@ -6,7 +6,7 @@ use maud::{Markup, html};
 
 use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
-use crate::headline::Headline;
+use crate::document::Headline;
 use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, Frame, StartUpRelation};
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Rounded;

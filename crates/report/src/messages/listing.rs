@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 use crate::diagnostics::Look;
-use crate::headline::Headline;
+use crate::document::Headline;
 use crate::output::Output;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::timeline::ReadingsInForce;

@@ -7,7 +7,7 @@ use serde_json::Value;
 use frictcomp::diagnostic::Diagnostic;
 
 use super::tally::Tally;
-use crate::headline::Headline;
+use crate::document::Headline;
 
 /// Writer of messages: a beginning, a part for each message, an end.
 pub(super) trait MessageFormat: fmt::Debug {

@@ -5,7 +5,7 @@ use frictcomp::timeline::{DiagnosticRecord, ReadingsInForce};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::headline::Headline;
+use crate::document::Headline;
 use crate::json;
 use crate::strings::append_json;
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::timeline::ReadingsInForce;
 
-use crate::headline::{Headline, Standing};
+use crate::document::{Headline, Standing};
 use crate::strings::counted;
 
 /// Result of one program, the worst first.

@@ -39,7 +39,7 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     let points = points.map(|point| [point.input / 1000.0, point.output]);
     let listed = points.filter(|point| point[0] >= slowest);
     LineChart {
-        title: title(report, "Friction"),
+        title: report.titled("Friction"),
         description: format!(
             "Friction in {unit} at {} speeds from {slowest:.3} to {fastest:.3} mm/s with standard errors, the \
              curve through them and the {} points of the value list; below, how far the speeds are from \
@@ -92,7 +92,7 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     let pieces = Piece::of_way(&report.identified.residuals);
     let over = |value: fn(&Piece) -> f64| pieces.iter().map(|it| [it.place, value(it)]).collect();
     LineChart {
-        title: title(report, "Residual torque over the position"),
+        title: report.titled("Residual torque over the position"),
         description: format!(
             "How far the torque is from the mean of its segment, in {unit}, over the position: what \
              repeats here is not friction."
@@ -197,7 +197,7 @@ pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
         ..Panel::default()
     };
     LineChart {
-        title: title(report, "Segments of constant speed"),
+        title: report.titled("Segments of constant speed"),
         description: format!(
             "The recording over time, and the {} segments of constant speed that are used.",
             report.identified.segments.len()
@@ -208,13 +208,6 @@ pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
             panel(format!("torque in {}", report.unit()), &track.torques, 1.0),
         ],
         ..LineChart::default()
-    }
-}
-
-fn title(report: &IdentifyReport, what: &str) -> String {
-    match &report.axis {
-        Some(axis) => format!("{what} of axis {axis}"),
-        None => what.to_owned(),
     }
 }
 

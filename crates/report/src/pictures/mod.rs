@@ -1,6 +1,5 @@
 //! The results of the tool as charts.
 
-mod circle;
 mod commission;
 mod contour;
 mod current;
@@ -11,7 +10,6 @@ mod trace;
 mod tuning;
 mod units;
 
-pub use circle::circle;
 pub use commission::{friction_of_axis, glitches_by_feed};
 pub use contour::{BlockStretch, ContourPicture, FollowedContour, WorstReversal};
 pub use current::{AxisPlot, AxisSample, CurrentPlot};

@@ -49,7 +49,7 @@ pub fn channels(report: &TraceReport<'_>) -> LineChart {
         more => format!(" {more} more are not drawn."),
     };
     LineChart {
-        title: format!("Channels of {}", report.name),
+        title: report.title(),
         description: format!("{} recorded channels over time.{more}", panels.len()),
         x: ChartAxis::linear(if is_timed { "time in s" } else { "row" }),
         panels,

@@ -1,7 +1,7 @@
 //! The gain from tuning, over the acceleration at a reversal.
 
 use crate::svg::{ChartAxis, CurveLooks, Drawn, LineChart, Panel, Series};
-use crate::tune::TuneReport;
+use crate::tune::{TuneReport, title};
 use crate::visible::last_part;
 use frictcomp_physics::circle::FeedResult;
 
@@ -10,13 +10,7 @@ use frictcomp_physics::circle::FeedResult;
 pub fn tuning(reports: &[TuneReport]) -> LineChart {
     let told: Vec<String> = reports.iter().map(describe).collect();
     LineChart {
-        title: match reports {
-            [one] => format!(
-                "Glitch before and after tuning, plant {}",
-                last_part(&one.plant)
-            ),
-            _ => "Glitch before and after tuning".to_owned(),
-        },
+        title: title(reports),
         description: format!(
             "The largest glitch without and with compensation, in \u{b5}m at accelerations v\u{b2}/R \
              in mm/s\u{b2}. {}",

@@ -7,6 +7,7 @@ use clap::Args;
 use crate::channels::CircleChannelArgs;
 use crate::cnc_build::CncBuildArgs;
 use crate::cycle::CycleArgs;
+use crate::html::HtmlArgs;
 use crate::per_axis::PerAxis;
 use crate::readings::CurrentReadingArgs;
 use crate::result::ResultArgs;
@@ -53,6 +54,8 @@ pub(crate) struct LearnArgs {
     pub(super) write_list: Vec<PerAxis>,
     #[command(flatten)]
     pub(super) result: ResultArgs,
+    #[command(flatten)]
+    pub(super) html: HtmlArgs,
 }
 
 impl LearnArgs {

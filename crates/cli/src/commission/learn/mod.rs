@@ -10,6 +10,7 @@ use std::path::Path;
 use crate::console::Console;
 use crate::exit;
 use crate::failure::{Failure, shown};
+use crate::html::write_page;
 use crate::outputs::{Outputs, write_text};
 use crate::per_axis::ByAxis;
 use crate::progress;
@@ -19,9 +20,8 @@ use frictcomp_host::{FileRegistry, find_plant, learn, memory_for_simulation, rea
 use frictcomp_physics::circle::{LearningProgress, PlaneAxis};
 use frictcomp_physics::simulation::Plant;
 use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::fitted;
 use frictcomp_report::learn::{
-    LearnReport, LearnedAxis, NextStep, Prediction, render_file, render_json, render_text,
+    LearnReport, LearnedAxis, NextStep, Prediction, document, render_file, render_json,
 };
 use frictcomp_report::tune::round;
 use frictcomp_report::value_lists::{LearnedFrom, render_learned};
@@ -36,6 +36,7 @@ pub(super) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
     let plant = find_plant(&args.plant, &registry)?;
     let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.result.output.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     let opened = LearningFolder::open(&args.folder, &registry)?;
     let is_new = opened.is_none();
     let mut folder = match opened {
@@ -59,8 +60,10 @@ pub(super) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
     write_best(args, &folder, (&learned, &mut outputs))?;
     outputs.check()?;
     let report = report(&plant, &folder, &learned, is_over);
+    let document = document(&report);
+    write_page(html, &document)?;
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
+        ResultFormat::Text => document.text(console.detail, target.look.width),
         ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;

@@ -1,14 +1,14 @@
-//! The circular test for people.
-
-use std::fmt::Write as _;
+//! The circular test as a document.
 
 use super::super::assumptions::{not_modelled, not_modelled_line};
-use super::super::diagnostics::Detail;
-use super::super::report_text::ReportText;
 use super::super::stiction::guideline;
-use super::super::table::Table;
+use super::picture::{picture, title};
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
+use crate::document::{Document, Table};
+use crate::pictures::value_curve;
 use frictcomp::diagnostic::{ReadableNumber, Rounded};
+use frictcomp::lists::{AxisType, FrictionList};
+use frictcomp::machine::AcceptedList;
 use frictcomp_physics::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, DiagnosisGrounds, Direction, Figures, Finding,
     FoundAt, LeftOut, Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
@@ -16,35 +16,55 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::stiction::StictionParameters;
 
-/// The report for people: the verdict, then the figures.
-pub fn render_text(report: &CircleReport, detail: Detail) -> String {
-    report_text(report, detail).to_string()
-}
-
-/// The verdict, then the figures and what the shapes suggest.
-pub fn report_text(report: &CircleReport, detail: Detail) -> ReportText {
-    let mut out = ReportText::new(report.headline());
-    let shown = match &report.subject {
-        Subject::Recorded(recording) => recorded_conditions(recording),
+/// The figures, what the shapes suggest, and the conditions.
+pub fn document(report: &CircleReport) -> Document<'_> {
+    let mut out = Document::new(title(report), report.headline());
+    out.figure(|| picture(report));
+    match &report.subject {
+        Subject::Recorded(recording) => out.lines(recorded_conditions(recording)),
         Subject::Simulated {
             saturated_cycles, ..
-        } => saturation(*saturated_cycles).into_iter().collect(),
-    };
-    for line in detail.full(conditions(report)).unwrap_or(shown) {
-        let _ = writeln!(out, "{line}");
+        } => out.lines(saturation(*saturated_cycles)),
     }
+    out.folded("Conditions");
+    out.lines(conditions(report));
+    out.section("Figures");
     out.push_str("\n");
     out.table(table(report));
+    out.section("What the shapes suggest");
     for side in &report.sides {
         let lines = advice_lines(report, side);
         if !lines.is_empty() {
-            let _ = writeln!(out);
+            out.push_str("\n");
         }
-        for line in lines {
-            let _ = writeln!(out, "{line}");
-        }
+        out.lines(lines);
+    }
+    out.section("Value lists");
+    for list in lists(report) {
+        out.figure(move || value_curve(&list));
     }
     out
+}
+
+/// The value lists of the axes, one if both have the same.
+fn lists(report: &CircleReport) -> Vec<AcceptedList> {
+    let Subject::Simulated { test, .. } = &report.subject else {
+        return Vec::new();
+    };
+    let accepted = |axis: &str, list: &FrictionList| AcceptedList {
+        axis: axis.to_owned(),
+        axis_type: AxisType::Linear,
+        list: list.clone(),
+    };
+    let lists = test.compensation.each_ref();
+    let [Some(x), Some(y)] = lists.map(|it| it.as_ref().and_then(Method::list)) else {
+        return Vec::new();
+    };
+    if x == y {
+        vec![accepted("X and Y", x)]
+    } else {
+        vec![accepted("X", x), accepted("Y", y)]
+    }
 }
 
 /// Decimals of a simulated figure in µm (R18.26), and of a recorded one.
@@ -59,7 +79,7 @@ struct FigureRow {
 }
 
 /// The figures of ISO 230-4, then the glitches, in µm.
-pub(crate) fn table(report: &CircleReport) -> Table {
+fn table(report: &CircleReport) -> Table {
     let columns = columns(report);
     let mut table = columns
         .iter()
@@ -109,14 +129,10 @@ fn columns(report: &CircleReport) -> Vec<PathColumn<'_>> {
 }
 
 /// The conditions of the test, one line each (R5.21).
-pub(crate) fn conditions(report: &CircleReport) -> Vec<String> {
+fn conditions(report: &CircleReport) -> Vec<String> {
     let mut lines = match &report.subject {
-        Subject::Simulated {
-            test,
-            origin,
-            saturated_cycles,
-        } => simulated_conditions(test, origin, *saturated_cycles),
-        Subject::Recorded(recording) => recorded_conditions(recording),
+        Subject::Simulated { test, origin, .. } => simulated_conditions(test, origin),
+        Subject::Recorded(_) => Vec::new(),
     };
     lines.extend(bidirectional_condition(report));
     lines.extend(window_condition(report));
@@ -163,7 +179,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
 }
 
 /// Why the report has no glitches, and what would give some (R5.22).
-pub(crate) fn no_glitches(report: &CircleReport) -> Option<String> {
+pub(super) fn no_glitches(report: &CircleReport) -> Option<String> {
     let limit = report.too_fast()?;
     let radius = limit.radius_mm.map_or(String::new(), |radius| {
         format!(" or a radius of {} mm and more", ReadableNumber(radius))
@@ -182,7 +198,7 @@ fn saturation(cycles: u64) -> Option<String> {
     })
 }
 
-fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64) -> Vec<String> {
+fn simulated_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String> {
     let circle = &test.circle;
     let mut lines = vec![
         format!(
@@ -207,7 +223,6 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
     lines.push(format!(
         "centre: the commanded one for F and D; {TREATMENT}"
     ));
-    lines.extend(saturation(saturated));
     lines.push(not_modelled_line(&not_modelled([
         &test.plant.x,
         &test.plant.y,
@@ -437,7 +452,7 @@ impl FigureRow {
 }
 
 /// Returns the suggested causes: the same finding at several crossings is reported once.
-pub(crate) fn advice_lines(report: &CircleReport, side: &NamedSide) -> Vec<String> {
+pub(super) fn advice_lines(report: &CircleReport, side: &NamedSide) -> Vec<String> {
     let words = match &report.subject {
         Subject::Simulated { test, .. } if test.is_stiction() => words_of_stiction,
         _ => words,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::circle::{CircleReport, Subject};
+use super::{CircleReport, Subject};
 use crate::svg::PolarStroke;
 use crate::svg::{PolarChart, PolarPanel, PolarSeries};
 use crate::visible::{last_part, visible_line};
@@ -13,7 +13,7 @@ const POINTS: usize = 7200;
 
 /// The paths of a circular test, compensation off and on in one circle at one magnification, and the
 /// deviation left with compensation in an inset that magnifies it as far as it needs (R5.30).
-pub fn circle(report: &CircleReport) -> PolarChart {
+pub fn picture(report: &CircleReport) -> PolarChart {
     let mut panels = Vec::new();
     let mut told = Vec::new();
     for side in &report.sides {
@@ -54,35 +54,29 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         off.series.extend(on.series.iter().cloned());
         on.label = told[1].replacen("compensation ", "", 1) + ", magnified";
     }
-    let (title, radius) = match &report.subject {
-        Subject::Simulated { test, .. } => (
-            format!(
-                "Circular test, plant {}, diameter {} mm, {} mm/min",
-                visible_line(last_part(&test.plant.name)),
-                2.0 * test.circle.radius_mm,
-                test.circle.feed_mm_per_min
-            ),
-            test.circle.radius_mm,
-        ),
-        Subject::Recorded(recording) => {
-            let fitted = recording.circles.first().map(|circle| circle.radius_mm);
-            let radius = recording.commanded.radius_mm.or(fitted);
-            let radius = radius.unwrap_or_default();
-            (
-                format!("Recorded circle, diameter {:.3} mm", 2.0 * radius),
-                radius,
-            )
-        }
-    };
     PolarChart {
         description: format!(
             "Radial deviation from the circle, magnified, over the angle. {}.",
             told.join("; ")
         ),
-        title,
+        title: title(report),
         axes: ["X".to_owned(), "Y".to_owned()],
-        radius,
+        radius: report.driven().0,
         panels,
+    }
+}
+
+/// Returns the title of the picture and of the page.
+pub(super) fn title(report: &CircleReport) -> String {
+    let (radius, _) = report.driven();
+    match &report.subject {
+        Subject::Simulated { test, .. } => format!(
+            "Circular test, plant {}, diameter {} mm, {} mm/min",
+            visible_line(last_part(&test.plant.name)),
+            2.0 * radius,
+            test.circle.feed_mm_per_min
+        ),
+        Subject::Recorded(_) => format!("Recorded circle, diameter {:.3} mm", 2.0 * radius),
     }
 }
 

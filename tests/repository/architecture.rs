@@ -175,10 +175,18 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
         ],
     ),
     ("report", "audit", &["assumptions", "document"]),
-    ("report", "circle", &["assumptions", "document", "pictures", "svg"]),
+    (
+        "report",
+        "circle",
+        &["assumptions", "document", "pictures", "svg"],
+    ),
     ("report", "commission", &["assumptions", "document"]),
     ("report", "compare", &["contour", "document"]),
-    ("report", "contour", &["assumptions", "document", "pictures"]),
+    (
+        "report",
+        "contour",
+        &["assumptions", "document", "pictures"],
+    ),
     ("report", "document", &["svg"]),
     (
         "report",

@@ -9,6 +9,7 @@ use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
 use super::folders::FolderArgs;
+use super::html::{HtmlArgs, write_page};
 use super::machine::{MachineArgs, undescribed_remark};
 use super::outputs::Outputs;
 use super::painted::difference;
@@ -26,9 +27,7 @@ use frictcomp_physics::compare::{
     Agreement, ContourAgreement, ContourComparison, Version, VersionComparison, VersionContour,
 };
 use frictcomp_physics::contour::BlockDeviations;
-use frictcomp_report::compare::{ContoursReport, VersionsReport, render_json, render_text};
-use frictcomp_report::fitted;
-use frictcomp_report::html::render_versions;
+use frictcomp_report::compare::{ContoursReport, VersionsReport, document, render_json};
 
 /// Show what a change changes in the states, and in the contour
 ///
@@ -62,9 +61,8 @@ pub(super) struct DiffArgs {
     simulation: SimulationArgs,
     #[command(flatten)]
     pub(super) result: ResultArgs,
-    /// Also write an HTML report with the changes of both versions to this file
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    #[command(flatten)]
+    html: HtmlArgs,
     #[command(flatten)]
     pub(super) folders: FolderArgs,
     #[command(flatten)]
@@ -106,7 +104,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
-    let html = outputs.optional("--html", args.html.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     let mut machines = args.machine.machines(&registry);
     let machine = machines.for_versions(&inputs)?;
     outputs.check()?;
@@ -133,17 +131,16 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         comparison,
         contours,
     };
+    let document = document(&report);
     let printed = match args.result.format {
         ResultFormat::Text => {
-            let text = fitted(&render_text(&report), result.look.width);
+            let text = document.text(console.detail, result.look.width);
             result.painted(&text, difference)?
         }
         ResultFormat::Json => result.text(&render_json(&report))?,
     };
     let written = html.is_some();
-    if let Some(mut html) = html {
-        render_versions(&report, &mut html).map_err(Failure::output)?;
-    }
+    write_page(html, &document)?;
     outputs.finish()?;
     args.machine.say_unread(&machines, &registry, console);
     let contours = report.contours.as_ref().map(|it| it.comparison.agreement());

@@ -21,7 +21,7 @@ use frictcomp_host::{
     Machines, OpenText, Revision, find_programs, processors,
 };
 use frictcomp_physics::compare::{Agreement, ContourAgreement, Version, VersionComparison};
-use frictcomp_report::compare::{VersionsReport, render_json, render_text};
+use frictcomp_report::compare::{VersionsReport, document, render_json};
 use frictcomp_report::fitted;
 
 /// A program in both versions; it may be missing from one of them.
@@ -102,11 +102,14 @@ fn compare(
     let printed = match args.result.format {
         ResultFormat::Text => {
             let different = reports.iter().filter(|report| !is_same(report));
-            let texts = different.map(|report| named(report) + &render_text(report));
+            let texts = different.map(|report| {
+                let shown = document(report);
+                format!("{}{}", named(report), shown.shown(console.detail))
+            });
             let text = texts.collect::<Vec<_>>().join("\n");
             result.painted(&fitted(&text, result.look.width), difference)?
         }
-        ResultFormat::Json => result.text(&document(&reports, revision))?,
+        ResultFormat::Json => result.text(&record(&reports, revision))?,
     };
     outputs.finish()?;
     let count = reports.len();
@@ -151,7 +154,7 @@ fn named(report: &VersionsReport) -> String {
     }
 }
 
-fn document(reports: &[VersionsReport], revision: &str) -> String {
+fn record(reports: &[VersionsReport], revision: &str) -> String {
     let programs = reports.iter().map(render_json);
     let programs = programs.filter_map(|text| serde_json::from_str::<Value>(&text).ok());
     let programs: Vec<Value> = programs.collect();

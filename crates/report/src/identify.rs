@@ -130,8 +130,7 @@ pub(super) fn push_identified(out: &mut Document<'_>, report: &IdentifyReport) {
     }
     push_curve(out, found);
     out.section("Value list");
-    let mut table = Table::of_numbers(["in", "out"]);
-    table.row(&[&"µm/s", &report.unit()]);
+    let mut table = Table::of_numbers(["in\nµm/s"]).right(format!("out\n{}", report.unit()));
     for point in &found.points {
         table.row(&[&point.input, &Rounded(point.output, 3)]);
     }
@@ -148,8 +147,14 @@ pub(super) fn push_identified(out: &mut Document<'_>, report: &IdentifyReport) {
 }
 
 fn push_pairs(out: &mut Document<'_>, found: &Identified) {
-    let mut table = Table::of_numbers(["speed", "friction", "±", "offset", "residual", "visits"]);
-    table.row(&[&"mm/s"]);
+    let mut table = Table::of_numbers([
+        "speed\nmm/s",
+        "friction",
+        "±",
+        "offset",
+        "residual",
+        "visits",
+    ]);
     for pair in &found.pairs {
         let offset = pair.offset.map_or("one-sided".to_owned(), |offset| {
             Rounded(offset, 3).to_string()
@@ -168,8 +173,11 @@ fn push_pairs(out: &mut Document<'_>, found: &Identified) {
 
 /// Both directions, where an offset does not make them one (R6.25).
 fn push_branches(out: &mut Document<'_>, branches: &DirectionBranches, unit: &str) {
-    let mut table = Table::of_numbers(["speed", "forth", "back"]);
-    table.row(&[&"mm/s", &unit, &unit]);
+    let table = Table::of_numbers(["speed\nmm/s"]);
+    let mut table = ["forth", "back"]
+        .map(|way| format!("{way}\n{unit}"))
+        .into_iter()
+        .fold(table, Table::right);
     for point in &branches.points {
         table.row(&[
             &format_args!("{:.3}", point.speed),

@@ -43,6 +43,7 @@ pub mod on_circles;
 mod output;
 pub mod pictures;
 mod records;
+pub mod replay;
 pub mod schema;
 pub mod states;
 pub mod stiction;

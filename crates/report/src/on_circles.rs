@@ -89,8 +89,8 @@ pub fn document(report: &OnCirclesReport) -> Document<'_> {
     let found = &report.found;
     let names: Vec<_> = report.names.iter().map(|name| visible_line(name)).collect();
     let _ = writeln!(out, "circles in {}\n", names.join(", "));
-    let mut table = Table::of_numbers(["speed", "friction"]);
-    table.row(&[&"mm/s", &report.unit()]);
+    let friction = format!("friction\n{}", report.unit());
+    let mut table = Table::of_numbers(["speed\nmm/s", &friction]);
     for [speed, friction] in &found.points {
         table.row(&[&format_args!("{speed:.3}"), &Rounded(*friction, 3)]);
     }

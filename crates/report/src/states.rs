@@ -70,9 +70,8 @@ pub fn document(report: &StatesReport) -> Document<'_> {
     out.figure(|| friction_states(report));
     out.push_str("\nfriction in each state, with its standard error\n\n");
     let names = report.states.iter().map(|(name, _)| visible_line(name));
-    let table = names.fold(Table::of_numbers(["speed"]), Table::right);
+    let table = names.fold(Table::of_numbers(["speed\nmm/s"]), Table::right);
     let mut table = table.right("spread");
-    table.row(&[&"mm/s"]);
     for row in &report.compared.rows {
         let frictions = row.frictions.iter().map(|friction| match friction {
             Some([value, error]) => format!("{} ± {error:.3}", Rounded(*value, 3)),

@@ -10,6 +10,7 @@ use super::sources::{source_of, stage_of, write_list};
 use crate::console::Console;
 use crate::exit;
 use crate::failure::{Failure, shown};
+use crate::html::write_page;
 use crate::machine::value_list;
 use crate::outputs::{Outputs, write_text};
 use crate::progress;
@@ -24,12 +25,11 @@ use frictcomp_recordings::commission::{
     SwitchedAs, before_after, feeds_against, recorded_otherwise, refuse_strangers,
 };
 use frictcomp_report::commission::{
-    AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, glitch_unit, render_results,
-    render_results_json,
+    Acceptance, AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, document,
+    glitch_unit, render_results_json,
 };
-use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on};
-use frictcomp_report::{TextChange, fitted, render_unified};
+use frictcomp_report::{TextChange, render_unified};
 
 /// Runs the command.
 pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Failure> {
@@ -76,11 +76,9 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
         fitted: fitted_drives,
         rounds,
     };
-    if let Some(path) = &args.html {
-        let given = acceptance(args, &report, &registry)?;
-        let mut html = outputs.file("--html", path)?;
-        render_acceptance(&report, &given, &mut html).map_err(Failure::output)?;
-    }
+    let given = acceptance(args, &report, &registry)?;
+    let document = document(&report, &given);
+    write_page(args.html.page(&mut outputs)?, &document)?;
     let mut file = outputs.file("results.json", &args.folder.join(RESULTS))?;
     let content = Results {
         schema: Results::SCHEMA,
@@ -92,7 +90,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     write_text(&mut file, &text)?;
     outputs.check()?;
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_results(&report), target.look.width),
+        ResultFormat::Text => document.text(console.detail, target.look.width),
         ResultFormat::Json => render_results_json(&report),
     })?;
     outputs.finish()?;

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::channels::ReadingArgs;
 use crate::cnc_build::CncBuildArgs;
+use crate::html::HtmlArgs;
 use crate::per_axis::PerAxis;
 use crate::result::ResultArgs;
 
@@ -32,9 +33,8 @@ pub(crate) struct CommissionRunArgs {
     pub(super) no_shaping: bool,
     #[command(flatten)]
     pub(super) build: CncBuildArgs,
-    /// Write the acceptance report to this file, for a browser and for paper
-    #[arg(long, value_name = "FILE")]
-    pub(super) html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) html: HtmlArgs,
     /// The name of the machine in the report
     #[arg(long, value_name = "NAME", requires = "html")]
     pub(super) machine: Option<String>,

@@ -1,6 +1,6 @@
 //! `frictcomp replay`: compares a recording of what the machine did with the dry run.
 
-mod page;
+mod report;
 mod shown;
 
 use std::path::PathBuf;
@@ -12,6 +12,7 @@ use super::console::Console;
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
+use super::html::{HtmlArgs, write_page};
 use super::machine::MachineArgs;
 use super::outputs::Outputs;
 use super::per_axis::{ByAxis, PerAxis};
@@ -24,8 +25,7 @@ use frictcomp::text::shown_path;
 use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
 use frictcomp_host::{FileRegistry, Input};
 use frictcomp_recordings::trace::ChannelSelection;
-use frictcomp_report::fitted;
-use frictcomp_report::html::render_replay;
+use frictcomp_report::replay::document;
 
 /// Compare what a machine did with the dry run of its programs
 ///
@@ -66,9 +66,8 @@ pub(super) struct ReplayArgs {
     tolerance: Option<Tolerance>,
     #[command(flatten)]
     result: ResultArgs,
-    /// Write an HTML report with the recorded states and the verdict to this file
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    #[command(flatten)]
+    html: HtmlArgs,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
@@ -91,7 +90,7 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
-    let html = outputs.optional("--html", args.html.as_deref())?;
+    let html = args.html.page(&mut outputs)?;
     let mut machines = args.machine.machines(&registry);
     machines.look_ahead(&inputs);
     let first = inputs
@@ -113,13 +112,11 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         tolerance: args.tolerance.map_or(TOLERANCE, |it| it.um() / 1000.0),
     };
     let replayed = replay.compare(&recording)?;
-    if let Some(mut html) = html {
-        let report = page::report(&replayed, &recording, shown_path(&args.recording));
-        render_replay(&report, &mut html).map_err(Failure::output)?;
-    }
-    let width = result.look.width;
+    let report = report::report(&replayed, &recording, shown_path(&args.recording));
+    let document = document(&report);
+    write_page(html, &document)?;
     result.text(&match args.result.format {
-        ResultFormat::Text => fitted(&shown::text(&replayed), width),
+        ResultFormat::Text => document.text(console.detail, result.look.width),
         ResultFormat::Json => format!("{:#}\n", shown::document(&replayed)),
     })?;
     outputs.finish()?;

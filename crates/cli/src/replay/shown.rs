@@ -1,11 +1,9 @@
-//! The result of `frictcomp replay` as text and as JSON.
-
-use std::fmt::Write as _;
+//! The result of `frictcomp replay` in sentences and as JSON.
 
 use serde_json::{Map, Value, json};
 
 use frictcomp_host::replay::{
-    Disagreement, MatchedChange, ReplayPlace, Replayed, ReplayedAxis, ReplayedBy, TriedCondition,
+    Disagreement, MatchedChange, ReplayPlace, Replayed, ReplayedAxis, TriedCondition,
 };
 use frictcomp_report::{Headline, Standing, counted, visible_line};
 
@@ -36,18 +34,6 @@ pub(super) fn headline(replayed: &Replayed) -> Headline {
     }
     let text = format!("the machine did what the dry run says: {count} of {axes}");
     Headline::new(Standing::Good, text)
-}
-
-/// Returns the result as text.
-pub(super) fn text(replayed: &Replayed) -> String {
-    let mut text = format!("{}\n", headline(replayed));
-    for axis in &replayed.axes {
-        write_axis(&mut text, axis, replayed);
-    }
-    for remark in remarks(replayed) {
-        let _ = writeln!(text, "{remark}");
-    }
-    text
 }
 
 /// Returns the remarks on all axes, in sentences.
@@ -85,37 +71,6 @@ pub(super) fn remarks(replayed: &Replayed) -> Vec<String> {
     let limits = unrecorded.chain(gap);
     let found = decided.chain(stopped).chain(untried).chain(ways);
     found.chain(limits).collect()
-}
-
-fn write_axis(text: &mut String, axis: &ReplayedAxis, replayed: &Replayed) {
-    let _ = writeln!(
-        text,
-        "{}: {}",
-        visible_line(&axis.name),
-        verdict_of(axis, replayed)
-    );
-    for change in &axis.changes {
-        let (at, state) = (at_place(&change.at), word(change));
-        let _ = writeln!(text, "  {:>10.3} s  {at}  {state}", change.t_s);
-    }
-    let count = axis.changes.len();
-    let by_order = axis.changes.iter();
-    let by_order = by_order.filter(|it| it.by == ReplayedBy::Order).count();
-    if by_order > 0 {
-        let _ = writeln!(
-            text,
-            "  {by_order} of {count} compared by the order alone: where the machine switched is not known"
-        );
-    }
-    if let Some(found) = &axis.disagreement {
-        let mut against = against(found).into_iter();
-        if let Some(first) = against.next() {
-            let _ = writeln!(text, "  {:>10.3} s  {first}", found.t_s);
-        }
-        for more in against {
-            let _ = writeln!(text, "  {more}");
-        }
-    }
 }
 
 /// Returns the verdict on an axis, with the number of changes on which both agree.
@@ -171,7 +126,7 @@ fn condition(tried: &TriedCondition) -> String {
 }
 
 /// Returns the state after a change.
-pub(super) fn word(change: &MatchedChange) -> &'static str {
+fn word(change: &MatchedChange) -> &'static str {
     if change.active { "active" } else { "inactive" }
 }
 

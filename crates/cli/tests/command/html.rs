@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::folder::Bench;
+use crate::workspace::root;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// The report of programs.
@@ -435,6 +436,75 @@ fn a_circular_test_has_a_report() {
         assert!(figures.contains(value), "no {value} in {figures}");
     }
     assert!(part(&report, "conditions").contains("reading: standstill=hold"));
+}
+
+#[test]
+fn each_result_has_a_page() {
+    // R9.50, R18.20
+    let demo = root().join("programs/demo");
+    let file = |name: &str| demo.join(name).to_string_lossy().into_owned();
+    let (recording, trend) = (file("recordings/friction_x.csv"), file("recorded/trend"));
+    let channels = ["--velocity", "SetVelo", "--torque", "ActTorque"];
+    let bench = Bench::new(&[]);
+    let identified = ["identify", &recording, "--write-list", "x.lis"];
+    bench.stdout(&[&identified[..], &channels].concat());
+    let state = format!("warm={recording}");
+    let commands: [(&[&str], &[&str], &str); 8] = [
+        (&["trace", &recording], &[], "Channels of"),
+        (
+            &["identify", &recording],
+            &channels,
+            "Segments on the trace",
+        ),
+        (
+            &["identify", "--states", &state],
+            &channels,
+            "the list is for",
+        ),
+        (
+            &["verify", &recording, "--value-list", "x.lis"],
+            &channels,
+            "recorded/predicted",
+        ),
+        (&["commission", "trend", &trend], &[], "changed by"),
+        (
+            &["tune", "--plant", "stiff", "--feeds", "1000"],
+            &[],
+            "position_delay",
+        ),
+        (
+            &["stiction", "--gp", "20um", "--delta-sa-limit", "3um"],
+            &[],
+            "MP1512",
+        ),
+        (
+            &["circle", "--feed", "2000"],
+            &[],
+            "What the shapes suggest",
+        ),
+    ];
+    for (command, more, wanted) in commands {
+        let arguments = [command, more, &["--html", "page.html"]].concat();
+        let shown = bench.call(&arguments);
+        let said = String::from_utf8_lossy(&shown.stderr);
+        assert_ne!(shown.status.code(), Some(2), "{command:?}: {said}");
+        let page = bench.read("page.html");
+        assert_sound(&page);
+        assert!(page.contains(wanted), "{command:?}: {wanted}");
+        // The page opens with the verdict of the terminal.
+        let text = String::from_utf8_lossy(&shown.stdout).into_owned();
+        let verdict = text.lines().next().unwrap_or_default();
+        let words = verdict.split_whitespace().last().unwrap_or_default();
+        let words = words.trim_matches('`');
+        let document = parse(&page);
+        let lead = document.descendants().find(|node| {
+            let class = node.attribute("class").unwrap_or_default();
+            class.starts_with("lead ")
+        });
+        let lead = text_of(lead.expect("a verdict"));
+        assert!(lead.contains(words), "{command:?}: {verdict}: {lead}");
+        fs::remove_file(bench.folder().join("page.html")).expect("removed");
+    }
 }
 
 /// The browser of this machine: `FRICTCOMP_BROWSER`, or what Debian and others call Chromium.

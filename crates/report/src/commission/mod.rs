@@ -1,5 +1,7 @@
 //! Commissioning: the measuring programs and the instructions for the operator.
 
+mod acceptance;
+mod picture;
 mod plants;
 mod program;
 mod readme;
@@ -7,12 +9,12 @@ mod results;
 mod summary;
 mod words;
 
+pub use acceptance::Acceptance;
 pub use plants::{PlantVerdict, Plants};
-pub(crate) use plants::{list_on, parameters};
 pub use program::render_program;
 pub use readme::render_readme;
 pub use results::{
-    AxisVerdict, InputFile, Results, ResultsReport, Round, glitch_unit, render_results,
+    AxisVerdict, InputFile, Results, ResultsReport, Round, document, glitch_unit,
     render_results_json,
 };
 pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};

@@ -8,7 +8,7 @@ use frictcomp_recordings::commission::{ComparedGlitch, PlantAxis, PlantFound, Tu
 use serde::Serialize;
 
 use crate::assumptions::not_modelled_line;
-use crate::document::Table;
+use crate::document::{Document, Table};
 use crate::visible::visible_line;
 
 /// The plants of all rounds.
@@ -39,13 +39,13 @@ pub struct PlantVerdict {
 }
 
 /// A fitted parameter in words.
-pub(crate) struct FittedParameter {
-    pub(crate) name: &'static str,
-    pub(crate) unit: &'static str,
+struct FittedParameter {
+    name: &'static str,
+    unit: &'static str,
     /// The value; "at least" if only its lower end is known.
-    pub(crate) value: String,
+    value: String,
     /// The 95 % range.
-    pub(crate) range: String,
+    range: String,
 }
 
 impl Plants {
@@ -95,7 +95,7 @@ impl PlantVerdict {
 }
 
 /// The fitted parameters of an axis.
-pub(crate) fn parameters(axis: &PlantAxis) -> [FittedParameter; 6] {
+fn parameters(axis: &PlantAxis) -> [FittedParameter; 6] {
     const UM_PER_M: f64 = 1e6;
     const MS_PER_S: f64 = 1e3;
     let scaled = |name, unit, extent: Extent, factor: f64, digits| {
@@ -133,27 +133,28 @@ pub(crate) fn parameters(axis: &PlantAxis) -> [FittedParameter; 6] {
 }
 
 /// Appends the last plant, and the lists that were tuned on it.
-pub(super) fn push_plants(out: &mut String, plants: &Plants) {
-    for reason in &plants.lacking {
-        let _ = writeln!(out, "\nno plant is fitted: {}", visible_line(reason));
-    }
+pub(super) fn push_plants(out: &mut Document<'_>, plants: &Plants) {
+    let lacking = plants.lacking.iter();
+    out.lines(lacking.map(|reason| format!("\nno plant is fitted: {}", visible_line(reason))));
     let Some(verdict) = plants.verdicts.last() else {
         return;
     };
+    out.section("Plant");
     push_plant(out, verdict);
-    let _ = writeln!(out, "{}", not_modelled_line(&verdict.not_modelled));
-    if !verdict.rejected.is_empty() {
-        out.push_str("the plant is rejected, and the earlier lists stay:\n");
-        for reason in &verdict.rejected {
-            let _ = writeln!(out, "  {}", visible_line(reason));
-        }
-    }
-    if !verdict.retired.is_empty() {
-        out.push_str(
-            "the machine does better than the plant, with which nothing is predicted from now on:\n",
-        );
-        for reason in &verdict.retired {
-            let _ = writeln!(out, "  {}", visible_line(reason));
+    out.lines([not_modelled_line(&verdict.not_modelled)]);
+    for (title, reasons) in [
+        (
+            "the plant is rejected, and the earlier lists stay:",
+            &verdict.rejected,
+        ),
+        (
+            "the machine does better than the plant, with which nothing is predicted from now on:",
+            &verdict.retired,
+        ),
+    ] {
+        if !reasons.is_empty() {
+            out.lines([title]);
+            out.lines(reasons.iter().map(|it| format!("  {}", visible_line(it))));
         }
     }
     for list in verdict.lists() {
@@ -164,9 +165,8 @@ pub(super) fn push_plants(out: &mut String, plants: &Plants) {
             visible_line(&list.file),
             list.predicted_um
         );
-        for reason in &list.against {
-            let _ = writeln!(out, "  do not record it: {}", visible_line(reason));
-        }
+        let against = list.against.iter();
+        out.lines(against.map(|it| format!("  do not record it: {}", visible_line(it))));
     }
     if verdict.holds() && verdict.found.lists.is_empty() {
         out.push_str(
@@ -175,7 +175,7 @@ pub(super) fn push_plants(out: &mut String, plants: &Plants) {
     }
 }
 
-fn push_plant(out: &mut String, verdict: &PlantVerdict) {
+fn push_plant(out: &mut Document<'_>, verdict: &PlantVerdict) {
     let found = &verdict.found;
     let feeds = |feeds: &[f64]| {
         let feeds: Vec<String> = feeds.iter().map(|it| format!("F{it}")).collect();
@@ -202,9 +202,10 @@ fn push_plant(out: &mut String, verdict: &PlantVerdict) {
         for it in parameters(axis) {
             table.row(&[&"", &it.name, &it.unit, &it.value, &it.range]);
         }
+        out.table(table);
         let _ = writeln!(
             out,
-            "{table}{:.2} µm are left of {} recorded reversals, after {} simulated ones",
+            "{:.2} µm are left of {} recorded reversals, after {} simulated ones",
             axis.left, axis.reversals, axis.simulations
         );
     }
@@ -215,13 +216,13 @@ fn push_plant(out: &mut String, verdict: &PlantVerdict) {
 }
 
 /// What was off, or the beginning of the SHA-256 of the list that was on, as in the file names.
-pub(crate) fn list_on(compared: &ComparedGlitch) -> &str {
+fn list_on(compared: &ComparedGlitch) -> &str {
     let list = compared.recorded.list.as_deref();
     list.map_or("off", |sum| sum.get(..8).unwrap_or(sum))
 }
 
 /// Appends the recorded glitches with their predictions.
-fn push_compared(out: &mut String, compared: &[ComparedGlitch]) {
+fn push_compared(out: &mut Document<'_>, compared: &[ComparedGlitch]) {
     if compared.is_empty() {
         return;
     }
@@ -236,14 +237,14 @@ fn push_compared(out: &mut String, compared: &[ComparedGlitch]) {
             &format_args!("{:.1}", it.recorded.um),
         ]);
     }
-    let _ = write!(
-        out,
-        "recorded and predicted glitch in µm, each a mean over 8 ms\n{table}"
+    out.push_str(
+        "glitches that the plant was not fitted to, recorded and predicted in µm, each a mean over 8 ms\n",
     );
+    out.table(table);
 }
 
 /// Appends the predicted glitch of each axis at each feed, off and with the tuned lists.
-fn push_glitches(out: &mut String, found: &PlantFound) {
+fn push_glitches(out: &mut Document<'_>, found: &PlantFound) {
     for axis in &found.axes {
         let name = &axis.axis;
         let tuned = found.lists.iter().find(|it| it.axis == *name);
@@ -259,10 +260,7 @@ fn push_glitches(out: &mut String, found: &PlantFound) {
             };
             table.row(&[&feed, &shown(off), &shown(on), &held]);
         }
-        let _ = write!(
-            out,
-            "{} predicted glitch in µm\n{table}",
-            visible_line(name)
-        );
+        out.lines([format!("{} predicted glitch in µm", visible_line(name))]);
+        out.table(table);
     }
 }

@@ -1,13 +1,15 @@
-//! The results of a commissioning as text and JSON (R16.2, R16.9).
+//! The results of a commissioning as a document and JSON (R16.2, R16.9).
 
 use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
+use super::acceptance::{Acceptance, push_acceptance};
+use super::picture::glitches_by_feed;
 use super::plants::{PlantVerdict, Plants, push_plants};
 use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
-use crate::document::{Headline, Standing, Table};
+use crate::document::{Document, Headline, Standing, Table};
 use crate::strings::{counted, to_pretty};
 use crate::visible::visible_line;
 use frictcomp::lists::AxisType;
@@ -225,44 +227,32 @@ impl ResultsReport {
     }
 }
 
-/// The recordings, what is missing, the lists, and the circles before and after.
-pub fn render_results(report: &ResultsReport) -> String {
-    let mut out = format!("{}\n\n", report.headline());
+/// The recordings, what is missing, the lists, the circles before and after, and the plants; then what an acceptance
+/// needs: the friction of each axis, and the files and statements on which the results rest.
+pub fn document<'a>(report: &'a ResultsReport, given: &'a Acceptance) -> Document<'a> {
+    let machine = given.machine.as_deref();
+    let title = format!(
+        "Friction compensation of {}",
+        machine.unwrap_or("a machine without a name")
+    );
+    let mut out = Document::new(title, report.headline());
     let _ = writeln!(
         out,
-        "{}, {} of them known from an earlier run\n",
+        "\n{}, {} of them known from an earlier run\n",
         counted(report.results.len(), "recording"),
         report.kept
     );
+    out.section("Recordings");
     for result in &report.results {
         push_recording(&mut out, report, result);
     }
-    for file in report.missing() {
-        let _ = writeln!(
-            out,
-            "missing: a recording of {} that can be used",
-            visible_line(&file)
-        );
-    }
-    out.push('\n');
+    let missing = report.missing();
+    let missing = missing.iter().map(|file| visible_line(file));
+    out.lines(missing.map(|file| format!("missing: a recording of {file} that can be used")));
+    out.section("Lists");
+    out.push_str("\n");
     for axis in &report.axes {
-        let name = visible_line(&axis.axis);
-        match (&axis.list, &axis.from) {
-            (Some(list), Some(from)) => {
-                let _ = writeln!(
-                    out,
-                    "{name}: provisional list {}, from {}",
-                    visible_line(list),
-                    visible_line(from)
-                );
-            }
-            _ => {
-                let _ = writeln!(out, "{name}: no list");
-            }
-        }
-        for note in &axis.notes {
-            let _ = writeln!(out, "  {}", visible_line(note));
-        }
+        push_list(&mut out, axis);
     }
     for round in &report.rounds {
         push_round(&mut out, round);
@@ -270,10 +260,24 @@ pub fn render_results(report: &ResultsReport) -> String {
     if report.rounds.iter().any(|it| it.against.is_some()) {
         push_plants(&mut out, &report.fitted);
     }
+    push_acceptance(&mut out, report, given);
     out
 }
 
-fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingResult) {
+fn push_list(out: &mut Document<'_>, axis: &AxisVerdict) {
+    let name = visible_line(&axis.axis);
+    match (&axis.list, &axis.from) {
+        (Some(list), Some(from)) => {
+            let (list, from) = (visible_line(list), visible_line(from));
+            out.lines([format!("{name}: provisional list {list}, from {from}")]);
+        }
+        _ => out.lines([format!("{name}: no list")]),
+    }
+    let notes = axis.notes.iter();
+    out.lines(notes.map(|note| format!("  {}", visible_line(note))));
+}
+
+fn push_recording(out: &mut Document<'_>, report: &ResultsReport, result: &RecordingResult) {
     let mut programs = report
         .plans
         .iter()
@@ -320,12 +324,15 @@ fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingRe
 }
 
 /// The circles off and on, and whether the lists are accepted.
-fn push_round(out: &mut String, round: &Round) {
+fn push_round<'a>(out: &mut Document<'a>, round: &'a Round) {
     let Some(against) = &round.against else {
         return;
     };
+    out.section(format!("Round {}", round.number));
+    out.figure(|| glitches_by_feed(round));
     let table = Table::of_numbers(["feed /min", "driven"]).left("axis");
-    let mut table = table.right("off").right("±").right("on").right("±");
+    let table = table.right("off").right("±").right("on").right("±");
+    let mut table = table.right("left in %");
     for pair in &round.recorded {
         for place in &pair.places {
             let direction = place.direction.as_deref().unwrap_or_default();
@@ -337,16 +344,18 @@ fn push_round(out: &mut String, round: &Round) {
                 &format_args!("{:.1}", place.off.error_um),
                 &format_args!("{:.1}", place.on.um),
                 &format_args!("{:.1}", place.on.error_um),
+                &format_args!("{:.0}", 100.0 * place.on.um / place.off.um),
             ]);
         }
     }
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "\nround {}: recorded {}, in {}\n{table}",
+        "\nround {}: recorded {}, in {}",
         round.number,
         round.figure(),
         round.unit,
     );
+    out.table(table);
     if round.is_accepted() {
         let list = |it: &ValueListUsed| {
             let sum = it.sha256.get(..16).unwrap_or(&it.sha256);
@@ -363,9 +372,8 @@ fn push_round(out: &mut String, round: &Round) {
         );
     } else {
         let _ = writeln!(out, "\n{}, the earlier lists stay:", round.refusal());
-        for reason in against.iter().chain(&round.not_shown) {
-            let _ = writeln!(out, "  {}", visible_line(reason));
-        }
+        let reasons = against.iter().chain(&round.not_shown);
+        out.lines(reasons.map(|reason| format!("  {}", visible_line(reason))));
     }
 }
 

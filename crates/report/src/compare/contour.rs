@@ -6,12 +6,13 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::contour::places::{ProgramBlock, record};
-use crate::document::Table;
+use crate::document::{Document, Table};
 use crate::visible::visible_line;
 use frictcomp_physics::compare::{BlockChange, ContourAgreement, ContourComparison, Which};
 
-/// Blocks that the text lists.
+/// Blocks that are listed, and those of the folded list (R9.52).
 const LISTED: usize = 25;
+const MAX_CHANGES: usize = 4000;
 
 /// A comparison of contours, and the conditions of the motion.
 #[derive(Debug)]
@@ -26,7 +27,7 @@ pub struct ContoursReport {
 
 impl ContoursReport {
     /// Returns the result of the comparison, a sentence without its end.
-    pub(crate) fn verdict(&self) -> String {
+    pub(super) fn verdict(&self) -> String {
         let comparison = &self.comparison;
         let known = match comparison.agreement() {
             ContourAgreement::NotComparable => "not comparable as a whole; in what is known ",
@@ -52,8 +53,32 @@ impl ContoursReport {
         }
     }
 
+    /// Returns the blocks that deviate more, at most `most`; those of called programs with their files.
+    fn changes(&self, most: usize, program: &str) -> Table {
+        let table = Table::of_numbers(["line", "old", "new", "more"]);
+        let mut table = table.left("at").left("block");
+        for change in self.comparison.more().iter().take(most) {
+            let old = change.old.map(|(_, um)| format!("{um:.2}"));
+            let (file, line) = (&*change.block.file, change.block.line);
+            let line = if file == program {
+                line.to_string()
+            } else {
+                format!("{}:{line}", visible_line(file))
+            };
+            table.row(&[
+                &line,
+                &old.as_deref().unwrap_or("-"),
+                &format_args!("{:.2}", change.new.deviation_um),
+                &format_args!("{:.2}", change.more_um()),
+                &self.place(change),
+                &visible_line(&change.block.text),
+            ]);
+        }
+        table
+    }
+
     /// Returns the place at which a block deviates more.
-    pub(crate) fn place(&self, change: &BlockChange) -> String {
+    fn place(&self, change: &BlockChange) -> String {
         let axes = self.plane.iter().zip(change.new.place);
         let places: Vec<String> = axes.map(|(axis, at)| format!("{axis}{at:.3}")).collect();
         visible_line(&places.join(" ")).into_owned()
@@ -61,7 +86,7 @@ impl ContoursReport {
 }
 
 /// The figures of both contours, then the blocks that deviate more.
-pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
+pub(super) fn push_contours(out: &mut Document<'_>, report: &ContoursReport, program: &str) {
     let comparison = &report.comparison;
     let [old, new] = [Which::Old, Which::New].map(|which| comparison.deviations(which));
     let mut table = Table::default()
@@ -75,36 +100,27 @@ pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
         let [old, new] = values.map(|it| format!("{it:.2}"));
         table.row(&[&name, &old, &new]);
     }
-    let _ = write!(
+    out.section("Where the new version deviates more");
+    let _ = writeln!(
         out,
-        "\ncontour in the plane {}{}, plant {}, in µm\n{table}",
+        "\ncontour in the plane {}{}, plant {}, in µm",
         report.plane[0],
         report.plane[1],
         visible_line(&report.plant),
     );
+    out.table(table);
     for (which, deviations) in [(Which::Old, old), (Which::New, new)] {
         if let Some(at) = deviations.max_at() {
             let (version, at) = (which.as_str(), ProgramBlock::from(&**at).words());
             let _ = writeln!(out, "largest deviation of the {version} version at {at}");
         }
     }
-    let table = Table::of_numbers(["line", "old", "new", "more"]);
-    let mut table = table.left("at").left("block");
-    for change in comparison.more().iter().take(LISTED) {
-        let old = change.old.map(|(_, um)| format!("{um:.2}"));
-        table.row(&[
-            &change.block.line,
-            &old.as_deref().unwrap_or("-"),
-            &format_args!("{:.2}", change.new.deviation_um),
-            &format_args!("{:.2}", change.more_um()),
-            &report.place(change),
-            &visible_line(&change.block.text),
-        ]);
+    let more = comparison.more();
+    let left = more.len().saturating_sub(LISTED);
+    if !more.is_empty() {
+        out.push_str("\n");
+        out.table(report.changes(LISTED, program));
     }
-    if !comparison.more().is_empty() {
-        let _ = write!(out, "\n{table}");
-    }
-    let left = comparison.more().len().saturating_sub(LISTED);
     if left > 0 {
         let _ = writeln!(out, "… {left} more blocks");
     }
@@ -114,6 +130,11 @@ pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
             "not comparable: the contour of the {} version: {obstacle}",
             which.as_str()
         );
+    }
+    if left > 0 {
+        out.folded("All blocks that deviate more");
+        out.push_str("\n");
+        out.table(report.changes(MAX_CHANGES, program));
     }
 }
 

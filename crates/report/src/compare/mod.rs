@@ -4,5 +4,4 @@ mod contour;
 mod report;
 
 pub use contour::ContoursReport;
-pub(super) use report::sign;
-pub use report::{VersionsReport, render_json, render_text};
+pub use report::{VersionsReport, document, render_json};

@@ -1,17 +1,15 @@
 //! Two versions of a program side by side, `diff`.
 
-use std::fmt::Write as _;
-
 use serde::Serialize;
 use unicode_width::UnicodeWidthStr;
 
 use super::contour::{ContourRecord, ContoursReport, push_contours};
-use crate::document::{Headline, Standing};
+use crate::document::{Document, Headline, Standing, Table};
 use crate::strings::{counted, to_pretty};
 use crate::visible::visible_line;
 use frictcomp::comp::{Kind, State};
 use frictcomp_physics::compare::{
-    Agreement, ChangedMoves, Obstacle, Reason, Switch, VersionComparison, Which,
+    Agreement, ChangedMoves, Obstacle, PairedSwitch, Reason, Switch, VersionComparison, Which,
 };
 
 /// A comparison, and its subjects.
@@ -86,7 +84,7 @@ impl VersionsReport {
 }
 
 /// The sign of a difference.
-pub(crate) fn sign(which: Which) -> char {
+fn sign(which: Which) -> char {
     match which {
         Which::Old => '-',
         Which::New => '+',
@@ -96,46 +94,90 @@ pub(crate) fn sign(which: Which) -> char {
 /// Columns of a line number.
 const LINE: usize = 6;
 
-/// The blocks that switch in one version only, with the reasons why the versions cannot be compared.
-pub fn render_text(report: &VersionsReport) -> String {
-    let mut out = String::new();
-    if let Some(remark) = &report.remark {
-        let _ = writeln!(out, "{}\n", visible_line(remark));
-    }
-    let _ = writeln!(out, "{}", report.headline());
+/// Changes of state that a table has at most (R9.52).
+const MAX_CHANGES: usize = 4000;
+
+/// The blocks that switch in one version only, with the reasons why the versions cannot be compared; then the contours,
+/// and all changes of both versions.
+pub fn document(report: &VersionsReport) -> Document<'_> {
+    let title = format!("{} and {}", report.old, report.new);
+    let mut out = Document::new(title, report.headline());
+    out.remark(report.remark.as_deref());
     let comparison = &report.comparison;
-    let differences: Vec<_> = comparison.differences().collect();
-    if !differences.is_empty() {
-        let (old, new) = (visible_line(&report.old), visible_line(&report.new));
-        let _ = writeln!(out, "\n--- {old}\n+++ {new}");
+    push_differences(&mut out, report);
+    let obstacles = comparison.obstacles();
+    let obstacles = obstacles.map(|(_, obstacle)| obstacle.to_string());
+    out.lines(obstacles.map(|it| format!("not comparable: {}", visible_line(&it))));
+    if let Some(contours) = &report.contours {
+        push_contours(&mut out, contours, &report.new);
     }
+    push_changes(&mut out, comparison);
+    out
+}
+
+fn push_differences(out: &mut Document<'_>, report: &VersionsReport) {
+    let differences: Vec<_> = report.comparison.differences().collect();
+    if differences.is_empty() {
+        return;
+    }
+    let (old, new) = (visible_line(&report.old), visible_line(&report.new));
+    out.verbatim(&format!("\n--- {old}\n+++ {new}\n"));
     let places = differences.iter().map(|(_, switch)| switch.place().width());
     let width = places.max().unwrap_or_default().max(LINE);
-    let mut lines: Vec<(String, u64)> = Vec::new();
+    let mut rows: Vec<([String; 3], u64)> = Vec::new();
     for (which, switch) in differences {
         let (sign, place) = (sign(which), switch.place());
-        let place = visible_line(&place);
-        let (what, text) = (switch.to_string(), visible_line(switch.first_line()));
-        let line = format!("{sign} {place:>width$}  {what:<28}  {text}");
-        match lines.iter_mut().find(|it| it.0 == line) {
+        let place = format!("{sign} {:>width$}", visible_line(&place));
+        let text = visible_line(switch.first_line()).into_owned();
+        let row = [place, switch.to_string(), text];
+        match rows.iter_mut().find(|it| it.0 == row) {
             Some((_, times)) => *times += 1,
-            None => lines.push((line, 1)),
+            None => rows.push((row, 1)),
         }
     }
-    for (line, times) in lines {
-        let _ = match times {
-            1 => writeln!(out, "{line}"),
-            _ => writeln!(out, "{line}  ({times} times)"),
+    let mut table = Table::without_headings(4);
+    for ([place, change, text], times) in rows {
+        let times = match times {
+            1 => String::new(),
+            _ => format!("({times} times)"),
         };
+        table.row(&[&place, &change, &text, &times]);
     }
-    for (_, obstacle) in comparison.obstacles() {
-        let told = obstacle.to_string();
-        let _ = writeln!(out, "not comparable: {}", visible_line(&told));
+    out.table(table);
+}
+
+/// Appends the changes of both versions; a sign marks those of one.
+fn push_changes(out: &mut Document<'_>, comparison: &VersionComparison) {
+    let pairs = comparison.pairs();
+    if pairs.is_empty() {
+        return;
     }
-    if let Some(contours) = &report.contours {
-        push_contours(&mut out, contours);
+    out.detail("Changes of state in both versions");
+    let differences = comparison.differences().count();
+    out.lines([format!(
+        "\n{differences} of {} changes of state are in only one version.\n",
+        pairs.len()
+    )]);
+    let table = Table::default().left("version").right("old line");
+    let mut table = table.right("new line").left("change").left("block");
+    for pair in pairs.iter().take(MAX_CHANGES) {
+        let (version, [old, new], switch) = match pair {
+            PairedSwitch::Both { old, new } => ("both".to_owned(), [Some(old), Some(new)], new),
+            PairedSwitch::One(which, switch) => {
+                let of = |it| (it == *which).then_some(switch);
+                let version = format!("{} {} only", sign(*which), which.as_str());
+                (version, [of(Which::Old), of(Which::New)], switch)
+            }
+        };
+        let [old, new] = [old, new].map(|it| it.map_or(String::new(), Switch::place));
+        let text = visible_line(switch.first_line());
+        table.row(&[&version, &old, &new, switch, &text]);
     }
-    out
+    out.table(table);
+    let more = pairs.len().saturating_sub(MAX_CHANGES);
+    if more > 0 {
+        out.lines([format!("… {more} more changes")]);
+    }
 }
 
 #[derive(Serialize)]

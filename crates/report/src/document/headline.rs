@@ -61,6 +61,11 @@ impl Headline {
 }
 
 impl Headline {
+    /// Returns the verdict after a remark that has to be known first.
+    pub(crate) fn after(&self, remark: &str) -> Self {
+        Self::new(self.standing, format!("{remark}. {}", self.text))
+    }
+
     /// Returns the verdict as a sentence of prose, with a capital letter unless it begins with a name.
     pub(crate) fn sentence(&self) -> String {
         let (first, _) = self.text.split_once(' ').unwrap_or((&self.text, ""));

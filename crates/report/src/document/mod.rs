@@ -16,12 +16,15 @@ pub use table::Table;
 
 use crate::diagnostics::{Detail, fitted};
 use crate::svg::{BandChart, Frame, LineChart, PlaneChart, PolarChart};
+use crate::visible::visible_line;
 use frictcomp_recordings::identify::TraceFinding;
 
 /// A result: the verdict, then sections.
 #[derive(Debug)]
 pub struct Document<'a> {
     pub(crate) title: String,
+    /// What has to be known before the verdict.
+    pub(crate) remark: Option<String>,
     pub(crate) headline: Headline,
     pub(crate) sections: Vec<DocumentSection<'a>>,
 }
@@ -122,11 +125,17 @@ impl<'a> Document<'a> {
     pub(crate) fn new(title: impl Into<String>, headline: Headline) -> Self {
         let mut document = Self {
             title: title.into(),
+            remark: None,
             headline,
             sections: Vec::new(),
         };
         document.begin(String::new(), SectionExtent::Brief);
         document
+    }
+
+    /// Puts a remark above the verdict.
+    pub(crate) fn remark(&mut self, remark: Option<&str>) {
+        self.remark = remark.map(|it| visible_line(it).into_owned());
     }
 
     /// Begins a section.

@@ -14,6 +14,8 @@ use frictcomp_recordings::identify::TraceFinding;
 /// renders its data.
 #[derive(Debug, Serialize)]
 pub struct ShownDocument<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remark: Option<&'a str>,
     headline: &'a Headline,
     #[serde(rename = "blocks", serialize_with = "serialize_blocks")]
     sections: Vec<&'a DocumentSection<'a>>,
@@ -26,6 +28,7 @@ impl<'a> ShownDocument<'a> {
             detail == Detail::Full || section.extent == SectionExtent::Brief
         };
         Self {
+            remark: document.remark.as_deref(),
             headline: &document.headline,
             sections: sections.filter(is_shown).collect(),
         }
@@ -34,6 +37,9 @@ impl<'a> ShownDocument<'a> {
 
 impl Display for ShownDocument<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(remark) = self.remark {
+            writeln!(f, "{remark}\n")?;
+        }
         writeln!(f, "{}", self.headline)?;
         let mut parts = self.sections.iter().flat_map(|section| &section.parts);
         parts.try_for_each(|part| match part {

@@ -13,8 +13,9 @@ enum Alignment {
     Right,
 }
 
-/// A table whose columns are as wide as their widest cell, two blanks apart, without trailing blanks. The
-/// first line has the headings, if there are any; a row may have fewer cells than there are columns.
+/// A table whose columns are as wide as their widest cell, two blanks apart, without trailing blanks. The headings come
+/// first, if there are any, each with its unit on a second line if it has one; a row may have fewer cells than there are
+/// columns.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Table {
     headings: Vec<String>,
@@ -70,30 +71,38 @@ impl Table {
         &self.rows
     }
 
-    fn lines(&self) -> impl Iterator<Item = &Vec<String>> {
-        let has_headings = self.headings.iter().any(|heading| !heading.is_empty());
-        let headings = has_headings.then_some(&self.headings);
-        headings.into_iter().chain(&self.rows)
+    fn lines(&self) -> Vec<Vec<&str>> {
+        let of_headings = |at: usize| -> Vec<&str> {
+            let headings = self.headings.iter();
+            let lines = headings.map(|heading| heading.lines().nth(at).unwrap_or_default());
+            lines.collect()
+        };
+        let headings = [0, 1].map(of_headings).into_iter();
+        let headings = headings.filter(|line| line.iter().any(|it| !it.is_empty()));
+        let rows = self.rows.iter();
+        let rows = rows.map(|cells| cells.iter().map(String::as_str).collect());
+        headings.chain(rows).collect()
     }
 }
 
 impl Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines = self.lines();
         let columns = self.alignments.iter().enumerate();
         let columns: Vec<(Alignment, usize)> = columns
             .map(|(at, alignment)| {
-                let cells = self.lines().filter_map(|cells| cells.get(at));
+                let cells = lines.iter().filter_map(|cells| cells.get(at));
                 let width = cells.map(|cell| cell.width()).max();
                 (*alignment, width.unwrap_or(0))
             })
             .collect();
-        for cells in self.lines() {
+        for cells in &lines {
             let mut line = String::new();
             for (cell, (alignment, width)) in cells.iter().zip(&columns) {
                 let blanks = " ".repeat(width - cell.width());
                 match alignment {
-                    Alignment::Left => line.extend([cell, blanks.as_str()]),
-                    Alignment::Right => line.extend([&blanks, cell.as_str()]),
+                    Alignment::Left => line.extend([*cell, &blanks]),
+                    Alignment::Right => line.extend([blanks.as_str(), cell]),
                 }
                 line.push_str("  ");
             }
@@ -109,13 +118,13 @@ mod tests {
 
     #[test]
     fn columns_are_as_wide_as_what_stands_in_them() {
-        let mut table = Table::of_numbers(["µm"]).left("axis").right("at");
+        let mut table = Table::of_numbers(["µm"]).left("axis").right("at\nmm");
         table.row(&[&1.25, &"X", &7]);
         table.row(&[&"-", &"軸", &1000]);
         table.row(&[&12]);
         assert_eq!(
             table.to_string(),
-            "  µm  axis    at\n1.25  X        7\n   -  軸    1000\n  12\n"
+            "  µm  axis    at\n              mm\n1.25  X        7\n   -  軸    1000\n  12\n"
         );
     }
 }

@@ -165,7 +165,7 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
                 html! { (finding.unknown.len()) },
                 html! { (finding.hazards()) },
                 html! { (finding.possible_hazards()) },
-                html! { span class="wide" { (cure(finding)) } },
+                html! { span class="sentence" { (cure(finding)) } },
             ];
             HtmlRow::new(&axis_name(&finding.axis, finding.kind), cells)
         });

@@ -37,7 +37,11 @@ pub(super) fn render_with(
         parts.collect::<Vec<_>>()
     });
     let parts = [&first, further, &last].concat();
-    let mut page = Page::open(out, &document.title, &document.headline, &parts)?;
+    let verdict = match &document.remark {
+        None => document.headline.clone(),
+        Some(remark) => document.headline.after(remark),
+    };
+    let mut page = Page::open(out, &document.title, &verdict, &parts)?;
     for (number, section) in open.iter().enumerate() {
         page.push(&render_section(number, section))?;
     }
@@ -75,7 +79,8 @@ fn render_section(number: usize, section: &DocumentSection<'_>) -> Markup {
         @if title.is_empty() {
             section #result aria-label="Result" { (content) }
         } @else {
-            section id=(id) aria-labelledby={ (id) "-h" } {
+            @let own_page = *extent == SectionExtent::Full;
+            section.own-page[own_page] id=(id) aria-labelledby={ (id) "-h" } {
                 @if *extent == SectionExtent::Folded {
                     details { summary { (heading) } (content) }
                 } @else {
@@ -96,7 +101,7 @@ fn content(section: usize, content: &DocumentSection<'_>) -> Markup {
                 [DocumentBlock::Line(line)] if item(&group[0]).is_none() => p { (with_code(line)) },
                 [DocumentBlock::Table(captioned)] => (table(*captioned, &content.title)),
                 [DocumentBlock::Finding(it)] => (finding(it)),
-                [DocumentBlock::Verbatim(text)] => pre { (text) },
+                [DocumentBlock::Verbatim(text)] => pre { (text.trim_matches('\n')) },
                 [DocumentBlock::Figure(it)] => {
                     @let name = format!("figure-{section}-{at}");
                     (figure(it.render(Frame::Inside(&name))))

@@ -7,8 +7,6 @@
 
 mod assumptions;
 mod audit;
-mod commission;
-mod compare;
 mod contour;
 mod digest;
 mod document;
@@ -17,7 +15,6 @@ mod machine;
 mod messages;
 mod page;
 mod parts;
-mod replay;
 mod reversed;
 mod run;
 mod source;
@@ -26,12 +23,9 @@ mod track;
 mod ways;
 
 pub use audit::render_audit;
-pub use commission::{Acceptance, render_acceptance};
-pub use compare::render_versions;
 pub use contour::render_contour;
 pub use digest::RunDigest;
 pub use document::render_document;
 pub use given::{GivenForRun, RunInputs};
-pub use replay::{ReplayReport, ReplayReportAxis, render_replay};
 pub use run::render_run;
 pub use source::Sources;

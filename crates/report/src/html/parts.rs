@@ -13,6 +13,9 @@ pub(super) struct HtmlTable<'a> {
     pub(super) columns: &'a [ColumnHeading<'a>],
 }
 
+/// Columns of a table that fit on a narrow screen.
+const MOST_COLUMNS: usize = 6;
+
 /// Caption of a table.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Caption<'a> {
@@ -31,7 +34,18 @@ pub(super) enum ColumnHeading<'a> {
     Number(&'a str),
 }
 
-impl ColumnHeading<'_> {
+impl<'a> ColumnHeading<'a> {
+    fn name(self) -> &'a str {
+        let (Self::Text(name) | Self::Number(name)) = self;
+        name
+    }
+
+    /// The name, with the unit below it.
+    fn heading(self) -> Markup {
+        let (name, unit) = self.name().split_once('\n').unwrap_or((self.name(), ""));
+        html! { (name) @if !unit.is_empty() { " " span.unit { (unit) } } }
+    }
+
     fn class(self) -> Option<&'static str> {
         match self {
             Self::Text(_) => None,
@@ -65,21 +79,23 @@ impl HtmlRow {
 }
 
 impl HtmlTable<'_> {
-    /// The table, in a frame that scrolls by itself on narrow screens.
+    /// The table, in a frame that scrolls by itself on narrow screens; the rows of a wide one become blocks there.
     pub(super) fn render(&self, rows: impl IntoIterator<Item = HtmlRow>) -> Markup {
         let (caption, class) = match self.caption {
             Caption::Shown(caption) => (caption, None),
             Caption::Heard(caption) => (caption, Some("unseen")),
         };
         html! {
+            @let is_wide = self.columns.len() > MOST_COLUMNS;
             div.wide tabindex="0" role="region" aria-label=(caption) {
-                table {
+                table.stacked[is_wide] {
                     caption class=[class] { (caption) }
-                    thead {
-                        tr {
-                            @for column in self.columns {
-                                @let (ColumnHeading::Text(name) | ColumnHeading::Number(name)) = column;
-                                th class=[column.class()] scope="col" { (name) }
+                    @if self.columns.iter().any(|column| !column.name().is_empty()) {
+                        thead {
+                            tr {
+                                @for column in self.columns {
+                                    th class=[column.class()] scope="col" { (column.heading()) }
+                                }
                             }
                         }
                     }
@@ -89,7 +105,9 @@ impl HtmlTable<'_> {
                             tr {
                                 th class=[self.columns[0].class()] scope="row" { (row.heading) }
                                 @for (cell, column) in row.cells.iter().zip(&self.columns[1..]) {
-                                    td class=[column.class()] { (cell) }
+                                    td class=[column.class()] data-head=[is_wide.then_some(column.name())] {
+                                        (cell)
+                                    }
                                 }
                             }
                             "\n"

@@ -109,7 +109,7 @@ fn lead(digest: &RunDigest) -> Headline {
     let found = states.headline();
     let found = found.unwrap_or_else(|| Headline::new(Standing::Open, counts(digest)));
     match &digest.remark {
-        Some(remark) => Headline::new(found.standing, format!("{remark}. {}", found.text)),
+        Some(remark) => found.after(remark),
         None => found,
     }
 }

@@ -1,6 +1,5 @@
 //! The results of the tool as charts.
 
-mod commission;
 mod contour;
 mod current;
 mod friction;
@@ -10,7 +9,6 @@ mod trace;
 mod tuning;
 mod units;
 
-pub use commission::{friction_of_axis, glitches_by_feed};
 pub use contour::{BlockStretch, ContourPicture, FollowedContour, WorstReversal};
 pub use current::{AxisPlot, AxisSample, CurrentPlot};
 pub use friction::{friction_states, friction_trend};

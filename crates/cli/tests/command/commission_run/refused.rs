@@ -136,7 +136,7 @@ fn what_is_recorded_and_what_is_said_are_told_apart() {
     let page = std::fs::read_to_string(folder.path().join("report.html")).expect("a report");
     for words in [
         shown,
-        "Stated, but shown by no recording: one unit of `v` is 1000 µm/s or 0.001°/s.",
+        "Stated, but shown by no recording: one unit of <code>v</code> is 1000 µm/s or 0.001°/s.",
     ] {
         assert!(page.contains(words), "{words}");
     }

@@ -60,7 +60,7 @@ fn a_block_that_deviates_more_is_named_with_its_worst_place() {
     assert_eq!(diff(&bench, &page).0, Some(1));
     let page = bench.read("d.html");
     assert!(
-        page.contains("new.nc:7") && page.contains("deviates more"),
+        page.contains("line 7 of new.nc") && page.contains("deviates more"),
         "{page}"
     );
 }

@@ -160,7 +160,7 @@ fn a_comparison_is_a_document_and_a_page() {
     for part in [
         "The versions cannot be compared as a whole.",
         "1 of 3 changes of state are in only one version.",
-        "new version: new.nc:5 stops with P-ERR-70495",
+        "not comparable: new.nc:5 stops with P-ERR-70495",
         "+ new only",
         "(&lt;i&gt;)",
     ] {

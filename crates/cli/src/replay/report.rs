@@ -1,10 +1,10 @@
-//! The result of `frictcomp replay` as a page.
+//! The result of `frictcomp replay` as a report.
 
-use super::shown::{against, at_place, headline, remarks, verdict_of, word};
-use frictcomp_host::replay::{RecordedAxis, Replayed, ReplayedAxis, StateRecording};
-use frictcomp_report::html::{ReplayReport, ReplayReportAxis};
+use super::shown::{against, at_place, headline, remarks, verdict_of};
+use frictcomp_host::replay::{RecordedAxis, Replayed, ReplayedAxis, ReplayedBy, StateRecording};
+use frictcomp_report::replay::{AgreedChange, ReplayReport, ReplayReportAxis};
 
-/// Returns the contents of the page.
+/// Returns the contents of the report.
 pub(super) fn report(
     replayed: &Replayed,
     recording: &StateRecording,
@@ -14,7 +14,7 @@ pub(super) fn report(
     ReplayReport {
         recording: recorded,
         headline: headline(replayed),
-        verdicts: remarks(replayed),
+        remarks: remarks(replayed),
         axes: axes
             .map(|(axis, recorded)| of_axis(axis, recorded, replayed))
             .collect(),
@@ -22,18 +22,14 @@ pub(super) fn report(
 }
 
 fn of_axis(axis: &ReplayedAxis, recorded: &RecordedAxis, replayed: &Replayed) -> ReplayReportAxis {
-    let changes = axis.changes.iter().map(|it| {
-        [
-            format!("{:.3}", it.t_s),
-            at_place(&it.at),
-            word(it).to_owned(),
-            it.by.as_str().to_owned(),
-        ]
+    let changes = axis.changes.iter().map(|it| AgreedChange {
+        time_s: it.t_s,
+        place: at_place(&it.at),
+        active: it.active,
     });
-    let mut reasons = axis.disagreement.as_ref().map(against).unwrap_or_default();
-    if let (Some(found), Some(first)) = (&axis.disagreement, reasons.first_mut()) {
-        *first = format!("{:.3} s, {first}", found.t_s);
-    }
+    let by_order = axis.changes.iter();
+    let by_order = by_order.filter(|it| it.by == ReplayedBy::Order);
+    let disagreement = axis.disagreement.as_ref();
     let switched = recorded.changes.iter().map(|it| (it.t_s, it.active));
     ReplayReportAxis {
         name: axis.name.clone(),
@@ -42,7 +38,8 @@ fn of_axis(axis: &ReplayedAxis, recorded: &RecordedAxis, replayed: &Replayed) ->
             .chain(switched)
             .collect(),
         end_s: recorded.end_s,
+        by_order: by_order.count(),
         changes: changes.collect(),
-        against: reasons,
+        against: disagreement.map(|found| (found.t_s, against(found))),
     }
 }

@@ -1,11 +1,11 @@
 //! The friction of a commissioned axis, and its circles before and after.
 
-use crate::commission::Round;
+use super::Round;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use frictcomp_recordings::commission::{BeforeAfter, FrictionFound, Shows};
 
 /// Friction over speed with bars of one standard error, and the points of the list.
-pub fn friction_of_axis(found: &FrictionFound) -> LineChart {
+pub(super) fn friction_of_axis(found: &FrictionFound) -> LineChart {
     let bar = |&[speed, friction, error]: &[f64; 3]| {
         [
             [speed, friction - error],
@@ -63,7 +63,7 @@ fn between(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// The glitches of a round over the feed, off and on.
-pub fn glitches_by_feed(round: &Round) -> LineChart {
+pub(super) fn glitches_by_feed(round: &Round) -> LineChart {
     let series = |name: &str, value: fn(&BeforeAfter) -> f64| Series {
         name: name.to_owned(),
         points: round

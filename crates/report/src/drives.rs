@@ -90,7 +90,7 @@ fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
         "; friction compensation is not configured"
     };
     writeln!(out, "axis {name} ({kind}{simulated}{configured})")?;
-    let mut rows = Table::without_headings(2);
+    let mut rows = Table::plain(["signal", "presence"]);
     let presences = [&report.additive_torque, &report.actual_torque];
     for (signal, presence) in Signal::ALL.iter().zip(presences) {
         let (word, why) = match presence {

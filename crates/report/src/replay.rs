@@ -65,7 +65,7 @@ pub fn document(report: &ReplayReport) -> Document<'_> {
 fn push_axis(out: &mut Document<'_>, axis: &ReplayReportAxis) {
     out.lines([format!("{}: {}", visible_line(&axis.name), axis.verdict)]);
     let at = |time_s: f64| format!("  {time_s:>10.3} s");
-    let mut table = Table::without_headings(3);
+    let mut table = Table::plain(["time", "block of the dry run", "state"]);
     for change in &axis.changes {
         let state = state(change.active).as_str();
         table.row(&[&at(change.time_s), &change.place, &state]);

@@ -34,7 +34,7 @@ fn headline(solution: &Solution) -> Headline {
 
 /// The values as a table, the computed ones with their formula, and remarks on them.
 pub fn document(solution: &Solution) -> Document<'_> {
-    let mut values = Table::without_headings(3);
+    let mut values = Table::plain(["quantity", "value", "computed by"]);
     for solved in &solution.values {
         let (quantity, by) = (solved.quantity, solved.by.unwrap_or_default());
         values.row(&[&quantity.symbol(), &quantity.shown(solved.value), &by]);

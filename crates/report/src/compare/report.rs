@@ -135,7 +135,7 @@ fn push_differences(out: &mut Document<'_>, report: &VersionsReport) {
             None => rows.push((row, 1)),
         }
     }
-    let mut table = Table::without_headings(4);
+    let mut table = Table::plain(["line", "change", "block", "times"]);
     for ([place, change, text], times) in rows {
         let times = match times {
             1 => String::new(),

@@ -21,6 +21,9 @@ pub struct Table {
     headings: Vec<String>,
     alignments: Vec<Alignment>,
     rows: Vec<Vec<String>>,
+    /// Whether the headings are only for screen readers.
+    #[serde(skip)]
+    is_plain: bool,
 }
 
 impl Table {
@@ -29,9 +32,13 @@ impl Table {
         headings.into_iter().fold(Self::default(), Self::right)
     }
 
-    /// Creates a table of columns of words, without a line of headings.
-    pub fn without_headings(columns: usize) -> Self {
-        (0..columns).fold(Self::default(), |table, _| table.left(""))
+    /// Creates a table of columns of words that explain themselves: only screen readers tell the headings.
+    pub fn plain<const N: usize>(headings: [&str; N]) -> Self {
+        let table = Self {
+            is_plain: true,
+            ..Self::default()
+        };
+        headings.into_iter().fold(table, Self::left)
     }
 
     /// Adds a column of numbers, right-aligned.
@@ -60,6 +67,11 @@ impl Table {
         self.rows.push(cells);
     }
 
+    /// Whether the headings are only for screen readers.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
     /// Returns the headings, each with whether its column has numbers.
     pub(crate) fn headings(&self) -> impl Iterator<Item = (&str, bool)> {
         let numbers = self.alignments.iter().map(|it| *it == Alignment::Right);
@@ -78,7 +90,10 @@ impl Table {
             lines.collect()
         };
         let headings = [0, 1].map(of_headings).into_iter();
-        let headings = headings.filter(|line| line.iter().any(|it| !it.is_empty()));
+        let headings = headings.filter(|line| {
+            let has_words = line.iter().any(|it| !it.is_empty());
+            has_words && !self.is_plain
+        });
         let rows = self.rows.iter();
         let rows = rows.map(|cells| cells.iter().map(String::as_str).collect());
         headings.chain(rows).collect()

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use maud::{Markup, html};
 
 use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure, with_code};
+use super::parts::{Caption, ColumnHeading, Headings, HtmlRow, HtmlTable, figure, with_code};
 use crate::document::{
     CaptionedTable, Document, DocumentBlock, DocumentSection, SectionExtent, blocks,
 };
@@ -150,8 +150,16 @@ fn table(CaptionedTable { caption, table }: CaptionedTable<'_>, title: &str) -> 
         columns: &columns,
     };
     let rows = table.rows().iter().filter(|row| !row.is_empty());
-    shown.render(rows.map(|row| {
-        let cells: Vec<Markup> = row[1..].iter().map(|cell| with_code(cell)).collect();
-        HtmlRow::new(&row[0], cells)
-    }))
+    let headings = if table.is_plain() {
+        Headings::Heard
+    } else {
+        Headings::Shown
+    };
+    shown.render_under(
+        headings,
+        rows.map(|row| {
+            let cells: Vec<Markup> = row[1..].iter().map(|cell| with_code(cell)).collect();
+            HtmlRow::new(&row[0], cells)
+        }),
+    )
 }

@@ -13,8 +13,16 @@ pub(super) struct HtmlTable<'a> {
     pub(super) columns: &'a [ColumnHeading<'a>],
 }
 
+/// Whether the headings of a table are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Headings {
+    Shown,
+    /// Only for screen readers.
+    Heard,
+}
+
 /// Columns of a table that fit on a narrow screen.
-const MOST_COLUMNS: usize = 6;
+const MOST_COLUMNS: usize = 8;
 
 /// Caption of a table.
 #[derive(Debug, Clone, Copy)]
@@ -81,6 +89,15 @@ impl HtmlRow {
 impl HtmlTable<'_> {
     /// The table, in a frame that scrolls by itself on narrow screens; the rows of a wide one become blocks there.
     pub(super) fn render(&self, rows: impl IntoIterator<Item = HtmlRow>) -> Markup {
+        self.render_under(Headings::Shown, rows)
+    }
+
+    /// The table with headings that are seen or heard.
+    pub(super) fn render_under(
+        &self,
+        headings: Headings,
+        rows: impl IntoIterator<Item = HtmlRow>,
+    ) -> Markup {
         let (caption, class) = match self.caption {
             Caption::Shown(caption) => (caption, None),
             Caption::Heard(caption) => (caption, Some("unseen")),
@@ -90,12 +107,10 @@ impl HtmlTable<'_> {
             div.wide tabindex="0" role="region" aria-label=(caption) {
                 table.stacked[is_wide] {
                     caption class=[class] { (caption) }
-                    @if self.columns.iter().any(|column| !column.name().is_empty()) {
-                        thead {
-                            tr {
-                                @for column in self.columns {
-                                    th class=[column.class()] scope="col" { (column.heading()) }
-                                }
+                    thead.unseen[headings == Headings::Heard] {
+                        tr {
+                            @for column in self.columns {
+                                th class=[column.class()] scope="col" { (column.heading()) }
                             }
                         }
                     }

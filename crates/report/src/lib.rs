@@ -25,6 +25,7 @@ pub mod compare;
 pub mod configuration;
 pub mod contour;
 mod csv;
+pub mod current;
 mod diagnostics;
 mod document;
 pub mod drives;

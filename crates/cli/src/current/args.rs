@@ -8,6 +8,7 @@ use super::super::channels::MotionChannels;
 use super::super::cycle::CycleArgs;
 use super::super::execution::ExecutionArgs;
 use super::super::failure::Failure;
+use super::super::html::HtmlArgs;
 use super::super::machine::MachineArgs;
 use super::super::per_axis::PerAxis;
 use super::super::quantities;
@@ -81,6 +82,8 @@ pub(crate) struct CurrentArgs {
     /// Draw currents, velocities, weights and compensation states over time to this SVG file
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) html: HtmlArgs,
     /// Write the result to this file
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

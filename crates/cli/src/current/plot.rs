@@ -1,40 +1,46 @@
 //! Pictures and messages of both forms of the command.
 
-use std::path::Path;
-
 use super::super::console::Console;
 use super::super::failure::Failure;
-use super::super::outputs::{Outputs, write_text};
+use super::super::html::write_page;
+use super::super::outputs::{Outputs, write_picture};
+use super::args::CurrentArgs;
 use frictcomp::lists::FrictionList;
 use frictcomp_host::OutputFile;
 use frictcomp_physics::current::{Reading, Standstill};
 use frictcomp_report::counted;
+use frictcomp_report::current::document;
 use frictcomp_report::pictures::{AxisPlot, CurrentPlot};
-use frictcomp_report::svg::Frame;
 
-/// A picture that is drawn as the cycles arrive, and its output file.
+/// A picture that is drawn as the cycles arrive, and its output files.
 pub(super) struct Plot {
-    file: OutputFile,
+    svg: Option<OutputFile>,
+    html: Option<OutputFile>,
     pub(super) traces: CurrentPlot,
 }
 
 impl Plot {
-    /// Creates the picture that the user asked for.
+    /// Creates the picture that the user asked for, alone or in a page.
     pub(super) fn create(
-        path: Option<&Path>,
+        args: &CurrentArgs,
         outputs: &mut Outputs,
         axes: Vec<AxisPlot>,
     ) -> Result<Option<Self>, Failure> {
-        let file = outputs.optional("--svg", path)?;
-        Ok(file.map(|file| Self {
-            file,
+        let svg = outputs.optional("--svg", args.svg.as_deref())?;
+        let html = args.html.page(outputs)?;
+        let is_wanted = svg.is_some() || html.is_some();
+        Ok(is_wanted.then(|| Self {
+            svg,
+            html,
             traces: CurrentPlot::new(axes),
         }))
     }
 
-    /// Writes the picture.
-    pub(super) fn finish(mut self) -> Result<(), Failure> {
-        write_text(&mut self.file, &self.traces.chart().render(Frame::Alone))
+    /// Writes the picture, and the page under its verdict.
+    pub(super) fn finish(self, verdict: &str) -> Result<(), Failure> {
+        let document = document(&self.traces, verdict);
+        write_picture(self.svg, &document)?;
+        write_page(self.html, &document)
     }
 }
 

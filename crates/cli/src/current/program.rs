@@ -38,11 +38,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let followed = axes_to_follow(&args.axes, &loaded.machine)?;
     let options = options(args, &loaded)?;
     let result = outputs.result(args.output.as_deref())?;
-    let plot = Plot::create(
-        args.svg.as_deref(),
-        &mut outputs,
-        plotted(&loaded, &followed),
-    )?;
+    let plot = Plot::create(args, &mut outputs, plotted(&loaded, &followed))?;
     outputs.check()?;
     let name = |axis: &AxisIndex| loaded.machine.axis(*axis).name.clone();
     let names: Vec<String> = followed.iter().map(name).collect();
@@ -70,7 +66,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     if let Some(plot) = table.take_plot()
         && cycles > 0
     {
-        plot.finish()?;
+        plot.finish(&table.verdict(&names))?;
     }
     match table.finish() {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),

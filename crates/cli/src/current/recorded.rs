@@ -37,7 +37,7 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
     let list = value_list(lists.required(name)?, &registry)?;
     let mut writer = outputs.result(args.output.as_deref())?.writer;
     let axes = vec![AxisPlot::new("", None)];
-    let mut plot = Plot::create(args.svg.as_deref(), &mut outputs, axes)?;
+    let mut plot = Plot::create(args, &mut outputs, axes)?;
     outputs.check()?;
     let selection = args.channels.of_axis(name, &[name])?;
     let trace = read_commanded(recording, &selection, args.trace_options()?)?;
@@ -48,7 +48,7 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
     let mut current = AdditiveCurrent::new(&list, reading);
     let written = write_csv(&mut writer, &trace, &mut current, plot.as_mut());
     if let Some(plot) = plot {
-        plot.finish()?;
+        plot.finish(written.as_deref().unwrap_or_default())?;
     }
     match written {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),

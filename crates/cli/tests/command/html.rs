@@ -507,6 +507,26 @@ fn each_result_has_a_page() {
     }
 }
 
+#[test]
+fn the_additive_current_has_a_page() {
+    // R9.50, R18.20
+    let program = "N10 G90 G01 F600 X0\nN20 X1\nN30 X0\nN40 M30\n";
+    let bench = Bench::new(&[("a.nc", program)]);
+    let arguments = [
+        "current", "a.nc", "--axis", "X", "--start", "X0", "--html", "x.html",
+    ];
+    let shown = bench.call(&arguments);
+    let said = String::from_utf8_lossy(&shown.stderr);
+    let verdict = said
+        .lines()
+        .find(|line| line.contains(" drive units (line "));
+    let page = bench.read("x.html");
+    assert_sound(&page);
+    assert!(page.contains("Additive current of axis X</h1>"), "{page}");
+    let verdict = verdict.expect("a verdict").trim_start_matches("over");
+    assert!(page.contains(verdict), "{verdict}: {page}");
+}
+
 /// The browser of this machine: `FRICTCOMP_BROWSER`, or what Debian and others call Chromium.
 fn browser() -> Option<PathBuf> {
     if let Some(named) = std::env::var_os("FRICTCOMP_BROWSER") {

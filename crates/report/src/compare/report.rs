@@ -149,7 +149,7 @@ fn push_differences(out: &mut Document<'_>, report: &VersionsReport) {
 /// Appends the changes of both versions; a sign marks those of one.
 fn push_changes(out: &mut Document<'_>, comparison: &VersionComparison) {
     let pairs = comparison.pairs();
-    if pairs.is_empty() {
+    if comparison.common() == 0 {
         return;
     }
     out.detail("Changes of state in both versions");

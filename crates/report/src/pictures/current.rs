@@ -215,6 +215,18 @@ impl CurrentPlot {
         }
     }
 
+    /// The title of the chart and of its page.
+    pub(crate) fn title(&self) -> String {
+        match &self.axes[..] {
+            [one] if one.name.is_empty() => "Additive current".to_owned(),
+            [one] => format!("Additive current of axis {}", one.name),
+            axes => {
+                let all: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
+                format!("Additive current of axes {}", all.join(", "))
+            }
+        }
+    }
+
     /// The chart: for each axis the current, below it velocity and weights; above all the states
     /// of compensation.
     pub fn chart(&self) -> LineChart {
@@ -230,14 +242,7 @@ impl CurrentPlot {
             })
             .collect();
         LineChart {
-            title: match &self.axes[..] {
-                [one] if one.name.is_empty() => "Additive current".to_owned(),
-                [one] => format!("Additive current of axis {}", one.name),
-                axes => {
-                    let all: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-                    format!("Additive current of axes {}", all.join(", "))
-                }
-            },
+            title: self.title(),
             description: format!(
                 "{} CNC cycles in {} s; {}. Below each current the commanded velocity and the \
                  weights before and after a reversal, above all whether compensation is active; \

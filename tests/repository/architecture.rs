@@ -171,6 +171,7 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
             "commission",
             "document",
             "pictures",
+            "svg",
             "text",
         ],
     ),
@@ -180,7 +181,7 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
         "circle",
         &["assumptions", "document", "pictures", "svg"],
     ),
-    ("report", "commission", &["assumptions", "document"]),
+    ("report", "commission", &["assumptions", "document", "svg"]),
     ("report", "compare", &["contour", "document"]),
     (
         "report",
@@ -194,8 +195,6 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
         &[
             "assumptions",
             "audit",
-            "commission",
-            "compare",
             "contour",
             "document",
             "pictures",
@@ -203,7 +202,7 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
         ],
     ),
     ("report", "messages", &["document"]),
-    ("report", "pictures", &["commission", "svg"]),
+    ("report", "pictures", &["svg"]),
     ("report", "text", &["assumptions", "document"]),
     ("cli", "commission", &["identify"]),
 ];

@@ -1,4 +1,7 @@
 //! The report of an audit: findings, the matrix of programs and axes, and the relevant lines.
+//!
+//! It is no document: cells lead to the lines of thousands of programs, which are read once more while the page is
+//! written, and a terminal folds what a page has to show.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};

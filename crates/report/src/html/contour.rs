@@ -1,4 +1,4 @@
-//! The report of a contour: picture, figures, reversals.
+//! The report of a contour: its document, then each line with its reversals, to which the picture leads.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};

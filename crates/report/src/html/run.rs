@@ -1,4 +1,7 @@
 //! The report of a session.
+//!
+//! It is no document: the source of each file is read once more while the page is written, and bars, messages and states
+//! lead to its lines.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};

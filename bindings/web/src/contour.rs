@@ -154,7 +154,7 @@ pub(crate) fn report(
     let mut sources = Texts(dropped.disk());
     render_contour(
         (&mut contour, &subject),
-        picture,
+        &picture,
         &mut sources,
         &mut written,
     )

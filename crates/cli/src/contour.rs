@@ -181,7 +181,7 @@ impl Pictures {
             write_text(svg, &chart.render(Frame::Alone))?;
         }
         if let Some(html) = &mut self.html {
-            render_contour((contour, subject), picture, &mut Files, html)
+            render_contour((contour, subject), &picture, &mut Files, html)
                 .map_err(Failure::output)?;
         }
         Ok(())

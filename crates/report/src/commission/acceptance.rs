@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::picture::friction_of_axis;
+use super::plants::PlantVerdict;
 use super::results::{AxisVerdict, ResultsReport};
 use crate::document::{Document, Table};
 use crate::visible::visible_line;
@@ -62,10 +63,11 @@ fn push_iso_figures(out: &mut Document<'_>, report: &ResultsReport) {
         let iso = circles.iso;
         let feed = Rounded(circles.measured_feed.unwrap_or(circles.feed), 0);
         let figures = [iso.g_ccw, iso.g_cw, iso.g_b, iso.h];
-        let [g_ccw, g_cw, g_b, h] =
-            figures.map(|um| um.map_or("-".to_owned(), |it| Rounded(it, 1).to_string()));
+        let figures = figures.map(|um| um.map_or("-".to_owned(), |it| Rounded(it, 1).to_string()));
         let list = report.compensation_of(number);
-        table.row(&[&number, &list, &feed, &g_ccw, &g_cw, &g_b, &h]);
+        let mut cells = vec![number.to_string(), list, feed.to_string()];
+        cells.extend(figures);
+        table.cells(cells);
     }
     out.detail("Figures of ISO 230-4");
     out.push_str(
@@ -81,9 +83,9 @@ fn push_iso_figures(out: &mut Document<'_>, report: &ResultsReport) {
 fn push_axis<'a>(out: &mut Document<'a>, report: &'a ResultsReport, verdict: &AxisVerdict) {
     let name = visible_line(&verdict.axis);
     out.detail(format!("Axis {name}"));
-    let mut axes = report.plans.iter().flat_map(|it| &it.plan.axes);
-    let axis = axes.find(|it| it.name == verdict.axis);
-    out.lines(axis.map(|axis| format!("\n{name}: {}", described(axis))));
+    let mut measured = report.plans.iter().flat_map(|it| &it.plan.axes);
+    let measured = measured.find(|it| it.name == verdict.axis);
+    out.lines(measured.map(|axis| format!("\n{name}: {}", described(axis))));
     match report.friction_of(verdict) {
         Some(friction) => push_friction(out, friction),
         None => out.push_str("No friction is known.\n"),
@@ -178,7 +180,7 @@ fn push_files(out: &mut Document<'_>, report: &ResultsReport) {
     let plant = report.fitted.verdicts.last();
     for TunedList {
         axis, file, sha256, ..
-    } in plant.into_iter().flat_map(|it| it.lists())
+    } in plant.into_iter().flat_map(PlantVerdict::lists)
     {
         let what = format!("tuned list of {}", visible_line(axis));
         inputs.row(&[&visible_line(file), &what, &format!("`{sha256}`")]);

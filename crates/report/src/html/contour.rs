@@ -28,7 +28,7 @@ const MAX_LINES: usize = 500;
 /// Those of `out`.
 pub fn render_contour(
     (contour, subject): (&mut ProgramContour<ContourRecorder<'_>>, &ContourSubject),
-    picture: ContourPicture,
+    picture: &ContourPicture,
     sources: &mut dyn Sources,
     out: &mut dyn Write,
 ) -> io::Result<()> {

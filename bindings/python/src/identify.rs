@@ -183,7 +183,7 @@ impl AxisRecordings {
             recording,
         };
         Ok(PyIdentified {
-            record: render_json(&report),
+            record: render_json(std::slice::from_ref(&report)),
             svg: Some(friction_curve(&report).render(Frame::Alone)),
             list: report.identified.list(),
             unit: report.unit().to_owned(),

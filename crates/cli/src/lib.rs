@@ -138,7 +138,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Circle(circle::CircleArgs),
     Tune(tune::TuneArgs),
-    Current(current::CurrentArgs),
+    Current(current::CurrentCall),
     #[command(subcommand)]
     Ask(ask::AskCommand),
     Replay(replay::ReplayArgs),

@@ -119,7 +119,9 @@ pub use state_file::StateFile;
 pub use switched_axes::switched_axes;
 pub use switches::switches_of;
 pub use trace_error::TraceError;
-pub use traces::{read_axis, read_circles, read_commanded, read_motion, read_trace, read_turns};
+pub use traces::{
+    is_recording, read_axis, read_circles, read_commanded, read_motion, read_trace, read_turns,
+};
 pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs};
 pub use watch::{Done, Progress, Watch, Watcher};

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::findings::write_findings;
 use super::headline::{Headline, Standing};
-use super::strings::to_pretty;
+use super::of_axes::json_of_axes;
 use super::visible::visible_line;
 use crate::report_text::ReportText;
 use crate::table::Table;
@@ -290,9 +290,9 @@ struct SegmentRecord {
     v: f64,
 }
 
-/// The report as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
-pub fn render_json(report: &IdentifyReport) -> String {
-    to_pretty(&record(report))
+/// The report of an axis, or those of several, as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
+pub fn render_json(reports: &[IdentifyReport]) -> String {
+    json_of_axes(reports.iter().map(record))
 }
 
 /// The record of an identification.

@@ -83,10 +83,8 @@ impl ReadingArgs {
                 return Ok::<_, Failure>(ChannelSelection::default());
             };
             let followed = self.followed(name, plan)?;
-            let is_usual = ["X", "Y"].contains(&name.as_str());
-            let usual = || (!is_usual).then(|| name.clone());
             Ok(ChannelSelection {
-                position: followed.actual_position.or_else(usual),
+                position: followed.actual_position,
                 actual_position: None,
                 ..followed
             })

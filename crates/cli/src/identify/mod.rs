@@ -3,10 +3,11 @@
 mod args;
 mod states;
 
-use std::path::PathBuf;
+use std::path::Path;
 
 pub(crate) use args::{IdentifyArgs, refusal};
 
+use crate::channels::{named, refuse_alike};
 use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
@@ -19,13 +20,13 @@ use frictcomp_recordings::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, Measured, RequestedPoints, Track,
     identify_measured_circles,
 };
-use frictcomp_report::fitted;
 use frictcomp_report::html::render_identification;
-use frictcomp_report::identify::{render_json, render_text};
+use frictcomp_report::identify::{IdentifyReport, render_json, render_text};
 use frictcomp_report::on_circles::{self, OnCirclesReport};
 use frictcomp_report::pictures::friction_curve;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_report::{fitted, of_axes};
 
 /// Runs the command.
 pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
@@ -39,30 +40,12 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         .for_each(|path| registry.reads("recording", path));
     let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.result.output.as_deref())?;
-    let list = args.write_list.as_deref();
-    let list = list
-        .map(|path| outputs.list("--write-list", path))
-        .transpose()?;
-    let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = outputs.optional("--html", args.html.as_deref())?;
+    let lists = lists(args, &mut outputs)?;
+    let mut svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let mut html = outputs.optional("--html", args.html.as_deref())?;
     outputs.check()?;
-    let read = |path: &PathBuf| {
-        let cycle = args.cycle.seconds()?;
-        Ok::<_, Failure>(read_axis(
-            path,
-            &args.channels.selection(path, &registry)?,
-            cycle,
-            &Disk::default(),
-        )?)
-    };
     if args.circles {
-        refuse_copies(&args.recordings)?;
-        let recordings = args
-            .recordings
-            .iter()
-            .map(read)
-            .collect::<Result<Vec<_>, _>>()?;
-        let report = circles(args, recordings, list)?;
+        let report = circles(args, lists, &registry)?;
         target.text(&match args.result.format {
             ResultFormat::Text => fitted(&on_circles::render_text(&report), target.look.width),
             ResultFormat::Json => on_circles::render_json(&report),
@@ -70,36 +53,99 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         outputs.finish()?;
         return Ok(exit::CLEAN);
     }
-    let [recording] = &args.recordings[..] else {
-        let message = format!("{} recordings were given", args.recordings.len());
-        return Err(Failure::new(message).with_help(
-            "give one recording of constant speeds, or `--circles` for several circles",
-        ));
-    };
-    let report = args.identified(recording, read(recording)?, &options)?;
-    if let Some(mut list) = list {
-        write_text(&mut list, &args.list_of(&report, &[]))?;
+    let reports = at_speeds(args, &options, &registry)?;
+    for (mut list, report) in lists.into_iter().zip(&reports) {
+        write_text(&mut list, &args.list_of(report, &[]))?;
     }
-    if let Some(mut svg) = svg {
-        write_text(&mut svg, &friction_curve(&report).render(Frame::Alone))?;
-    }
-    if let Some(mut html) = html {
-        render_identification(&report, &mut html).map_err(Failure::output)?;
+    for report in &reports {
+        if let Some(svg) = &mut svg {
+            write_text(svg, &friction_curve(report).render(Frame::Alone))?;
+        }
+        if let Some(html) = &mut html {
+            render_identification(report, html).map_err(Failure::output)?;
+        }
     }
     target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
-        ResultFormat::Json => render_json(&report),
+        ResultFormat::Text => fitted(&of_axes(reports.iter().map(render_text)), target.look.width),
+        ResultFormat::Json => render_json(&reports),
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)
 }
 
-/// Returns the values identified on recorded circles, and their value list.
+/// Returns the files of the value lists: one, or one of each axis.
+fn lists(args: &IdentifyArgs, outputs: &mut Outputs) -> Result<Vec<OutputFile>, Failure> {
+    let sole = [
+        (
+            "`--write-list` writes the list of",
+            args.write_list.is_some(),
+        ),
+        ("`--svg` draws", args.svg.is_some()),
+        ("`--html` shows", args.html.is_some()),
+    ];
+    for (what, _) in sole.into_iter().filter(|it| it.1) {
+        args.channels.sole_axis(what)?;
+    }
+    if let Some(path) = &args.write_list {
+        return Ok(vec![outputs.list("--write-list", path)?]);
+    }
+    let Some(folder) = &args.into else {
+        return Ok(Vec::new());
+    };
+    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
+    let axes = args.channels.axes().into_iter();
+    axes.map(|axis| outputs.list("--into", &folder.join(format!("{axis}.lis"))))
+        .collect()
+}
+
+/// Returns the friction of each axis in a recording of constant speeds.
+fn at_speeds(
+    args: &IdentifyArgs,
+    options: &IdentifyOptions,
+    registry: &FileRegistry,
+) -> Result<Vec<IdentifyReport>, Failure> {
+    let [path] = &args.recordings[..] else {
+        let message = format!("{} recordings were given", args.recordings.len());
+        return Err(Failure::new(message).with_help(
+            "give one recording of constant speeds, or `--circles` for several circles",
+        ));
+    };
+    let axes = args.channels.axes();
+    let read = |axis: &&str| read(args, (axis, path), registry);
+    let recordings = axes.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    refuse_alike(
+        axes.iter()
+            .copied()
+            .zip(recordings.iter().map(|it| &it.track)),
+    )?;
+    let reports = axes.into_iter().zip(recordings);
+    reports
+        .map(|(axis, recording)| args.identified((axis, path), recording, options))
+        .collect()
+}
+
+/// Reads the channels of an axis.
+fn read(
+    args: &IdentifyArgs,
+    (axis, path): (&str, &Path),
+    registry: &FileRegistry,
+) -> Result<AxisRecording, Failure> {
+    let selection = args.channels.selection(axis, path, registry)?;
+    let cycle = args.cycle.seconds()?;
+    Ok(read_axis(path, &selection, cycle, &Disk::default())?)
+}
+
+/// Returns the values identified on recorded circles, and writes their value list.
 fn circles(
     args: &IdentifyArgs,
-    recordings: Vec<AxisRecording>,
-    list: Option<OutputFile>,
+    lists: Vec<OutputFile>,
+    registry: &FileRegistry,
 ) -> Result<OnCirclesReport, Failure> {
+    refuse_copies(&args.recordings)?;
+    let axis = args.channels.sole_axis("the circles are those of")?;
+    let paths = args.recordings.iter();
+    let recordings = paths.map(|path| read(args, (axis, path), registry));
+    let recordings = recordings.collect::<Result<Vec<_>, _>>()?;
     let tracks: Vec<Track> = recordings.iter().map(|it| it.track.clone()).collect();
     let measured = recordings
         .iter()
@@ -112,11 +158,11 @@ fn circles(
             .iter()
             .map(|path| shown_path(path))
             .collect(),
-        axis: args.channels.axis.clone(),
+        axis: named(axis),
         found: identify_measured_circles(&tracks, &measured)?,
         recordings,
     };
-    if let Some(mut list) = list {
+    for mut list in lists {
         let made = IdentifiedFrom {
             axis: report.axis.as_deref(),
             from: &report.names.join(", "),

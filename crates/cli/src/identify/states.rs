@@ -30,6 +30,7 @@ pub(super) fn run(
     let recordings = args.recordings.iter().map(|it| state_of(it));
     let recordings = recordings.collect::<Result<Vec<(&str, PathBuf)>, Failure>>()?;
     let names: Vec<&str> = recordings.iter().map(|it| it.0).collect();
+    let axis = args.channels.sole_axis("the states are those of")?;
     let working = working(&names, args.working.as_deref().unwrap_or(WORKING))?;
     let registry = FileRegistry::default();
     for (_, path) in &recordings {
@@ -49,13 +50,13 @@ pub(super) fn run(
     let states = recordings.iter().map(|(name, path)| {
         let recording = read_axis(
             path,
-            &args.channels.selection(path, &registry)?,
+            &args.channels.selection(axis, path, &registry)?,
             cycle,
             &Disk::default(),
         )?;
         Ok((
             (*name).to_owned(),
-            args.identified(path, recording, options)?,
+            args.identified((axis, path), recording, options)?,
         ))
     });
     let states = states.collect::<Result<Vec<_>, Failure>>()?;

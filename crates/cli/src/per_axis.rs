@@ -3,12 +3,14 @@
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
+use serde::Serialize;
+
 use super::failure::Failure;
 use frictcomp_report::visible_line;
 
 /// A value of an option as it is written. `NAME=` counts as an axis only where there is an axis of that name:
 /// `./X=a.lis` is a file.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub(crate) struct PerAxis(OsString);
 
 impl From<OsString> for PerAxis {

@@ -86,7 +86,7 @@ pub use changed_programs::ChangedPrograms;
 pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
 pub use cures::MendedProgram;
 pub use decode::decode;
-pub use digest::{sha256_of, sha256_of_text};
+pub use digest::{sha256_of, sha256_of_data, sha256_of_text};
 pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
 pub use disk::Disk;
 pub use dry_run::{

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use serde::Serialize;
 
 use crate::channels::{FollowedChannels, MotionChannels, TorqueChannel, TorqueKindArgs};
 use crate::cycle::CycleArgs;
@@ -13,7 +14,7 @@ use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::visible_line;
 
 /// Channels of the recordings.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Args, Serialize)]
 pub(super) struct ReadingArgs {
     #[command(flatten)]
     motion: MotionChannels,
@@ -31,11 +32,6 @@ pub(super) struct ReadingArgs {
 }
 
 impl ReadingArgs {
-    /// Returns everything that affects how a recording is read.
-    pub(super) fn key(&self) -> String {
-        format!("{self:?}")
-    }
-
     /// Returns the user's statements about the recordings.
     pub(super) fn said(&self) -> Vec<String> {
         let roles = self.role.iter();

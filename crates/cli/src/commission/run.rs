@@ -16,7 +16,7 @@ use crate::progress;
 use crate::recorded_files::recordings_in;
 use crate::result::ResultFormat;
 use frictcomp_host::{
-    Done, FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
+    Done, FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_data,
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
@@ -235,7 +235,7 @@ fn read_with(args: &CommissionRunArgs, plans: &[PlanFile], program: Option<u16>)
     };
     let plans: Vec<&Plan> = plans.iter().filter(has).map(|it| &it.plan).collect();
     let version = env!("CARGO_PKG_VERSION");
-    sha256_of_text(&format!("{version} {} {plans:?}", args.reading.key()))
+    sha256_of_data(&(version, &args.reading, plans))
 }
 
 /// Writes a provisional list for each axis of stage 1 whose friction was recorded and that has no reason against it.

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use serde::Serialize;
+
 use super::channel::{Channel, ChannelIndex, CncObject, parse_address};
 use super::error::SelectError;
 use super::recognised::ChannelRole;
@@ -11,7 +13,7 @@ use frictcomp::diagnostic::did_you_mean;
 use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 
 /// Selection of the channels of a trace by the user.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChannelSelection {
     /// The axis whose channels are meant, by its name or its number; `%` stands for it in the names below.

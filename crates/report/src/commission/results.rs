@@ -141,9 +141,10 @@ impl Round {
 impl ResultsReport {
     /// The verdict: whether the lists of the last round are accepted, and what speaks against them (R18.20).
     pub fn headline(&self) -> Headline {
-        let missing = match self.missing().as_slice() {
-            [] => String::new(),
-            files => format!("; not recorded, or not usable: {}", files.join(", ")),
+        let missing = match self.missing().len() {
+            0 => String::new(),
+            1 => "; 1 program has no usable recording".to_owned(),
+            more => format!("; {more} programs have no usable recording"),
         };
         let plant = self.fitted.verdicts.last();
         let rejected = plant.and_then(|plant| plant.rejected.first());

@@ -104,28 +104,22 @@ pub fn render_text(report: &VersionsReport) -> String {
     }
     let _ = writeln!(out, "{}", report.headline());
     let comparison = &report.comparison;
-    let differences: Vec<_> = comparison.differences().collect();
+    let differences = folded(comparison);
     if !differences.is_empty() {
         let (old, new) = (visible_line(&report.old), visible_line(&report.new));
         let _ = writeln!(out, "\n--- {old}\n+++ {new}");
     }
-    let places = differences.iter().map(|(_, switch)| switch.place().width());
+    let places = differences.iter().map(|it| it.switch.place().width());
     let width = places.max().unwrap_or_default().max(LINE);
-    let mut lines: Vec<(String, u64)> = Vec::new();
-    for (which, switch) in differences {
-        let (sign, place) = (sign(which), switch.place());
+    for difference in differences {
+        let switch = difference.switch;
+        let (sign, place) = (sign(difference.which), switch.place());
         let place = visible_line(&place);
         let (what, text) = (switch.to_string(), visible_line(switch.first_line()));
-        let line = format!("{sign} {place:>width$}  {what:<28}  {text}");
-        match lines.iter_mut().find(|it| it.0 == line) {
-            Some((_, times)) => *times += 1,
-            None => lines.push((line, 1)),
-        }
-    }
-    for (line, times) in lines {
-        let _ = match times {
-            1 => writeln!(out, "{line}"),
-            _ => writeln!(out, "{line}  ({times} times)"),
+        let _ = write!(out, "{sign} {place:>width$}  {what:<28}  {text}");
+        let _ = match difference.times {
+            1 => writeln!(out),
+            times => writeln!(out, "  ({times} times)"),
         };
     }
     for (_, obstacle) in comparison.obstacles() {
@@ -136,6 +130,30 @@ pub fn render_text(report: &VersionsReport) -> String {
         push_contours(&mut out, contours);
     }
     out
+}
+
+/// A difference, and how often the version has it.
+struct FoldedDifference<'a> {
+    which: Which,
+    switch: &'a Switch,
+    times: u64,
+}
+
+/// Returns the differences, equal ones as one.
+fn folded(comparison: &VersionComparison) -> Vec<FoldedDifference<'_>> {
+    let mut folded: Vec<FoldedDifference<'_>> = Vec::new();
+    for (which, switch) in comparison.differences() {
+        let is_same = |it: &&mut FoldedDifference<'_>| it.which == which && it.switch == switch;
+        match folded.iter_mut().find(is_same) {
+            Some(same) => same.times += 1,
+            None => folded.push(FoldedDifference {
+                which,
+                switch,
+                times: 1,
+            }),
+        }
+    }
+    folded
 }
 
 #[derive(Serialize)]
@@ -173,6 +191,7 @@ struct DifferenceRecord<'a> {
     kind: &'static str,
     from: &'static str,
     to: &'static str,
+    times: u64,
 }
 
 #[derive(Serialize)]
@@ -188,9 +207,10 @@ struct Hindrance<'a> {
 }
 
 impl<'a> DifferenceRecord<'a> {
-    fn new((which, switch): (Which, &'a Switch)) -> Self {
+    fn new(difference: &FoldedDifference<'a>) -> Self {
+        let switch = difference.switch;
         Self {
-            version: which.as_str(),
+            version: difference.which.as_str(),
             file: &switch.file,
             line: switch.line,
             n: switch.number,
@@ -199,6 +219,7 @@ impl<'a> DifferenceRecord<'a> {
             kind: switch.kind.as_str(),
             from: switch.from.as_str(),
             to: switch.to.as_str(),
+            times: difference.times,
         }
     }
 }
@@ -240,8 +261,8 @@ pub fn render_json(report: &VersionsReport) -> String {
         headline: report.headline(),
         verdict: comparison.agreement().as_str(),
         common: comparison.common(),
-        differences: comparison
-            .differences()
+        differences: folded(comparison)
+            .iter()
             .map(DifferenceRecord::new)
             .collect(),
         moves: moves.collect(),

@@ -7,7 +7,7 @@ use super::fitting::{FittedAxis, Fitting, NoPlant};
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use frictcomp::text::SourceFile;
-use frictcomp_host::{in_order, processors, read_text, sha256_of_text};
+use frictcomp_host::{in_order, processors, read_text, sha256_of_data};
 use frictcomp_physics::circle::{DriveFit, FittedDrive, ObservedCircle, PlaneAxis};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::Plant;
@@ -81,8 +81,7 @@ impl Fitting<'_> {
         let on = rounds.iter().map(|it| (it.shas(), sums(&it.circles)));
         let on: Vec<_> = on.collect();
         let off = sums(off);
-        let all = format!("{channels:?} {cycle:?} {frictions:?} {off:?} {on:?}");
-        Ok(sha256_of_text(&all))
+        Ok(sha256_of_data(&(channels, cycle, frictions, off, on)))
     }
 
     /// Returns the recorded reversals of each axis at the feeds of the fit.

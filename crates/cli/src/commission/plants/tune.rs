@@ -10,7 +10,7 @@ use crate::failure::{Failure, shown};
 use crate::outputs::Outputs;
 use crate::progress;
 use frictcomp::lists::{FrictionList, Points};
-use frictcomp_host::{read_text, sha256_of_text, tune};
+use frictcomp_host::{read_text, sha256_of_data, sha256_of_text, tune};
 use frictcomp_physics::circle::{PlaneAxis, Ranges, Shaping, Task, TuningAim, predicted_height_um};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
@@ -135,7 +135,9 @@ impl Fitting<'_> {
 
     /// Returns the options that affect how lists are tuned.
     fn tuned_with(&self) -> String {
-        format!("{:?} {:?}", self.shaping(), self.args.build.cnc_build)
+        let shaping = self.shaping() == Shaping::Allowed;
+        let build = self.args.build.cnc_build.map(|it| it.to_string());
+        sha256_of_data(&(shaping, build))
     }
 
     fn shaping(&self) -> Shaping {

@@ -154,7 +154,7 @@ pub(crate) enum Recordings {
 }
 
 impl Recordings {
-    fn paths(self) -> Vec<PathBuf> {
+    pub(crate) fn paths(self) -> Vec<PathBuf> {
         match self {
             Self::One(path) => vec![path],
             Self::Several(Several(paths)) => paths,

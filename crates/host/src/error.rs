@@ -64,6 +64,9 @@ pub enum HostError {
     /// A folder where a program is expected.
     #[error("`{}` is a folder, not a program", shown_path(.0))]
     FolderAsProgram(PathBuf),
+    /// A folder where a recording is expected.
+    #[error("`{}` is a folder, not a recording", shown_path(.0))]
+    FolderAsRecording(PathBuf),
     /// A picture, settings, an archive where a program is expected.
     #[error("`{}` is {what}, not an NC program", shown_path(.path))]
     NoProgram {
@@ -296,7 +299,7 @@ impl HostError {
                 "`git log --oneline` names them; a clone with little history gets more with \
                  `git fetch --unshallow`"
             }
-            Self::FolderAsList(_) => "name the file in it",
+            Self::FolderAsList(_) | Self::FolderAsRecording(_) => "name the file in it",
             Self::NoProgram { .. } => "name the program itself",
             Self::Pattern(_) => {
                 "write it as in a `.gitignore`: `old`, `*.bak.nc`, `archive/**/*.nc`"
@@ -385,6 +388,9 @@ fn reading(path: &Path, reason: &io::Error) -> String {
         return format!("`{shown}` cannot be read: `{device}` is the name of a device on Windows");
     }
     match reason.kind() {
+        io::ErrorKind::NotFound if shown.is_empty() => {
+            "no file is named: the path is empty".to_owned()
+        }
         io::ErrorKind::NotFound => format!("there is no file `{shown}`"),
         io::ErrorKind::PermissionDenied => format!("`{shown}` cannot be read: permission denied"),
         io::ErrorKind::ResourceBusy => {

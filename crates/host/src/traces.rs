@@ -1,7 +1,7 @@
 //! Recorded traces in files: which of their channels are which columns of a circle or of a commanded
 //! trace. The module `trace` handles the file layouts.
 
-use std::io::Read as _;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::decode::decode;
@@ -83,7 +83,10 @@ fn read(
         path: path.to_owned(),
         problem,
     };
-    let failed = |error| HostError::read(path, error);
+    let failed = |error: io::Error| match error.kind() {
+        io::ErrorKind::IsADirectory => HostError::FolderAsRecording(path.to_owned()),
+        _ => HostError::read(path, error),
+    };
     let extension = path
         .extension()
         .map(|it| it.to_string_lossy().to_lowercase());

@@ -194,13 +194,20 @@ fn what_one_axis_has_is_not_taken_for_two() {
         ),
         (
             &["identify", "x.csv", "--axis", "Y"],
-            "no channel that is known to be the torque",
+            "has no torque of Y, only",
         ),
     ] {
         let (status, text) = said(&bench.call(arguments));
         assert_eq!(status, Some(2), "{text}");
         assert!(text.contains(expected), "{text}");
     }
+    bench.write("twice.csv", "t,v,torque,torque\n0,0,1,2\n0.001,1,1,2\n");
+    let (status, text) = said(&bench.call(&["identify", "twice.csv"]));
+    assert_eq!(status, Some(2), "{text}");
+    assert!(text.contains("2 channels fit `torque`"), "{text}");
+    let (status, text) = said(&bench.call(&["trace", "."]));
+    assert_eq!(status, Some(2), "{text}");
+    assert!(text.contains("`.` is a folder, not a recording"), "{text}");
 }
 
 #[test]

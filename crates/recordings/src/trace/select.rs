@@ -112,7 +112,7 @@ impl ChannelSelection {
                 // Nothing is spelled like it, but a similar channel may be meant.
                 error.or_guess(|| guess(quantity, channels))
             })?),
-            None => Self::taken(quantity, channels)
+            None => Self::taken(quantity, channels)?
                 .or_else(|| only(&self.candidates_for(quantity, channels), channels)),
         };
         found
@@ -132,6 +132,28 @@ impl ChannelSelection {
         only(&self.candidates(role, channels), channels)
             .map(|channel| self.pick(channel, role.quantity(), channels))
             .transpose()
+    }
+
+    /// What a recording lacks that has a quantity of other axes than that of the user.
+    fn of_other_axes(
+        &self,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Option<SelectError> {
+        let axis = self.axis.as_ref()?;
+        let others = Self::default()
+            .candidates_for(quantity, channels)
+            .into_iter();
+        let others = others.filter_map(|at| channels[at].recognised()?.axis);
+        let others: Vec<String> = others.collect();
+        (!others.is_empty()).then(|| SelectError::Lacks {
+            lacks: format!("no {} of {axis}", quantity.as_str()),
+            found: shown(channels),
+            help: format!(
+                "it has that of {}; name any other channel",
+                others.join(", ")
+            ),
+        })
     }
 
     fn candidates_for(&self, quantity: ChannelQuantity, channels: &[Channel]) -> Vec<usize> {
@@ -178,6 +200,9 @@ impl ChannelSelection {
             let several = self.candidates_for(quantity, channels);
             if !several.is_empty() {
                 return several_fit(name, &several, channels);
+            }
+            if let Some(lacking) = self.of_other_axes(quantity, channels) {
+                return lacking;
             }
             SelectError::Lacks {
                 lacks: format!("no channel that is known to be the {name}"),
@@ -255,14 +280,25 @@ impl ChannelSelection {
     }
 
     /// The channel that has the short name of a quantity.
-    fn taken(quantity: ChannelQuantity, channels: &[Channel]) -> Option<ChannelIndex> {
-        let names = NAMES.iter().find(|names| names.quantity == quantity)?;
-        names.taken.iter().find_map(|name| {
-            let at = channels
-                .iter()
-                .position(|channel| split_unit(&channel.name).0.eq_ignore_ascii_case(name));
-            at.map(ChannelIndex)
-        })
+    fn taken(
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Option<ChannelIndex>, SelectError> {
+        let names = NAMES.iter().filter(|names| names.quantity == quantity);
+        for name in names.flat_map(|names| names.taken) {
+            let is_so = |channel: &Channel| split_unit(&channel.name).0.eq_ignore_ascii_case(name);
+            let found: Vec<usize> = (0..channels.len())
+                .filter(|&at| is_so(&channels[at]))
+                .collect();
+            match (only(&found, channels), quantity) {
+                (Some(channel), _) => return Ok(Some(channel)),
+                (None, _) if found.is_empty() => {}
+                // Each channel may have a column of its times.
+                (None, ChannelQuantity::Time) => return Ok(Some(ChannelIndex(found[0]))),
+                (None, _) => return Err(several_fit(name, &found, channels)),
+            }
+        }
+        Ok(None)
     }
 
     /// Returns the name of a channel with that of the axis in place of `%`, and with `%` in place of `%%`. A name

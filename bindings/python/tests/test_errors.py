@@ -220,6 +220,8 @@ def test_what_is_no_recording_is_said(tmp_path: Path) -> None:
         frictcomp.circle(recordings=[])
     with pytest.raises(frictcomp.Error, match="`model` has no effect on recordings"):
         frictcomp.circle(recordings=circle, model="lugre")
+    with pytest.raises(frictcomp.Error, match="was given twice"):
+        frictcomp.identify([circle, circle], circles=True)
     with pytest.raises(frictcomp.Error, match="is a folder, not a recording"):
         frictcomp.identify(tmp_path)
     twice = tmp_path / "twice.csv"

@@ -56,7 +56,6 @@ mod progress;
 mod quantities;
 mod quiet;
 mod readings;
-mod recorded_files;
 mod replay;
 mod result;
 mod run;

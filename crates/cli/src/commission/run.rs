@@ -13,10 +13,10 @@ use crate::failure::{Failure, shown};
 use crate::machine::value_list;
 use crate::outputs::{Outputs, write_text};
 use crate::progress;
-use crate::recorded_files::recordings_in;
 use crate::result::ResultFormat;
 use frictcomp_host::{
-    Done, FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_data,
+    Done, FileRegistry, find_plant, memory_for_simulation, read_text, recordings_in, sha256_of,
+    sha256_of_data,
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,

@@ -12,12 +12,11 @@ use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
-use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Disk, FileRegistry, OutputFile, read_axis};
+use frictcomp_host::{Disk, FileRegistry, OutputFile, read_axis, refuse_copies};
 use frictcomp_recordings::identify::{
-    AxisRecording, IdentifyError, IdentifyOptions, Measured, RequestedPoints, Track,
+    AxisRecording, IdentifyError, IdentifyOptions, ListRequest, ListRequestError, Measured, Track,
     identify_measured_circles,
 };
 use frictcomp_report::html::render_identification;
@@ -180,36 +179,20 @@ fn circles(
 
 /// Returns the options of an identification.
 fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
-    const MOST: usize = 20;
-    const LARGEST: f64 = 50.0;
-    let mut options = IdentifyOptions::default();
-    if !(args.feed > 0.0 && args.feed.is_finite()) {
-        return Err(Failure::new(format!(
-            "a feed of {} mm/min cannot be used",
-            args.feed
-        )));
-    }
-    options.working_speed = args.feed / 60.0;
-    let points = args
-        .points
-        .map(|points| usize::try_from(points).unwrap_or(MOST));
-    if let Some(points) = points {
-        options.wanted = RequestedPoints::Points(points);
-    }
-    if let Some(percent) = args.max_error {
-        if !(percent > 0.0 && percent <= LARGEST) {
-            let message = format!("an error of {percent} % is not possible");
-            return Err(
-                Failure::new(message).with_help("write per cent of the friction, `--max-error 1`")
-            );
+    let request = ListRequest {
+        points: args.points.and_then(|points| usize::try_from(points).ok()),
+        max_error_percent: args.max_error,
+        feed_mm_per_min: args.feed,
+    };
+    request.options().map_err(|error| {
+        let failure = Failure::new(error.to_string());
+        match error {
+            ListRequestError::MaxError(_) => {
+                failure.with_help("write per cent of the friction, `--max-error 1`")
+            }
+            _ => failure,
         }
-        options.accuracy = percent / 100.0;
-        options.wanted = RequestedPoints::Error {
-            part: options.accuracy,
-            most: points.unwrap_or(MOST),
-        };
-    }
-    Ok(options)
+    })
 }
 
 impl From<IdentifyError> for Failure {

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
-use serde::Serialize;
 
 use super::failure::Failure;
 use super::per_axis::{ByAxis, PerAxis};
@@ -15,7 +14,7 @@ use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::visible_line;
 
 /// Options for the channels of the motion of an axis. In each of them `%` stands for the name of the axis.
-#[derive(Debug, Clone, Default, Args, Serialize)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct MotionChannels {
     /// The channel of the times in a recording: its name, comment or CNC object
     #[arg(long, value_name = "CHANNEL")]
@@ -51,7 +50,7 @@ impl MotionChannels {
 }
 
 /// Option for the channel of the torque.
-#[derive(Debug, Clone, Default, Args, Serialize)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct TorqueChannel {
     /// The channel of the torque or the current, that of `dig_drv.act_torque`: `%.ActTorque`
     #[arg(long, value_name = "CHANNEL")]
@@ -71,7 +70,7 @@ impl TorqueChannel {
 }
 
 /// Options for the channels of the positions that an axis reached.
-#[derive(Debug, Clone, Default, Args, Serialize)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct FollowedChannels {
     /// The channel of the actual positions, in addition to the commanded ones: `%.ActPos`
     #[arg(long, value_name = "CHANNEL")]
@@ -98,7 +97,7 @@ impl FollowedChannels {
 }
 
 /// Option for the units of channels.
-#[derive(Debug, Clone, Default, Args, Serialize)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct UnitArgs {
     /// The unit of a channel, where the file does not name it: `--unit SetVelo=mm/s`
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
@@ -244,7 +243,7 @@ fn lead_of_machine(
 }
 
 /// Option for the kind of recorded torque.
-#[derive(Debug, Clone, Default, Args, Serialize)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct TorqueKindArgs {
     /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
     /// the speed controller; by default taken from the name of the channel

@@ -1,14 +1,13 @@
 //! The CNC cycle on the command line.
 
 use clap::Args;
-use serde::Serialize;
 
 use super::failure::Failure;
 use super::quantities;
 use frictcomp_physics::motion::check_cycle;
 
 /// The CNC cycle.
-#[derive(Debug, Clone, Default, Args, Serialize)]
+#[derive(Debug, Clone, Default, Args)]
 pub(super) struct CycleArgs {
     /// The CNC cycle in ms; by default that of the machine, else 1
     #[arg(long, value_name = "MS", value_parser = quantities::ms, allow_negative_numbers = true)]

@@ -3,14 +3,12 @@
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
-use serde::Serialize;
-
 use super::failure::Failure;
 use frictcomp_report::visible_line;
 
 /// A value of an option as it is written. `NAME=` counts as an axis only where there is an axis of that name:
 /// `./X=a.lis` is a file.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub(crate) struct PerAxis(OsString);
 
 impl From<OsString> for PerAxis {

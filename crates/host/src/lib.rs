@@ -29,6 +29,7 @@ mod axes_ahead;
 mod both_versions;
 mod call_graph;
 mod changed_programs;
+pub mod commission;
 pub mod conformance;
 mod contours;
 mod cures;

@@ -17,11 +17,11 @@ use frictcomp::machine::{Axis, Machine};
 use frictcomp_host::{FileRegistry, Replaces, read_text, sha256_of};
 use frictcomp_physics::motion::AxisLimits;
 use frictcomp_recordings::commission::{
-    Dynamics, FreeTravel, Installed, MeasuredAxis, Plan, PlanError, PlanRequest, Stage,
+    Dynamics, FreeTravel, Installed, MeasuredAxis, Plan, PlanError, PlanFile, PlanRequest, Stage,
+    ValueListUsed,
 };
 use frictcomp_report::commission::{
-    PlanFile, PlanReport, ValueListUsed, render_file, render_json, render_program, render_readme,
-    render_text,
+    PlanReport, render_file, render_json, render_program, render_readme, render_text,
 };
 use frictcomp_report::{fitted, visible_line};
 

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 use super::plants::{PlantVerdict, Plants, push_plants};
-use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
 use crate::headline::{Headline, Standing};
 use crate::strings::{counted, to_pretty};
@@ -13,7 +12,8 @@ use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{
-    BeforeAfter, FrictionFound, Plan, PlantFound, RecordingOutcome, RecordingResult, Shows, Stage,
+    BeforeAfter, FrictionFound, Plan, PlanFile, PlantFound, RecordingOutcome, RecordingResult,
+    Shows, Stage, ValueListUsed,
 };
 
 /// The content of `results.json`.
@@ -202,9 +202,8 @@ impl ResultsReport {
 
     /// Returns what is on in the program with a number: nothing, or the lists of a round.
     pub fn compensation_of(&self, number: u16) -> String {
-        let has = |plan: &&PlanFile| plan.plan.programs.iter().any(|it| it.number == number);
         let rounds = self.plans.iter().filter(|it| it.plan.stage == Stage::On);
-        let round = (2..).zip(rounds).find(|(_, plan)| has(plan));
+        let round = (2..).zip(rounds).find(|(_, plan)| plan.has(number));
         round.map_or("off".to_owned(), |(round, _)| format!("on, round {round}"))
     }
 

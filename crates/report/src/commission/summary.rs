@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::words::{number, told};
 use crate::headline::{Headline, Standing};
 use crate::strings::{counted, to_pretty};
 use crate::table::Table;
 use crate::visible::visible_line;
-use frictcomp_recordings::commission::{MeasuringProgram, Plan, Stage};
+use frictcomp_recordings::commission::{MeasuringProgram, Plan, PlanFile, Stage, ValueListUsed};
 
 /// A plan with its basis.
 #[derive(Debug, Clone)]
@@ -22,34 +22,6 @@ pub struct PlanReport {
     pub machine: String,
     /// Axes whose ramps are those of the control's defaults.
     pub assumed_jerk: Vec<String>,
-}
-
-/// A value list that is loaded while programs of stage 2 run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ValueListUsed {
-    /// Name of the axis.
-    pub axis: String,
-    /// The file, as it is shown.
-    pub file: String,
-    /// The SHA-256 of its bytes in hexadecimal digits.
-    pub sha256: String,
-}
-
-/// The content of `plan.json`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct PlanFile {
-    /// The version of the format of this file.
-    pub schema: u32,
-    /// The programs without their motions.
-    pub plan: Plan,
-    /// The value lists of stage 2.
-    pub lists: Vec<ValueListUsed>,
-}
-
-impl PlanFile {
-    /// The version that is written.
-    pub const SCHEMA: u32 = 1;
 }
 
 impl PlanReport {

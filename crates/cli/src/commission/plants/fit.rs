@@ -68,11 +68,11 @@ impl Fitting<'_> {
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
     ) -> Result<String, Failure> {
-        let reading = &self.args.reading;
+        let reading = self.reader.channels;
         let first = self.plans.iter().filter(|it| it.plan.stage == Stage::Off);
-        let channels = first.map(|it| reading.circle_channels(&it.plan));
-        let channels = channels.collect::<Result<Vec<_>, _>>()?;
-        let cycle = reading.cycle.seconds()?;
+        let channels = first.map(|it| reading.of_circles(&it.plan));
+        let channels: Vec<_> = channels.collect();
+        let cycle = reading.cycle_s;
         let frictions: Vec<_> = axes.iter().map(|it| &it.drive).collect();
         let sums = |circles: &[Driven<'_>]| {
             let sums = circles.iter().map(|it| it.result.sha256.clone());
@@ -113,7 +113,8 @@ impl Fitting<'_> {
                     .folder
                     .join("recordings")
                     .join(&driven.result.file);
-                let turns = self.args.reading.turns(&path, driven.plan, driven.radius)?;
+                let turns = self.reader.turns(&path, driven.plan, driven.radius);
+                let turns = turns.map_err(Failure::from)?;
                 let circle = self.circle(driven)?;
                 for (at, plane) in PlaneAxis::ALL.into_iter().enumerate() {
                     let of_axis = ObservedCircle::of(plane, (circle, lists[at].clone()), &turns);

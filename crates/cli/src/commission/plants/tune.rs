@@ -14,8 +14,10 @@ use frictcomp_host::{read_text, sha256_of_data, sha256_of_text, tune};
 use frictcomp_physics::circle::{PlaneAxis, Ranges, Shaping, Task, TuningAim, predicted_height_um};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_recordings::commission::{MOST_CURRENT, PlantFound, PredictedGlitch, TunedList};
-use frictcomp_report::commission::ValueListUsed;
+use frictcomp_recordings::commission::{
+    MOST_CURRENT, PlantFound, PredictedGlitch, TunedList, ValueListUsed,
+};
+
 use frictcomp_report::value_lists::{TunedFrom, render_tuned_on_plant};
 
 /// The circles recorded off, and the feeds recorded both off and on.

@@ -18,12 +18,11 @@ use crate::result::ResultFormat;
 use frictcomp_host::commission::CommissionReader;
 use frictcomp_host::{
     FileRegistry, find_plant, memory_for_simulation, read_text, recordings_in, sha256_of,
-    sha256_of_data,
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
-    MeasuringProgram, Plan, PlanFile, RecordingOutcome, RecordingResult, Shows, Stage,
-    StagesOfAxis, SwitchedAs, before_after, feeds_against, recorded_otherwise, refuse_strangers,
+    MeasuringProgram, PlanFile, RecordingOutcome, RecordingResult, Shows, Stage, StagesOfAxis,
+    SwitchedAs, before_after, feeds_against, recorded_otherwise, refuse_strangers,
 };
 use frictcomp_report::commission::{
     AxisVerdict, Plants, Results, ResultsReport, Round, glitch_unit, render_results,

@@ -128,9 +128,7 @@ impl CommissionReader<'_> {
         let cycle = self.channels.cycle_s;
         let mut signed: Vec<(&str, SignedAt)> = Vec::new();
         let mut failed = None;
-        let axes = plans.iter();
-        let axes = axes.flat_map(|plan| plan.axes.iter().map(move |axis| (axis, *plan)));
-        for (axis, plan) in axes {
+        for axis in plans.iter().flat_map(|plan| &plan.axes) {
             match signatures_of(path, &self.channels.selection(&axis.name), cycle) {
                 Ok(found) => signed.extend(found.into_iter().map(|it| (axis.name.as_str(), it))),
                 Err(error) => failed = Some(error),

@@ -162,11 +162,7 @@ const FOLDERS: [(&str, &str, &[&str]); 22] = [
     ("circle", "learn", &["recorded", "tune"]),
     ("simulation", "", &["friction"]),
     ("host", "ask", &["replay"]),
-    (
-        "report",
-        "",
-        &["assumptions", "circle", "commission", "text"],
-    ),
+    ("report", "", &["assumptions", "circle", "text"]),
     ("report", "audit", &["assumptions"]),
     ("report", "circle", &["assumptions"]),
     ("report", "commission", &["assumptions"]),

@@ -169,14 +169,14 @@ impl AxisChannelArgs {
         recording: &Path,
         registry: &FileRegistry,
     ) -> Result<ChannelSelection, Failure> {
-        let axes = &self.axes();
-        let selection = self.motion.of_axis(axis, axes)?;
+        let all = &self.axes();
+        let selection = self.motion.of_axis(axis, all)?;
         let lead_mm = match selection.lead_mm {
             Some(given) => Some(given),
             None => lead_of_machine(axis, recording, registry)?,
         };
         Ok(ChannelSelection {
-            torque: self.torque.of_axis(axis, axes)?,
+            torque: self.torque.of_axis(axis, all)?,
             lead_mm,
             ..selection
         })

@@ -109,9 +109,9 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         let comparison = compare(&test, &progress::watch())?.about(args.centre);
         CircleReport::simulated(test, comparison, origin)
     } else {
-        recordings
-            .iter()
-            .for_each(|path| registry.reads("recording", path));
+        for path in &recordings {
+            registry.reads("recording", path);
+        }
         outputs.check()?;
         let commanded = CommandedCircle {
             radius_mm: args.radius,

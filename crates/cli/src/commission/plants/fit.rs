@@ -22,7 +22,7 @@ impl Fitting<'_> {
         rounds: &[RoundCircles<'_>],
         outputs: &mut Outputs,
     ) -> Result<PlantFound, NoPlant> {
-        let key = self.key(axes, off, rounds)?;
+        let key = self.key(axes, off, rounds);
         if let Some(known) = self.known.iter().find(|it| it.key == key) {
             self.write_plant(known, outputs)?;
             return Ok(known.clone());
@@ -67,7 +67,7 @@ impl Fitting<'_> {
         axes: &[FittedAxis<'_>],
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
-    ) -> Result<String, Failure> {
+    ) -> String {
         let reading = self.reader.channels;
         let first = self.plans.iter().filter(|it| it.plan.stage == Stage::Off);
         let channels = first.map(|it| reading.of_circles(&it.plan));
@@ -81,7 +81,7 @@ impl Fitting<'_> {
         let on = rounds.iter().map(|it| (it.shas(), sums(&it.circles)));
         let on: Vec<_> = on.collect();
         let off = sums(off);
-        Ok(sha256_of_data(&(channels, cycle, frictions, off, on)))
+        sha256_of_data(&(channels, cycle, frictions, off, on))
     }
 
     /// Returns the recorded reversals of each axis at the feeds of the fit.
@@ -115,7 +115,7 @@ impl Fitting<'_> {
                     .join(&driven.result.file);
                 let turns = self.reader.turns(&path, driven.plan, driven.radius);
                 let turns = turns.map_err(Failure::from)?;
-                let circle = self.circle(driven)?;
+                let circle = self.circle(driven);
                 for (at, plane) in PlaneAxis::ALL.into_iter().enumerate() {
                     let of_axis = ObservedCircle::of(plane, (circle, lists[at].clone()), &turns);
                     observed[at].extend(of_axis.map(|mut it| {

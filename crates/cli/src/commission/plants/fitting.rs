@@ -97,12 +97,12 @@ impl Fitting<'_> {
     }
 
     /// Returns a circle as it was driven.
-    pub(super) fn circle(&self, driven: &Driven<'_>) -> Result<Circle, Failure> {
-        Ok(Circle {
+    pub(super) fn circle(&self, driven: &Driven<'_>) -> Circle {
+        Circle {
             radius_mm: driven.radius,
             feed_mm_per_min: driven.circles.measured_feed.unwrap_or(driven.circles.feed),
             cycle_time_s: self.reader.channels.cycle_time_s(),
-        })
+        }
     }
 
     /// Returns a list as it was recorded.

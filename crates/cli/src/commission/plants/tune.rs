@@ -59,7 +59,7 @@ impl Fitting<'_> {
         };
         let mut worst: f64 = 0.0;
         for driven in off.iter().filter(|it| has(feeds, it.circles.feed)) {
-            let circle = self.circle(driven)?;
+            let circle = self.circle(driven);
             let drive = (axis.plane, drive);
             let predicted_um = predicted_height_um(drive, circle, list, Reading::default())?;
             worst = worst.max(predicted_um);
@@ -157,7 +157,7 @@ impl Fitting<'_> {
         Ok(Task {
             plant: plant_of(found)?,
             model: FrictionModel::default(),
-            circles: circles.collect::<Result<_, _>>()?,
+            circles: circles.collect(),
             ranges: Ranges::default(),
             reading: Reading::default(),
             points: Points::of_build(self.args.build.cnc_build),

@@ -116,12 +116,14 @@ fn variable(text: &str) -> Option<(ChannelRole, Option<String>)> {
     if let Some((_, role)) = VARIABLES.iter().find(|(word, _)| lower == *word) {
         return Some((*role, folder.map(str::to_owned)));
     }
-    VARIABLES.iter().find_map(|(word, role)| {
+    // The first word that fits decides: `SetVelo2` is no `SetVel` of `O2`.
+    let (rest, role) = VARIABLES.iter().find_map(|(word, role)| {
         let rest = lower
             .strip_prefix(word)
             .or_else(|| lower.strip_suffix(word))?;
-        is_axis_name(rest).then(|| (*role, Some(rest.to_uppercase())))
-    })
+        Some((rest, *role))
+    })?;
+    is_axis_name(rest).then(|| (role, Some(rest.to_uppercase())))
 }
 
 /// Whether a text is the name of an axis, a letter and up to two digits.

@@ -629,12 +629,18 @@ mod tests {
     #[test]
     fn what_is_not_named_is_guessed() {
         // R6.3
-        let error = ChannelSelection::default().require(ChannelQuantity::Torque, &two_axes());
-        let error = error.expect_err("no channel `torque`");
+        let require = |channels: &[Channel]| {
+            let found = ChannelSelection::default().require(ChannelQuantity::Torque, channels);
+            found.expect_err("no channel `torque`")
+        };
+        let error = require(&[channel("MotorTorque", "", 0x1_0017)]);
         assert!(
             error
                 .help()
-                .is_some_and(|help| help.contains("perhaps `ActTorque`"))
+                .is_some_and(|help| help.contains("perhaps `MotorTorque`"))
         );
+        // Those of two axes are recognised, and none is taken.
+        let error = require(&two_axes());
+        assert!(matches!(error, SelectError::Several { .. }), "{error}");
     }
 }

@@ -27,7 +27,7 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec
 /// Returns the known words at the smallest distance: at most a third of the letters differ, swapped neighbours count
 /// once; or one word is the beginning of the other.
 fn candidates<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
-    if found.len() > MAX_WORD {
+    if found.is_empty() || found.len() > MAX_WORD {
         return Vec::new();
     }
     let found = found.to_ascii_uppercase();

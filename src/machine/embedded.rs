@@ -50,7 +50,7 @@ impl EmbeddedLists {
         self.words(place).is_some()
     }
 
-    /// Adds to diagnostics the item and the line within the list, and shows the lines to change in place of fixes:
+    /// Names in diagnostics the item and the line within the list, and shows the lines to change in place of fixes:
     /// nothing is written into a project.
     pub fn explain(&self, diagnostics: &mut [Diagnostic]) {
         for said in diagnostics.iter_mut().filter(|_| !self.0.is_empty()) {
@@ -61,11 +61,10 @@ impl EmbeddedLists {
             let within: Vec<Fix> = within;
             let lines = within.iter().filter_map(|fix| self.line_to_write(fix));
             said.advice.extend(lines.map(Into::into));
-            if let Some(words) = self.words(&said.place) {
-                let advice = format!("in the project: {words}").into();
-                if !said.advice.contains(&advice) {
-                    said.advice.push(advice);
-                }
+            if let Some(words) = self.words(&said.place)
+                && !said.message.contains(&words)
+            {
+                said.message = format!("{} ({words})", said.message);
             }
             for label in &mut said.labels {
                 if let Some(words) = self.words(&label.place)

@@ -33,13 +33,16 @@ pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     let _ = reader.next(&mut block);
     let mut rest = String::new();
     reader.append_rest(&mut rest);
-    let faulty = |message: &str| {
+    let faulty = |message: &str, help: &'static str| {
         let fault = Fault::new(Code::Fc207, Span::new(0, text.len()), message);
-        Err(fault.with_help("write `X[COMP ON FRICT]`"))
+        Err(fault.with_help(help))
     };
     if !rest.trim().is_empty() {
         return if lines_of(text).any(opens_comp) {
-            faulty("these are several lines; one command is read at a time")
+            faulty(
+                "these are several lines, and one command is read at a time",
+                "give each line by itself",
+            )
         } else {
             Ok(None)
         };
@@ -56,12 +59,16 @@ pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     let is_alone = block.items.len() == 1 && block.words.is_empty();
     let is_comp = |item: &Item| matches!(item, Item::Comp(_));
     match block.items.into_iter().find(is_comp) {
-        Some(Item::Comp(_)) if block.skip.is_some() => {
-            faulty("a skip mark leaves it to the machine whether the command is executed")
-        }
+        Some(Item::Comp(_)) if block.skip.is_some() => faulty(
+            "a skip mark leaves it to the machine whether the command is executed",
+            "decide that, and give the command without the mark",
+        ),
         Some(Item::Comp(command)) if is_alone => Ok(Some(command)),
         None => Ok(None),
-        Some(_) => faulty("this is not a single COMP command"),
+        Some(_) => faulty(
+            "there is more here than one COMP command",
+            "give the command by itself",
+        ),
     }
 }
 

@@ -32,6 +32,7 @@ static void machines(const char *folder)
 {
     char path[1024];
     CHECK(frictcomp_machine_read(NULL) == NULL && said("`path` is NULL"));
+    CHECK(frictcomp_machine_read("") == NULL && said("the path is empty"));
     CHECK(frictcomp_machine_read("not/there.lis") == NULL && said("not/there.lis"));
     CHECK(frictcomp_machine_read("\xff") == NULL && said("UTF-8"));
     CHECK(frictcomp_machine_read(folder) == NULL && said("folder"));
@@ -89,8 +90,9 @@ static void states(void)
 
     /* One call is one line and one command, whose execution no switch of the machine decides. */
     CHECK(frictcomp_apply(states, "X[COMP OFF FRICT]\nX[COMP ON FRICT]") == FRICTCOMP_STATUS_FAULTY);
+    CHECK(said("give each line by itself"));
     CHECK(frictcomp_apply(states, "G1 X5\nX[COMP OFF FRICT]") == FRICTCOMP_STATUS_FAULTY);
-    CHECK(frictcomp_apply(states, "/X[COMP OFF FRICT]") == FRICTCOMP_STATUS_FAULTY && said("skip"));
+    CHECK(frictcomp_apply(states, "/X[COMP OFF FRICT]") == FRICTCOMP_STATUS_FAULTY && said("without the mark"));
     const char *words = frictcomp_last_error();
     CHECK(frictcomp_state(states, 0, frict) == FRICTCOMP_STATE_ACTIVE);
     CHECK(frictcomp_change_count(states) == 0 && frictcomp_last_error() == words && said("skip"));

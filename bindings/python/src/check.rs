@@ -20,6 +20,7 @@ use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, remark_without_machine};
 use crate::messages::{GivenMessages, PyMessage, PyMessages};
 use crate::program::GivenPrograms;
+use crate::several::Several;
 use crate::work::{Stop, interruptible};
 
 /// All messages of programs and of the programs below folders.
@@ -32,7 +33,7 @@ pub(crate) fn check(
     programs: &Bound<'_, PyAny>,
     machine: Option<&Bound<'_, PyAny>>,
     limits: Option<&Bound<'_, PyLimits>>,
-    exclude: Option<Vec<String>>,
+    exclude: Option<Several<String>>,
     no_ignore: bool,
 ) -> PyResult<PyMessages> {
     let ignore_files = if no_ignore {
@@ -41,7 +42,7 @@ pub(crate) fn check(
         IgnoreFiles::Obeyed
     };
     let folders = FolderOptions {
-        exclude: exclude.unwrap_or_default(),
+        exclude: exclude.map_or_else(Vec::new, |it| it.0),
         ignore_files,
     };
     let mut machine = machine_options(machine)?;

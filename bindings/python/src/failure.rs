@@ -106,6 +106,7 @@ impl From<HostError> for Failure {
             | HostError::Write { path, .. }
             | HostError::FolderAsProgram(path)
             | HostError::FolderAsList(path)
+            | HostError::FolderAsRecording(path)
             | HostError::NoFolder(path)
             | HostError::StateNotRegular(path)
             | HostError::StateInUse(path)

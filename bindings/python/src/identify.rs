@@ -5,13 +5,15 @@ use std::path::PathBuf;
 
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Disk, read_axis};
+use frictcomp_host::{Disk, read_axis, refuse_copies};
 use frictcomp_physics::current::Switched;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_recordings::identify::Measured;
 use frictcomp_recordings::identify::TorqueKind;
 use frictcomp_recordings::identify::identify_measured_circles;
-use frictcomp_recordings::identify::{IdentifyOptions, RequestedPoints, identify as find};
+use frictcomp_recordings::identify::{
+    IdentifyOptions, ListRequest, ListRequestError, identify as find,
+};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::identify::{IdentifyReport, render_json};
 use frictcomp_report::on_circles::{self, OnCirclesReport};
@@ -102,7 +104,11 @@ pub(crate) fn identify(
     torque_kind: Option<&str>,
     compensation: Option<&str>,
 ) -> PyResult<PyIdentified> {
-    let options = options(points, max_error, feed_mm_per_min)?;
+    let options = options(ListRequest {
+        points,
+        max_error_percent: max_error,
+        feed_mm_per_min,
+    })?;
     let cycle = cycle_time_ms.map(|ms| check_cycle(ms / 1000.0)).transpose();
     let selection = ChannelSelection {
         axis,
@@ -154,7 +160,7 @@ pub(crate) enum Recordings {
 }
 
 impl Recordings {
-    fn paths(self) -> Vec<PathBuf> {
+    pub(crate) fn paths(self) -> Vec<PathBuf> {
         match self {
             Self::One(path) => vec![path],
             Self::Several(Several(paths)) => paths,
@@ -183,7 +189,7 @@ impl AxisRecordings {
             recording,
         };
         Ok(PyIdentified {
-            record: render_json(&report),
+            record: render_json(std::slice::from_ref(&report)),
             svg: Some(friction_curve(&report).render(Frame::Alone)),
             list: report.identified.list(),
             unit: report.unit().to_owned(),
@@ -195,6 +201,7 @@ impl AxisRecordings {
 
     /// Circles at several feeds.
     fn on_circles(self) -> Result<PyIdentified, Failure> {
+        refuse_copies(&self.recordings)?;
         let recordings = self.recordings.iter().map(|path| {
             Ok::<_, Failure>(read_axis(
                 path,
@@ -229,33 +236,13 @@ impl AxisRecordings {
 }
 
 /// What is requested.
-fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult<IdentifyOptions> {
-    const MOST: usize = 20;
-    const LARGEST: f64 = 50.0;
-    let mut options = IdentifyOptions::default();
-    if !(feed > 0.0 && feed.is_finite()) {
-        return Err(refused(format!("a feed of {feed} mm/min cannot be used")));
-    }
-    options.working_speed = feed / 60.0;
-    if let Some(points) = points {
-        if !(2..=200).contains(&points) {
-            return Err(refused("a value list has from 2 to 200 points"));
-        }
-        options.wanted = RequestedPoints::Points(points);
-    }
-    if let Some(percent) = max_error {
-        if !(percent > 0.0 && percent <= LARGEST) {
-            return Err(refused(format!(
-                "an error of {percent} % is not possible; give per cent of the friction, for example 1"
-            )));
-        }
-        options.accuracy = percent / 100.0;
-        options.wanted = RequestedPoints::Error {
-            part: options.accuracy,
-            most: points.unwrap_or(MOST),
-        };
-    }
-    Ok(options)
+fn options(request: ListRequest) -> PyResult<IdentifyOptions> {
+    request.options().map_err(|error| match error {
+        ListRequestError::MaxError(_) => refused(format!(
+            "{error}; give per cent of the friction, for example 1"
+        )),
+        _ => refused(error.to_string()),
+    })
 }
 
 #[pymethods]

@@ -138,8 +138,10 @@ impl GivenPrograms {
 
 fn inputs(given: &Bound<'_, PyAny>) -> PyResult<Vec<Input>> {
     let is_one = given.is_instance_of::<PyString>() || given.is_instance_of::<PyBytes>();
+    // A file is iterable, too: over its lines.
+    let is_file = given.hasattr("read")?;
     match given.try_iter() {
-        Ok(several) if !is_one => several.map(|it| input(&it?)).collect(),
+        Ok(several) if !is_one && !is_file => several.map(|it| input(&it?)).collect(),
         _ => Ok(vec![input(given)?]),
     }
 }

@@ -30,6 +30,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::exceptions::refused;
 use crate::failure::Failure;
+use crate::identify::Recordings;
 use crate::json;
 use crate::notebook;
 use crate::pickled::{self, Reduced};
@@ -86,11 +87,28 @@ pub(crate) fn circle(
     value_list: Option<Lists>,
     cycle_time_ms: Option<f64>,
     reading: Option<&str>,
-    recordings: Option<Several<PathBuf>>,
+    recordings: Option<Recordings>,
     centre: Option<&str>,
 ) -> PyResult<PyCircle> {
     let centre: PathCentre = meant("centre", centre)?;
-    if let Some(Several(recordings)) = recordings {
+    if let Some(recordings) = recordings {
+        let of_simulations = [
+            ("model", model.is_some()),
+            ("value_list", value_list.is_some()),
+            ("cycle_time_ms", cycle_time_ms.is_some()),
+            ("reading", reading.is_some()),
+        ];
+        if let Some((name, _)) = of_simulations.iter().find(|it| it.1) {
+            let message = format!("`{name}` has no effect on recordings");
+            return Err(Failure::new(message).into_error(py));
+        }
+        let recordings = recordings.paths();
+        if recordings.is_empty() {
+            let failure = Failure::new("no recording was given");
+            let failure =
+                failure.with_help("name one, or leave `recordings` out for simulated axes");
+            return Err(failure.into_error(py));
+        }
         let commanded = CommandedCircle {
             radius_mm,
             feed_mm_per_min,

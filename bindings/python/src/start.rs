@@ -32,10 +32,18 @@ pub(crate) fn positions(
     loaded: &LoadedMachine,
 ) -> Result<Vec<(String, f64)>, Failure> {
     for (name, position) in given {
-        if loaded.machine.find(name).is_none() || !position.is_finite() {
+        if loaded.machine.find(name).is_none() {
+            let axes = loaded.machine.axes.iter().map(|it| it.name.as_str());
+            let axes = axes.collect::<Vec<_>>().join(", ");
+            return Err(Failure::new(format!(
+                "the machine has no axis `{name}`, which `start` names"
+            ))
+            .with_help(format!("its axes are {axes}")));
+        }
+        if !position.is_finite() {
             return Err(
                 Failure::new(format!("axis `{name}` cannot start at {position}"))
-                    .with_help("give axes of the machine with positions in mm or degrees"),
+                    .with_help("give a position in mm or degrees"),
             );
         }
     }

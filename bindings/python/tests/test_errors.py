@@ -211,3 +211,44 @@ def test_messages_are_hashable_and_explained() -> None:
     # As the command: rules, words, error numbers of the control.
     for word, title in [("R1.27", "# R1.27"), ("comp", "# `COMP`"), ("120434", "# P-ERR-120434")]:
         assert frictcomp.explain(word).startswith(title)
+
+
+def test_what_is_no_recording_is_said(tmp_path: Path) -> None:
+    circle = "programs/demo/recorded/learning/round-1/F2000-1.csv"
+    assert frictcomp.circle(recordings=circle).record["source"] == "recorded"
+    with pytest.raises(frictcomp.Error, match="no recording was given"):
+        frictcomp.circle(recordings=[])
+    with pytest.raises(frictcomp.Error, match="`model` has no effect on recordings"):
+        frictcomp.circle(recordings=circle, model="lugre")
+    with pytest.raises(frictcomp.Error, match="was given twice"):
+        frictcomp.identify([circle, circle], circles=True)
+    with pytest.raises(frictcomp.Error, match="is a folder, not a recording"):
+        frictcomp.identify(tmp_path)
+    twice = tmp_path / "twice.csv"
+    twice.write_text("t,x,x\n0,0,1\n0.001,1,1\n")
+    with pytest.raises(frictcomp.Error, match="2 channels fit `x`"):
+        frictcomp.current_of_recording(twice, "programs/demo/lists/comp_x.lis")
+    with pytest.raises(frictcomp.Error, match="no torque of Q"):
+        frictcomp.identify("programs/demo/recordings/friction_x.csv", axis="Q")
+
+
+def test_what_is_given_wrongly_is_named() -> None:
+    with pytest.raises(frictcomp.Error, match="the path is empty"):
+        frictcomp.run("")
+    with open("programs/demo/friction.nc", encoding="utf-8") as file:
+        given: Any = file
+        with pytest.raises(TypeError, match="not `TextIOWrapper`"):
+            frictcomp.run(given)
+    with pytest.raises(TypeError, match="not one text"):
+        frictcomp.check("programs/demo/order", exclude="archive/")
+    with pytest.raises(frictcomp.Error, match="no axis `Q`, which `start` names"):
+        frictcomp.contour("programs/demo/contour/plate.nc", start={"Q": 1.0})
+    with pytest.raises(ValueError) as caught:
+        frictcomp.explain("")
+    assert "did you mean" not in str(caught.value)
+
+
+def test_currents_are_looked_through_by_axis() -> None:
+    currents = frictcomp.current("programs/demo/current/reversal.nc", ["X"])
+    assert list(currents) == ["X"] == currents.axes
+    assert "X" in currents and "Y" not in currents

@@ -118,6 +118,7 @@ pub(crate) fn verify(dropped: &mut Dropped, settings: &VerifySettings) -> Result
     let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)
         .map_err(|error| Refusal::new(error.to_string()))?;
     let report = VerifyReport {
+        axis: settings.axis.clone(),
         trace: settings.path.clone(),
         list: settings.list.clone(),
         recording,

@@ -9,8 +9,9 @@ use super::per_axis::{ByAxis, PerAxis};
 use super::quantities;
 use frictcomp_host::{FileRegistry, MachineOptions, Machines};
 use frictcomp_physics::current::Switched;
-use frictcomp_recordings::identify::{Measured, TorqueKind};
+use frictcomp_recordings::identify::{Measured, TorqueKind, Track};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_report::visible_line;
 
 /// Options for the channels of the motion of an axis. In each of them `%` stands for the name of the axis.
 #[derive(Debug, Clone, Default, Args)]
@@ -37,7 +38,7 @@ impl MotionChannels {
     pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<ChannelSelection, Failure> {
         let of = |option, given| ByAxis::new(option, given, axes).channel(name);
         Ok(ChannelSelection {
-            axis: (!name.is_empty()).then(|| name.to_owned()),
+            axis: named(name),
             time: self.time.clone(),
             position: of("--position", &self.position)?,
             velocity: of("--velocity", &self.velocity)?,
@@ -127,7 +128,7 @@ impl CircleChannelArgs {
         ];
         given.iter().find(|it| it.1).map_or(Ok(()), |(option, _)| {
             let message = format!("`{option}` is about a recording, and none is given");
-            Err(Failure::new(message).with_help("give it with `--recording FILE`"))
+            Err(Failure::new(message).with_help("name it, `frictcomp circle RECORDING`"))
         })
     }
 
@@ -147,12 +148,12 @@ impl CircleChannelArgs {
     }
 }
 
-/// Options for the channels of an axis's motion and torque.
+/// Options for the channels of the motion and the torque of axes.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct AxisChannelArgs {
-    /// The axis, by its name, or by its number in CNC objects
-    #[arg(long, value_name = "AXIS")]
-    pub(crate) axis: Option<String>,
+    /// The axes, by their names, or by their numbers in CNC objects; none is needed where the recording has only one
+    #[arg(long = "axis", value_name = "AXES", value_delimiter = ',')]
+    axes: Vec<String>,
     #[command(flatten)]
     torque: TorqueChannel,
     #[command(flatten)]
@@ -160,47 +161,85 @@ pub(crate) struct AxisChannelArgs {
 }
 
 impl AxisChannelArgs {
-    /// Returns the user's selection of the channels of a recording. The way in a turn of the motor is that of the
-    /// machine to whose folder the recording belongs, if it is not given.
+    /// Returns the user's selection of the channels of an axis in a recording. The way in a turn of the motor is that
+    /// of the machine to whose folder the recording belongs, if it is not given.
     pub(crate) fn selection(
         &self,
+        axis: &str,
         recording: &Path,
         registry: &FileRegistry,
     ) -> Result<ChannelSelection, Failure> {
-        let axis = self.axis();
-        let selection = self.motion.of_axis(axis, &[axis])?;
+        let all = &self.axes();
+        let selection = self.motion.of_axis(axis, all)?;
         let lead_mm = match selection.lead_mm {
             Some(given) => Some(given),
-            None => self.lead_of_machine(recording, registry)?,
+            None => lead_of_machine(axis, recording, registry)?,
         };
         Ok(ChannelSelection {
-            torque: self.torque.of_axis(axis, &[axis])?,
+            torque: self.torque.of_axis(axis, all)?,
             lead_mm,
             ..selection
         })
     }
 
-    /// Returns the name of the axis, empty if none is given.
-    pub(crate) fn axis(&self) -> &str {
-        self.axis.as_deref().unwrap_or_default()
+    /// Returns the names of the axes; if none is given, the empty name of the only one.
+    pub(crate) fn axes(&self) -> Vec<&str> {
+        match &self.axes[..] {
+            [] => vec![""],
+            given => given.iter().map(String::as_str).collect(),
+        }
     }
 
-    /// Returns the way in a turn of the motor of the axis, or of the machine's only one, in mm.
-    fn lead_of_machine(
-        &self,
-        recording: &Path,
-        registry: &FileRegistry,
-    ) -> Result<Option<f64>, Failure> {
-        let folder = recording.parent().unwrap_or(Path::new(""));
-        let loaded = Machines::new(MachineOptions::default(), registry).for_folder(folder)?;
-        let described = loaded.machine.axes.as_slice();
-        let axis = match (&self.axis, described) {
-            (Some(name), _) => described.iter().find(|it| it.name == *name),
-            (None, [only]) => Some(only),
-            (None, _) => None,
-        };
-        Ok(axis.and_then(|it| it.motor_lead_mm))
+    /// Returns the name of the only axis, empty if none is given.
+    pub(crate) fn sole_axis(&self, what: &str) -> Result<&str, Failure> {
+        match &self.axes[..] {
+            [] => Ok(""),
+            [only] => Ok(only),
+            several => {
+                let axes = visible_line(&several.join(",")).into_owned();
+                let message = format!("{what} one axis, and `--axis {axes}` names several");
+                Err(Failure::new(message).with_help("name one axis in each call"))
+            }
+        }
     }
+}
+
+/// Returns the name of an axis, if one was given.
+pub(crate) fn named(axis: &str) -> Option<String> {
+    (!axis.is_empty()).then(|| axis.to_owned())
+}
+
+/// Refuses recordings of several axes of which two are the same: they have the same channels.
+pub(crate) fn refuse_alike<'a>(
+    recorded: impl Iterator<Item = (&'a str, &'a Track)>,
+) -> Result<(), Failure> {
+    let mut earlier: Vec<(&str, &Track)> = Vec::new();
+    for (axis, track) in recorded {
+        if let Some((other, _)) = earlier.iter().find(|it| it.1 == track) {
+            let [other, axis] = [other, axis].map(visible_line);
+            let message = format!("the channels of {axis} are those of {other}");
+            return Err(Failure::new(message).with_help(
+                "name those of each axis, `--torque AXIS=CHANNEL`, or `%` for the name of the axis",
+            ));
+        }
+        earlier.push((axis, track));
+    }
+    Ok(())
+}
+
+/// Returns the way in a turn of the motor of an axis of a machine, or of its only one, in mm.
+fn lead_of_machine(
+    axis: &str,
+    recording: &Path,
+    registry: &FileRegistry,
+) -> Result<Option<f64>, Failure> {
+    let folder = recording.parent().unwrap_or(Path::new(""));
+    let loaded = Machines::new(MachineOptions::default(), registry).for_folder(folder)?;
+    let found = match loaded.machine.axes.as_slice() {
+        [only] if axis.is_empty() => Some(only),
+        described => described.iter().find(|it| it.name == axis),
+    };
+    Ok(found.and_then(|it| it.motor_lead_mm))
 }
 
 /// Option for the kind of recorded torque.

@@ -26,12 +26,16 @@ use frictcomp_report::circle::{CircleReport, ListOrigin, document, render_csv, r
 
 /// Make a circular test, simulated or recorded
 ///
-/// Drives a circle with two simulated axes, with friction compensation off and on. Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--recording`
-/// evaluates a recorded circle instead: an export of TwinCAT Scope, a SINUMERIK trace or a CSV file,
-/// with the columns `x` and `y` in mm (or `x_um` and `y_um` in µm) or the channels that `--position`
-/// names. Give two files for both directions.
+/// Drives a circle with two simulated axes, with friction compensation off and on. Prints the
+/// figures of ISO 230-4, the glitch at each quadrant, and what they suggest. A recording is evaluated
+/// instead where one is named: an export of TwinCAT Scope, a SINUMERIK trace or a CSV file,
+/// with the columns `x` and `y` in mm (or `x_um` and `y_um` in µm), the actual positions of X and Y, or the
+/// channels that `--position` names. Name two files for both directions.
 #[derive(Debug, Args)]
 pub(super) struct CircleArgs {
+    /// A recorded circle instead of a simulated one; name two for both directions
+    #[arg(value_name = "RECORDING", conflicts_with_all = OF_SIMULATIONS)]
+    files: Vec<PathBuf>,
     /// Radius in mm; for recorded circles the commanded radius
     #[arg(long, value_name = "MM", value_parser = quantities::mm, allow_negative_numbers = true)]
     radius: Option<f64>,
@@ -52,8 +56,8 @@ pub(super) struct CircleArgs {
     cycle: CycleArgs,
     #[command(flatten)]
     reading: CurrentReadingArgs,
-    /// A recorded circle instead of a simulated one; give it twice for both directions
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time", "reading"])]
+    /// A recorded circle, as it is named without the option
+    #[arg(long, value_name = "FILE", conflicts_with_all = OF_SIMULATIONS)]
     recording: Vec<PathBuf>,
     /// The centre about which G(b) and H compare both directions: `common`, the mean of both
     /// least-squares centres, or `own`
@@ -69,6 +73,9 @@ pub(super) struct CircleArgs {
     #[command(flatten)]
     html: HtmlArgs,
 }
+
+/// Options that have no effect on a recording.
+const OF_SIMULATIONS: [&str; 5] = ["plant", "model", "value_list", "cycle_time", "reading"];
 
 /// A format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -90,23 +97,24 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = args.html.page(&mut outputs)?;
-    let report = if args.recording.is_empty() {
+    let recordings = [&args.files[..], &args.recording].concat();
+    let report = if recordings.is_empty() {
         args.channels.refuse_without_recording()?;
         let (test, origin) = simulation(args, &registry)?;
         outputs.check()?;
         let comparison = compare(&test, &progress::watch())?.about(args.centre);
         CircleReport::simulated(test, comparison, origin)
     } else {
-        args.recording
-            .iter()
-            .for_each(|path| registry.reads("recording", path));
+        for path in &recordings {
+            registry.reads("recording", path);
+        }
         outputs.check()?;
         let commanded = CommandedCircle {
             radius_mm: args.radius,
             feed_mm_per_min: args.feed,
         };
         let recording = read_circles(
-            &args.recording,
+            &recordings,
             &args.channels.selections()?,
             commanded,
             args.centre,

@@ -89,14 +89,14 @@ static EXAMPLES: [Examples; 40] = [
         &["current"],
         [
             "frictcomp current mill.nc --axis X --start X0,Y0,Z0 --svg current.svg -o current.csv",
-            "frictcomp current --recording trace.csv --value-list comp_x.lis",
+            "frictcomp current trace.csv --value-list comp_x.lis",
         ],
     ),
     examples(
         &["circle"],
         [
             "frictcomp circle --radius 50 --feed 5000 --svg circle.svg",
-            "frictcomp circle --recording ccw.csv --recording cw.csv --radius 50",
+            "frictcomp circle ccw.csv cw.csv --radius 50",
         ],
     ),
     examples(
@@ -174,7 +174,7 @@ static EXAMPLES: [Examples; 40] = [
         &["commission", "run"],
         [
             "frictcomp commission run measuring",
-            "frictcomp commission run measuring --velocity %.SetVelo --torque %.ActTorque",
+            "frictcomp commission run measuring",
         ],
     ),
     examples(

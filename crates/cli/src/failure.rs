@@ -63,12 +63,18 @@ impl Failure {
 
 impl From<HostError> for Failure {
     fn from(error: HostError) -> Self {
+        Self::from(&error)
+    }
+}
+
+impl From<&HostError> for Failure {
+    fn from(error: &HostError) -> Self {
         Self {
             message: error.to_string(),
-            help: circle_option(&error)
+            help: circle_option(error)
                 .map(str::to_owned)
                 .or_else(|| error.help())
-                .or_else(|| options_for(&error))
+                .or_else(|| options_for(error))
                 .into_iter()
                 .collect(),
             diagnostics: error.diagnostics().to_vec(),

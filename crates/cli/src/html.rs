@@ -23,6 +23,11 @@ pub(super) struct HtmlArgs {
 }
 
 impl HtmlArgs {
+    /// Whether a page is asked for.
+    pub(super) fn is_given(&self) -> bool {
+        self.html.is_some()
+    }
+
     /// Returns the file of the page, if there is one.
     pub(super) fn page(&self, outputs: &mut Outputs) -> Result<Option<OutputFile>, Failure> {
         outputs.optional("--html", self.html.as_deref())

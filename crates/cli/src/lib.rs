@@ -56,7 +56,6 @@ mod progress;
 mod quantities;
 mod quiet;
 mod readings;
-mod recorded_files;
 mod replay;
 mod result;
 mod run;
@@ -138,7 +137,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Circle(circle::CircleArgs),
     Tune(tune::TuneArgs),
-    Current(current::CurrentArgs),
+    Current(current::CurrentCall),
     #[command(subcommand)]
     Ask(ask::AskCommand),
     Replay(replay::ReplayArgs),

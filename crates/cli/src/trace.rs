@@ -18,8 +18,8 @@ use frictcomp_report::trace::{TraceReport, document, render_json};
 /// List the channels of a recording: rates, lengths, ranges, gaps
 ///
 /// Reads exports of TwinCAT Scope (CSV), traces of SINUMERIK (XML) and CSV files with a header. The
-/// names, comments and CNC objects that it lists are what `identify`, `current` and `circle` take
-/// after `--velocity`, `--position`, `--torque` and `--time`.
+/// channels that are taken as a quantity need no option in `identify`, `verify`, `current` and `circle`; any other is
+/// named by its name, its comment or its CNC object, after `--velocity`, `--position`, `--torque` and `--time`.
 #[derive(Debug, Args)]
 pub(super) struct TraceArgs {
     /// The recording

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::channels::{AxisChannelArgs, FollowedChannels};
+use super::channels::{AxisChannelArgs, FollowedChannels, named, refuse_alike};
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
@@ -18,6 +18,7 @@ use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{Predictor, verify_followed};
+use frictcomp_report::of_axes;
 use frictcomp_report::verify::{VerifyReport, document, render_json};
 
 /// Compare a recorded torque with what a value list predicts
@@ -56,41 +57,55 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let html = args.html.page(&mut outputs)?;
-    let axis = args.channels.axis();
-    let lists = ByAxis {
-        option: "--value-list",
-        given: &args.value_list,
-        axes: &[axis],
-    };
-    let path = lists.required(axis)?;
-    let list = value_list(path, &registry)?;
+    if args.html.is_given() {
+        args.channels.sole_axis("`--html` shows")?;
+    }
+    let axes = args.channels.axes();
+    let of_lists = ByAxis::new("--value-list", &args.value_list, &axes);
+    let lists = axes.iter().map(|axis| {
+        let path = of_lists.required(axis)?;
+        Ok((path, value_list(path, &registry)?))
+    });
+    let lists = lists.collect::<Result<Vec<_>, Failure>>()?;
     outputs.check()?;
     let cycle_s = args.cycle.seconds()?;
-    let selection = args.channels.selection(&args.recording, &registry)?;
-    let selection = args.followed.added_to(selection, (axis, &[axis]))?;
-    let recording = read_axis(&args.recording, &selection, cycle_s, &Disk::default())?;
-    let predictor = Predictor {
-        list: &list,
-        reading: args.reading.reading,
-        cycle_s,
-    };
-    let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)?;
-    let report = VerifyReport {
-        trace: shown_path(&args.recording),
-        list: shown_path(path),
-        recording,
-        verified,
-    };
-    let status = if report.verified.fits() {
+    let reports = axes.iter().zip(&lists).map(|(axis, (path, list))| {
+        let recorded = &args.recording;
+        let selection = args.channels.selection(axis, recorded, &registry)?;
+        let selection = args.followed.added_to(selection, (axis, &axes))?;
+        let recording = read_axis(recorded, &selection, cycle_s, &Disk::default())?;
+        let predictor = Predictor {
+            list,
+            reading: args.reading.reading,
+            cycle_s,
+        };
+        let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)?;
+        Ok(VerifyReport {
+            axis: named(axis),
+            trace: shown_path(recorded),
+            list: shown_path(path),
+            recording,
+            verified,
+        })
+    });
+    let reports = reports.collect::<Result<Vec<_>, Failure>>()?;
+    let tracks = reports.iter().map(|it| &it.recording.track);
+    refuse_alike(axes.iter().copied().zip(tracks))?;
+    let status = if reports.iter().all(|it| it.verified.fits()) {
         exit::CLEAN
     } else {
         exit::FOUND
     };
-    let document = document(&report);
-    write_page(html, &document)?;
+    let documents: Vec<_> = reports.iter().map(document).collect();
+    if let [document] = &documents[..] {
+        write_page(html, document)?;
+    }
+    let texts = documents
+        .iter()
+        .map(|it| it.text(console.detail, result.look.width));
     result.text(&match args.result.format {
-        ResultFormat::Text => document.text(console.detail, result.look.width),
-        ResultFormat::Json => render_json(&report),
+        ResultFormat::Text => of_axes(texts),
+        ResultFormat::Json => render_json(&reports),
     })?;
     outputs.finish()?;
     Ok(status)

@@ -32,7 +32,14 @@ impl AxesAhead {
         let names = LETTERS.into_iter().chain(names).collect::<BTreeSet<_>>();
         let mut ahead = Self::default();
         let mut found = NamedAxes::new(names);
+        let (mut has_program, mut has_other) = (false, false);
         for input in inputs {
+            if input.probe().is_err() {
+                // What it is instead of a program is reported when it is run.
+                has_other = true;
+                continue;
+            }
+            has_program = true;
             let mut scan = Scan::new(found);
             match input {
                 Input::File(path) if path.is_file() => {
@@ -46,7 +53,7 @@ impl AxesAhead {
             }
             found = scan.question;
         }
-        ahead.is_open |= found.may_name_more();
+        ahead.is_open |= found.may_name_more() || (has_other && !has_program);
         ahead.read.clone_from(found.read());
         ahead.found = found.into_names();
         ahead

@@ -3,6 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::error::HostError;
@@ -27,6 +28,14 @@ pub fn sha256_of(path: &Path) -> Result<String, HostError> {
         }
     }
     Ok(format!("{:x}", digest.finalize()))
+}
+
+/// Returns the SHA-256 of data, by which a result is kept as long as they are the same.
+///
+/// # Panics
+/// Data that are no JSON, such as a map whose keys are not texts.
+pub fn sha256_of_data(data: &impl Serialize) -> String {
+    sha256_of_text(&serde_json::to_string(data).expect("data of keys are fields and lists"))
 }
 
 /// Returns the SHA-256 of a text in hexadecimal digits.

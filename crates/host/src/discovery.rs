@@ -275,7 +275,7 @@ impl Machines {
     /// (R17.7).
     pub fn look_ahead(&mut self, inputs: &[Input]) {
         self.watch.expect(inputs.len());
-        if self.options.enable.is_empty() {
+        if self.options.enable.is_empty() || inputs.is_empty() {
             return;
         }
         let names: Vec<String> = self.options.enable.clone();

@@ -64,6 +64,25 @@ pub enum HostError {
     /// A folder where a program is expected.
     #[error("`{}` is a folder, not a program", shown_path(.0))]
     FolderAsProgram(PathBuf),
+    /// A folder where a recording is expected.
+    #[error("`{}` is a folder, not a recording", shown_path(.0))]
+    FolderAsRecording(PathBuf),
+    /// A folder whose recordings cannot be listed.
+    #[error("cannot read the folder `{}`: {reason}", shown_path(.folder))]
+    Recordings {
+        /// The folder as it was named.
+        folder: PathBuf,
+        /// Reason given by the system.
+        reason: io::Error,
+    },
+    /// A recording that was given twice, or is a copy of another one.
+    #[error("{}", copied(.path, .of))]
+    Copy {
+        /// The recording.
+        path: PathBuf,
+        /// The one that it repeats.
+        of: PathBuf,
+    },
     /// A picture, settings, an archive where a program is expected.
     #[error("`{}` is {what}, not an NC program", shown_path(.path))]
     NoProgram {
@@ -276,6 +295,12 @@ impl HostError {
                 io::ErrorKind::ResourceBusy => "close it there, then try again",
                 _ => return None,
             },
+            Self::Recordings { reason, .. } => match reason.kind() {
+                io::ErrorKind::NotFound => "make the folder, and put the recordings into it",
+                io::ErrorKind::NotADirectory => "name a folder with recordings, not a file",
+                _ => return None,
+            },
+            Self::Copy { .. } => "leave it out: the same recording twice proves nothing more",
             Self::Write { reason, .. } => match reason.kind() {
                 io::ErrorKind::NotFound => "create the folder, or name another file",
                 io::ErrorKind::ResourceBusy => "close it there and try again, or name another file",
@@ -296,7 +321,7 @@ impl HostError {
                 "`git log --oneline` names them; a clone with little history gets more with \
                  `git fetch --unshallow`"
             }
-            Self::FolderAsList(_) => "name the file in it",
+            Self::FolderAsList(_) | Self::FolderAsRecording(_) => "name the file in it",
             Self::NoProgram { .. } => "name the program itself",
             Self::Pattern(_) => {
                 "write it as in a `.gitignore`: `old`, `*.bak.nc`, `archive/**/*.nc`"
@@ -379,12 +404,23 @@ fn listed(paths: &[PathBuf]) -> String {
     names.join(", ")
 }
 
+fn copied(path: &Path, of: &Path) -> String {
+    let shown = shown_path(path);
+    if path == of {
+        return format!("`{shown}` was given twice");
+    }
+    format!("`{shown}` is a copy of `{}`", shown_path(of))
+}
+
 fn reading(path: &Path, reason: &io::Error) -> String {
     let shown = shown_path(path);
     if let Some(device) = device(path).filter(|_| cfg!(windows)) {
         return format!("`{shown}` cannot be read: `{device}` is the name of a device on Windows");
     }
     match reason.kind() {
+        io::ErrorKind::NotFound if shown.is_empty() => {
+            "no file is named: the path is empty".to_owned()
+        }
         io::ErrorKind::NotFound => format!("there is no file `{shown}`"),
         io::ErrorKind::PermissionDenied => format!("`{shown}` cannot be read: permission denied"),
         io::ErrorKind::ResourceBusy => {

@@ -28,7 +28,7 @@ pub enum TraceError {
     #[error("`{}` says what TwinCAT Scope is to record; it holds no values", shown_path(.0))]
     WithoutValues(PathBuf),
     /// Channels that cannot be brought to one clock.
-    #[error("the trace `{}`: {reason}", shown_path(.path))]
+    #[error("the recording `{}`: {reason}", shown_path(.path))]
     Apart {
         /// Path of the file.
         path: PathBuf,
@@ -36,7 +36,7 @@ pub enum TraceError {
         reason: NotAligned,
     },
     /// Rows that are not CNC cycles.
-    #[error("the trace `{}`: {reason}", shown_path(.path))]
+    #[error("the recording `{}`: {reason}", shown_path(.path))]
     Cycles {
         /// Path of the file.
         path: PathBuf,
@@ -44,13 +44,13 @@ pub enum TraceError {
         reason: CyclesError,
     },
     /// Channels of a commanded trace that were not sampled together.
-    #[error("the trace `{}`: its channels were sampled at different times", shown_path(.0))]
+    #[error("the recording `{}`: its channels were sampled at different times", shown_path(.0))]
     SeveralClocks(PathBuf),
     /// A recording of states without times.
-    #[error("the trace `{}` has no times", shown_path(.0))]
+    #[error("the recording `{}` has no times", shown_path(.0))]
     NoTimes(PathBuf),
     /// A state that is neither 0 nor 1.
-    #[error("the trace `{}`: channel `{channel}` holds {value}, which is not a state", shown_path(.path))]
+    #[error("the recording `{}`: channel `{channel}` holds {value}, which is not a state", shown_path(.path))]
     NoState {
         /// Path of the file.
         path: PathBuf,
@@ -101,6 +101,6 @@ fn said(path: &Path, problem: &TraceProblem) -> String {
     match (problem, problem.line()) {
         (TraceProblem::Select(error), _) => error.of_trace(&path),
         (_, Some(line)) => format!("{path}:{line}: {problem}"),
-        _ => format!("the trace `{path}` cannot be read: {problem}"),
+        _ => format!("the recording `{path}` cannot be read: {problem}"),
     }
 }

@@ -1,11 +1,14 @@
 //! Recorded traces in files: which of their channels are which columns of a circle or of a commanded
 //! trace. The module `trace` handles the file layouts.
 
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+use super::decode::decode;
 use super::disk::Disk;
 use super::error::HostError;
 use super::trace_error::TraceError;
+use frictcomp::syntax::no_program;
 use frictcomp_physics::circle::{
     CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
 };
@@ -24,6 +27,9 @@ const MAX_POINTS: usize = 4_000_000;
 
 /// Largest number of rows of a trace: eleven hours of cycles of 1 ms.
 const MAX_ROWS: usize = 40_000_000;
+
+/// Number of leading bytes that tell a recording from a program.
+const HEAD: u64 = 1 << 18;
 
 /// Number of bytes read at a time.
 const PIECE: usize = 1 << 18;
@@ -46,6 +52,27 @@ pub fn read_trace(
     read(path, MAX_ROWS, disk, choose)
 }
 
+/// Whether a file is a recording, told by its head: it is XML, or has rows of numbers, with or without a header. A
+/// program has none.
+pub fn is_recording(path: &Path, disk: &Disk) -> bool {
+    let Ok(file) = disk.open(path) else {
+        return false;
+    };
+    let mut head = Vec::new();
+    if file.take(HEAD).read_to_end(&mut head).is_err() {
+        return false;
+    }
+    let mut has_channels = false;
+    let mut reader = TraceReader::new(MAX_ROWS, |channels| {
+        has_channels = !channels.is_empty();
+        Ok(Choice::default())
+    });
+    // What is wrong with it is said where it is read.
+    let read = reader.feed(&head);
+    drop(read.and_then(|()| reader.finish()));
+    has_channels || no_program(&decode(head)) == Some("XML")
+}
+
 fn read(
     path: &Path,
     most_rows: usize,
@@ -56,7 +83,10 @@ fn read(
         path: path.to_owned(),
         problem,
     };
-    let failed = |error| HostError::read(path, error);
+    let failed = |error: io::Error| match error.kind() {
+        io::ErrorKind::IsADirectory => HostError::FolderAsRecording(path.to_owned()),
+        _ => HostError::read(path, error),
+    };
     let extension = path
         .extension()
         .map(|it| it.to_string_lossy().to_lowercase());
@@ -356,21 +386,14 @@ fn read_points(
 ) -> Result<RecordedTrace, HostError> {
     let mut picks = [None; 2];
     let recording = read(path, MAX_POINTS, disk, |channels| {
-        for (pick, (axis, wanted)) in picks.iter_mut().zip(["x", "y"].iter().zip(wanted)) {
-            *pick = match wanted.position {
-                Some(_) => wanted.find(ChannelQuantity::Position, channels)?,
-                None => wanted.position_of(axis, channels)?,
+        for (pick, (usual, wanted)) in picks.iter_mut().zip(["X", "Y"].iter().zip(wanted)) {
+            *pick = match (&wanted.position, &wanted.axis) {
+                (Some(_), _) => wanted.find(ChannelQuantity::Position, channels)?,
+                (None, axis) => wanted.position_of(axis.as_deref().unwrap_or(usual), channels)?,
             };
         }
-        let is_named = wanted.iter().any(|it| it.position.is_some());
         for pick in picks.iter_mut().flatten() {
-            // The columns `x` and `y` are in mm unless they say otherwise.
-            let is_in_mm = pick.is_unit_assumed && !is_named;
-            pick.unit.factor = if is_in_mm {
-                1.0
-            } else {
-                pick.unit.factor / POSITION_UNITS_PER_MM
-            };
+            pick.unit.factor /= POSITION_UNITS_PER_MM;
         }
         let [Some(x), Some(y)] = picks else {
             return Err(lacks(

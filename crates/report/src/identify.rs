@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::of_axes::json_of_axes;
 use super::pictures::{friction_curve, residuals_over_position, segments_on_trace};
-use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::diagnostic::{Rounded, Severity};
@@ -307,9 +307,9 @@ struct SegmentRecord {
     v: f64,
 }
 
-/// The report as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
-pub fn render_json(report: &IdentifyReport) -> String {
-    to_pretty(&record(report))
+/// The report of an axis, or those of several, as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
+pub fn render_json(reports: &[IdentifyReport]) -> String {
+    json_of_axes(reports.iter().map(record))
 }
 
 /// The record of an identification.

@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 use super::assumptions::not_modelled_line;
-use super::commission::ValueListUsed;
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::circle::RoundVerdict;
+use frictcomp_recordings::commission::ValueListUsed;
 
 /// The content of `learning.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

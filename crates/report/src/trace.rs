@@ -42,7 +42,7 @@ pub fn document<'a>(report: &'a TraceReport<'_>) -> Document<'a> {
     out.push_str("\n");
     let recording = report.recording;
     let table = Table::of_numbers(["samples", "every ms", "length s", "least", "greatest"]);
-    let mut table = table.left("unit").left("channel");
+    let mut table = table.left("unit").left("taken as").left("channel");
     for summary in recording.summaries() {
         push_channel(&mut table, &summary);
     }
@@ -91,6 +91,7 @@ fn push_channel(table: &mut Table, summary: &ChannelSummary<'_>) {
         &shown(least),
         &shown(greatest),
         &visible_line(channel.unit.as_deref().unwrap_or("-")),
+        &shown(channel.recognised().map(|it| it.to_string())),
         &name,
     ]);
 }
@@ -164,6 +165,8 @@ struct ChannelRecord<'a> {
     symbol: &'a str,
     unit: Option<&'a str>,
     object: Option<String>,
+    role: Option<&'static str>,
+    axis: Option<String>,
     samples: usize,
     missing: u64,
     step_s: Option<f64>,
@@ -194,12 +197,15 @@ pub fn render_json(report: &TraceReport<'_>) -> String {
 fn record<'a>(summary: &ChannelSummary<'a>) -> ChannelRecord<'a> {
     let channel: &'a Channel = summary.channel;
     let clock = summary.clock.as_ref();
+    let recognised = channel.recognised();
     ChannelRecord {
         name: &channel.name,
         comment: &channel.comment,
         symbol: &channel.symbol,
         unit: channel.unit.as_deref(),
         object: channel.object.map(|object| object.to_string()),
+        role: recognised.as_ref().map(|it| it.role.as_str()),
+        axis: recognised.and_then(|it| it.axis),
         samples: summary.samples,
         missing: summary.missing,
         step_s: clock.and_then(|clock| clock.step_s),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::strings::to_pretty;
+use super::of_axes::json_of_axes;
 use super::visible::visible_line;
 use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::diagnostic::Rounded;
@@ -13,6 +13,8 @@ use frictcomp_recordings::identify::{AxisRecording, CONTACT_MM, Timing, TraceFin
 /// A recording, and the fit of a value list to it.
 #[derive(Debug, Clone)]
 pub struct VerifyReport {
+    /// The axis, if it is named.
+    pub axis: Option<String>,
     /// The name of the trace.
     pub trace: String,
     /// The name of the value list.
@@ -31,6 +33,8 @@ impl VerifyReport {
         if let Timing::Other(_) = verified.timing {
             said.push(verified.timing.sentence());
         }
+        let axis = self.axis.as_deref();
+        let axis = axis.map_or(String::new(), |axis| format!(" of {axis}"));
         let ends = [verified.ranges.first(), verified.ranges.last()];
         match ends {
             [Some(first), Some(last)] if verified.fits() => Headline::new(
@@ -40,13 +44,17 @@ impl VerifyReport {
                     Standing::Open
                 },
                 format!(
-                    "{} fits the recorded torque from {:.2} to {:.2} mm/s",
+                    "{} fits the recorded torque{axis} from {:.2} to {:.2} mm/s",
                     self.list, first.from, last.to
                 ),
             ),
             _ => Headline::new(
                 Standing::Bad,
-                format!("{} does not fit: {}", self.list, said.join("; ")),
+                format!(
+                    "{} does not fit the recorded torque{axis}: {}",
+                    self.list,
+                    said.join("; ")
+                ),
             ),
         }
     }
@@ -122,8 +130,9 @@ pub fn document(report: &VerifyReport) -> Document<'_> {
 }
 
 #[derive(Serialize)]
-struct VerifyDocument<'a> {
+struct VerifyRecord<'a> {
     schema: u32,
+    axis: Option<&'a str>,
     headline: Headline,
     verdict: Vec<String>,
     scale: f64,
@@ -153,8 +162,12 @@ struct ReversalRecord {
     predicted: f64,
 }
 
-/// The report as JSON; speeds in µm/s or 0.001°/s, times in s.
-pub fn render_json(report: &VerifyReport) -> String {
+/// The report of an axis, or those of several, as JSON; speeds in µm/s or 0.001°/s, times in s.
+pub fn render_json(reports: &[VerifyReport]) -> String {
+    json_of_axes(reports.iter().map(record))
+}
+
+fn record(report: &VerifyReport) -> VerifyRecord<'_> {
     const PER_MM: f64 = 1000.0;
     let verified = &report.verified;
     let ranges = verified.ranges.iter().map(|range| RangeRecord {
@@ -168,8 +181,9 @@ pub fn render_json(report: &VerifyReport) -> String {
         recorded: turn.recorded,
         predicted: turn.predicted,
     });
-    to_pretty(&VerifyDocument {
+    VerifyRecord {
         schema: 1,
+        axis: report.axis.as_deref(),
         headline: report.headline(),
         verdict: verified.verdict(),
         scale: verified.scale,
@@ -185,5 +199,5 @@ pub fn render_json(report: &VerifyReport) -> String {
         reversals: reversals.collect(),
         remarks: &report.recording.remarks,
         diagnostics: &report.recording.findings,
-    })
+    }
 }

@@ -433,6 +433,9 @@ class Currents:
         """
     def _repr_html_(self) -> str:
         """Its picture, for notebooks."""
+    def __contains__(self, key: str, /) -> bool: ...
+    def __iter__(self) -> Iterator[str]:
+        """Iterates over the names of the axes."""
     def __getitem__(self, key: str, /) -> AxisCurrent: ...
     def __len__(self) -> int:
         """How many cycles there are."""
@@ -577,7 +580,7 @@ def check(
     *,
     machine: Machine | _Path | None = None,
     limits: Limits | None = None,
-    exclude: Sequence[str] | None = None,
+    exclude: Iterable[str] | None = None,
     no_ignore: bool = False,
 ) -> Messages:
     """All messages of programs and of the programs below folders.
@@ -679,7 +682,7 @@ def circle(
     value_list: _Path | Mapping[str, _Path] | None = None,
     cycle_time_ms: float | None = None,
     reading: str | None = None,
-    recordings: Iterable[_Path] | None = None,
+    recordings: _Path | Iterable[_Path] | None = None,
     centre: Literal["common", "own"] | None = None,
 ) -> Circle:
     """A circular test, as ``frictcomp circle`` makes it.

@@ -3,6 +3,7 @@
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
+use pyo3::types::{PyIterator, PyList};
 
 use super::ProgramsCurrents;
 use super::axis::{Counted, PyAxisCurrent, array};
@@ -122,6 +123,15 @@ impl PyCurrents {
         let found = self.axes.iter().find(|it| it.get().axis.name == axis);
         let found = found.ok_or_else(|| PyKeyError::new_err(axis.to_owned()))?;
         Ok(found.clone_ref(py))
+    }
+
+    fn __contains__(&self, axis: &str) -> bool {
+        self.axes().contains(&axis)
+    }
+
+    /// Iterates over the names of the axes.
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        PyList::new(py, self.axes())?.try_iter()
     }
 
     /// The picture of currents, velocities, weights and states over time, as ``frictcomp current --svg``

@@ -7,8 +7,9 @@ use clap::Args;
 use crate::channels::{FollowedChannels, MotionChannels, TorqueChannel, TorqueKindArgs};
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
-use frictcomp_physics::circle::Circle;
-use frictcomp_recordings::commission::{MeasuredAxis, Plan};
+use crate::identify::refusal;
+use frictcomp_host::commission::{CommissionChannels, UnusedRecording};
+use frictcomp_recordings::commission::{NotFollowed, PlanFile};
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::visible_line;
 
@@ -18,24 +19,19 @@ pub(super) struct ReadingArgs {
     #[command(flatten)]
     motion: MotionChannels,
     #[command(flatten)]
-    pub(super) torque: TorqueChannel,
+    torque: TorqueChannel,
     #[command(flatten)]
     followed: FollowedChannels,
     #[command(flatten)]
-    pub(super) cycle: CycleArgs,
+    cycle: CycleArgs,
     #[command(flatten)]
-    pub(super) kind: TorqueKindArgs,
+    kind: TorqueKindArgs,
     /// The program of a recording without a signature, by its number: `friction.csv=1`
     #[arg(long, value_name = "FILE=NUMBER", value_parser = parse_role)]
-    pub(super) role: Vec<(String, u16)>,
+    role: Vec<(String, u16)>,
 }
 
 impl ReadingArgs {
-    /// Returns everything that affects how a recording is read.
-    pub(super) fn key(&self) -> String {
-        format!("{self:?}")
-    }
-
     /// Returns the user's statements about the recordings.
     pub(super) fn said(&self) -> Vec<String> {
         let roles = self.role.iter();
@@ -70,51 +66,58 @@ impl ReadingArgs {
         })
     }
 
-    /// Returns the CNC cycle in s.
-    pub(super) fn cycle_time_s(&self) -> Result<f64, Failure> {
-        let given = self.cycle.seconds()?;
-        Ok(given.unwrap_or(Circle::default().cycle_time_s))
-    }
-
-    /// Returns the channels of circles.
-    pub(super) fn circle_channels(&self, plan: &Plan) -> Result<[ChannelSelection; 2], Failure> {
-        let of_axis = |at: usize| {
-            let Some(MeasuredAxis { name, .. }) = plan.axes.get(at) else {
-                return Ok::<_, Failure>(ChannelSelection::default());
+    /// Returns the channels of every axis of plans, and of the other motors of gantries.
+    pub(super) fn channels(&self, plans: &[PlanFile]) -> Result<CommissionChannels, Failure> {
+        let mut axes: Vec<&str> = Vec::new();
+        for axis in plans.iter().flat_map(|it| &it.plan.axes) {
+            let motors = std::iter::once(&axis.name).chain(&axis.followers);
+            for motor in motors.map(String::as_str) {
+                if !axes.contains(&motor) {
+                    axes.push(motor);
+                }
+            }
+        }
+        let of_axis = |name: &&str| {
+            let selection = ChannelSelection {
+                torque: self.torque.of_axis(name, &axes)?,
+                ..self.motion.of_axis(name, &axes)?
             };
-            let followed = self.followed(name, plan)?;
-            let is_usual = ["X", "Y"].contains(&name.as_str());
-            let usual = || (!is_usual).then(|| name.clone());
-            Ok(ChannelSelection {
-                position: followed.actual_position.or_else(usual),
-                actual_position: None,
-                ..followed
-            })
+            let followed = self.followed.added_to(selection, (name, &axes))?;
+            Ok(((*name).to_owned(), followed))
         };
-        Ok([of_axis(0)?, of_axis(1)?])
-    }
-
-    /// Returns the channels of an axis with its actual position or its following error.
-    pub(super) fn followed(&self, axis: &str, plan: &Plan) -> Result<ChannelSelection, Failure> {
-        let selection = self.selection(axis, plan)?;
-        self.followed.added_to(selection, (axis, &axes_of(plan)))
-    }
-
-    /// Returns the channels of an axis.
-    pub(super) fn selection(&self, name: &str, plan: &Plan) -> Result<ChannelSelection, Failure> {
-        let axes = axes_of(plan);
-        Ok(ChannelSelection {
-            torque: self.torque.of_axis(name, &axes)?,
-            ..self.motion.of_axis(name, &axes)?
+        Ok(CommissionChannels {
+            axes: axes.iter().map(of_axis).collect::<Result<_, Failure>>()?,
+            has_each_torque: self.torque.is_of_each(),
+            cycle_s: self.cycle.seconds()?,
+            torque_kind: self.kind.torque_kind,
+            roles: self.role.clone(),
         })
     }
 }
 
-/// Returns the axes of a plan, each with the other motors of its gantry.
-pub(super) fn axes_of(plan: &Plan) -> Vec<&str> {
-    let axes = plan.axes.iter();
-    let motors = axes.flat_map(|it| [&it.name].into_iter().chain(&it.followers));
-    motors.map(String::as_str).collect()
+/// Returns why a recording is not used, with the option that helps.
+pub(super) fn words(unused: &UnusedRecording) -> String {
+    let help = match unused {
+        UnusedRecording::Host(error) => return Failure::from(error).sentence(),
+        UnusedRecording::Friction { error, findings } => {
+            return refusal(error.clone(), findings).sentence();
+        }
+        UnusedRecording::Motor { motor, reason } => return format!("{motor}: {}", words(reason)),
+        UnusedRecording::OtherProgram { found, said } => {
+            return format!("its strokes give the number {found}, but `--role` says {said}");
+        }
+        UnusedRecording::NoTorques => {
+            return format!("{unused}: name the channels of all motors, `--torque %.ActTorque`");
+        }
+        UnusedRecording::NoSignature { file } => {
+            format!("say `--role {file}=NUMBER` if you know its program")
+        }
+        UnusedRecording::NotFollowed(NotFollowed::Absent) => {
+            "name them with `--following-error`, or `--actual-position` and `--position`".to_owned()
+        }
+        _ => return unused.to_string(),
+    };
+    format!("{unused}; {help}")
 }
 
 /// Parses `FILE=NUMBER`.

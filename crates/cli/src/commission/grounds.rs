@@ -8,7 +8,8 @@ use crate::failure::{Failure, shown};
 use crate::per_axis::ByAxis;
 use frictcomp_host::sha256_of;
 use frictcomp_physics::simulation::Preset;
-use frictcomp_report::commission::{InputFile, PlanFile};
+use frictcomp_recordings::commission::PlanFile;
+use frictcomp_report::commission::InputFile;
 
 impl CommissionRunArgs {
     /// Returns the plans, the lists of stage 2, the earlier ones, and the file of the plant.

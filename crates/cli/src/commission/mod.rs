@@ -1,14 +1,10 @@
 //! `frictcomp commission`: from measuring programs to a proven list.
 
 mod channels;
-mod closer;
-mod friction;
 mod grounds;
 mod learn;
 mod plan;
 mod plants;
-mod reading;
-mod recorded;
 mod run;
 mod run_args;
 mod sources;

@@ -17,10 +17,11 @@ use frictcomp::machine::{Axis, Machine};
 use frictcomp_host::{FileRegistry, Replaces, read_text, sha256_of};
 use frictcomp_physics::motion::AxisLimits;
 use frictcomp_recordings::commission::{
-    Dynamics, FreeTravel, Installed, MeasuredAxis, Plan, PlanError, PlanRequest, Stage,
+    Dynamics, FreeTravel, Installed, MeasuredAxis, Plan, PlanError, PlanFile, PlanRequest, Stage,
+    ValueListUsed,
 };
 use frictcomp_report::commission::{
-    PlanFile, PlanReport, ValueListUsed, render_json, render_program, render_readme, render_text,
+    PlanReport, render_file, render_json, render_program, render_readme, render_text,
 };
 use frictcomp_report::{fitted, visible_line};
 
@@ -156,7 +157,7 @@ fn write(
 ) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
     let plan = folder.join(plan_name(round));
-    let is_other = read_text(&plan).is_ok_and(|there| there != render_json(report));
+    let is_other = read_text(&plan).is_ok_and(|there| there != render_file(report));
     if is_other && console.replaces(Replaces::Results) == Replaces::Results {
         let message = format!("`{}` holds another plan", shown(&plan));
         let help = "its recordings would count for the new plan; plan in another folder, or use `--force` if there \
@@ -165,7 +166,7 @@ fn write(
     }
     let pages = [
         ("README.txt".to_owned(), render_readme(report)),
-        (plan_name(round), render_json(report)),
+        (plan_name(round), render_file(report)),
     ];
     let programs = report.plan.programs.iter();
     let programs = programs.map(|it| (it.file.clone(), render_program(report, it)));

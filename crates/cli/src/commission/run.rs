@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use super::channels::words;
 use super::plan::plan_name;
 use super::plants::Fitting;
 use super::run_args::CommissionRunArgs;
@@ -14,19 +15,19 @@ use crate::html::write_page;
 use crate::machine::value_list;
 use crate::outputs::{Outputs, write_text};
 use crate::progress;
-use crate::recorded_files::recordings_in;
 use crate::result::ResultFormat;
+use frictcomp_host::commission::CommissionReader;
 use frictcomp_host::{
-    Done, FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
+    FileRegistry, find_plant, memory_for_simulation, read_text, recordings_in, sha256_of,
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CompensationShown, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
-    MeasuringProgram, Plan, RecordingOutcome, RecordingResult, Shows, Stage, StagesOfAxis,
+    MeasuringProgram, PlanFile, RecordingOutcome, RecordingResult, Shows, Stage, StagesOfAxis,
     SwitchedAs, before_after, feeds_against, recorded_otherwise, refuse_strangers,
 };
 use frictcomp_report::commission::{
-    Acceptance, AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, document,
-    glitch_unit, render_results_json,
+    Acceptance, AxisVerdict, Plants, Results, ResultsReport, Round, document, glitch_unit,
+    render_results_json,
 };
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on};
 use frictcomp_report::{TextChange, render_unified};
@@ -41,9 +42,14 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     }
     args.reading.check_roles(&paths)?;
     let known = known(&args.folder.join(RESULTS));
-    let (mut results, kept) = read(args, (&plans, &paths), &known)?;
-    args.reading
-        .take_shares(&args.folder, &plans, (&mut results, &registry))?;
+    let reader = CommissionReader {
+        channels: &args.reading.channels(&plans)?,
+        words,
+    };
+    let watch = progress::watch();
+    let (mut results, kept) = reader.results((&plans, &paths), &known.recordings, &watch)?;
+    drop(watch);
+    reader.take_shares(&args.folder, &plans, (&mut results, &registry))?;
     let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.result.output.as_deref())?;
     // What one recording shows about another is determined anew each time.
@@ -55,6 +61,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
             memory_for_simulation()?;
             let fitting = Fitting {
                 args,
+                reader,
                 base: &find_plant(name, &registry)?,
                 plans: &plans,
                 results: &results,
@@ -99,53 +106,6 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     } else {
         exit::FOUND
     })
-}
-
-/// Reads the recordings that have changed since an earlier run; returns the results of all, and the number of those
-/// that were known.
-fn read(
-    args: &CommissionRunArgs,
-    (plans, paths): (&[PlanFile], &[PathBuf]),
-    known: &Results,
-) -> Result<(Vec<RecordingResult>, usize), Failure> {
-    let mut kept = 0;
-    let mut results = Vec::new();
-    let watch = progress::watch();
-    for path in paths {
-        watch.show(|| Done::Runs {
-            of: "recordings",
-            done: results.len(),
-            all: paths.len(),
-        });
-        let sha256 = sha256_of(path)?;
-        let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
-        let file = file.unwrap_or_default();
-        let same = |it: &&RecordingResult| {
-            it.file == file
-                && it.sha256 == sha256
-                && it.read_with == read_with(args, plans, it.program)
-        };
-        if let Some(result) = known.recordings.iter().find(same) {
-            kept += 1;
-            results.push(result.clone());
-            continue;
-        }
-        let of_plans: Vec<&Plan> = plans.iter().map(|it| &it.plan).collect();
-        let (program, mut found) = args.reading.read(path, &of_plans);
-        if let (RecordingOutcome::Circles(circles), Some(plan)) =
-            (&mut found, plan_of(plans, program))
-        {
-            args.reading.look_closer(path, plan, circles);
-        }
-        results.push(RecordingResult {
-            file,
-            sha256,
-            read_with: read_with(args, plans, program),
-            program,
-            found,
-        });
-    }
-    Ok((results, kept))
 }
 
 /// Returns the contents of the report beyond the results.
@@ -224,18 +184,6 @@ fn known(path: &Path) -> Results {
         .unwrap_or_default()
 }
 
-/// Returns the SHA-256 of everything that affects how a recording is read, except the recording itself: version,
-/// options and the plan of its program, or all plans if its program is not known.
-fn read_with(args: &CommissionRunArgs, plans: &[PlanFile], program: Option<u16>) -> String {
-    let has = |plan: &&PlanFile| {
-        let mut programs = plan.plan.programs.iter();
-        program.is_none_or(|number| programs.any(|it| it.number == number))
-    };
-    let plans: Vec<&Plan> = plans.iter().filter(has).map(|it| &it.plan).collect();
-    let version = env!("CARGO_PKG_VERSION");
-    sha256_of_text(&format!("{version} {} {plans:?}", args.reading.key()))
-}
-
 /// Writes a provisional list for each axis of stage 1 whose friction was recorded and that has no reason against it.
 fn lists(
     args: &CommissionRunArgs,
@@ -296,7 +244,7 @@ fn rounds(
     let second = plans.iter().filter(|it| it.plan.stage == Stage::On);
     for (number, plan) in (2..).zip(second) {
         let is_off = |number: u16| stage_of(plans, number) == Some(Stage::Off);
-        let is_on = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
+        let is_on = |number: u16| plan.has(number);
         let recorded = before_after(results, &plan.plan.axes, (is_off, is_on));
         let (mut against, mut not_shown) = (None, Vec::new());
         if !recorded.is_empty() {
@@ -394,7 +342,7 @@ fn used_in<'a>(
     plan: &'a PlanFile,
     results: &'a [RecordingResult],
 ) -> impl Iterator<Item = &'a RecordingOutcome> {
-    let is_own = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
+    let is_own = |number: u16| plan.has(number);
     let own = results
         .iter()
         .filter(move |it| it.found.is_used() && it.program.is_some_and(is_own));
@@ -433,17 +381,6 @@ fn switched(
         }
     }
     [against, not_shown]
-}
-
-/// Returns the plan of a program.
-pub(super) fn plan_of(plans: &[PlanFile], program: Option<u16>) -> Option<&PlanFile> {
-    let has = |plan: &&PlanFile| {
-        plan.plan
-            .programs
-            .iter()
-            .any(|it| Some(it.number) == program)
-    };
-    plans.iter().find(has)
 }
 
 /// Returns what the recordings show about the plants on which the lists of a round were tuned.

@@ -6,16 +6,12 @@ use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use frictcomp_host::{read_text, sha256_of_text};
 use frictcomp_recordings::commission::{
-    FrictionFound, MeasuredAxis, RecordingOutcome, RecordingResult, Stage,
+    FrictionFound, MeasuredAxis, PlanFile, RecordingOutcome, RecordingResult, Stage,
 };
-use frictcomp_report::commission::PlanFile;
 
 /// Returns the stage of the program with a number.
 pub(super) fn stage_of(plans: &[PlanFile], number: u16) -> Option<Stage> {
-    let plan = plans
-        .iter()
-        .find(|it| it.plan.programs.iter().any(|it| it.number == number));
-    plan.map(|it| it.plan.stage)
+    PlanFile::of(plans, Some(number)).map(|it| it.plan.stage)
 }
 
 /// Writes a list under a name derived from its content, so that no list replaces another one.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::channels::{AxisChannelArgs, TorqueArgs};
+use crate::channels::{AxisChannelArgs, TorqueArgs, named};
 use crate::console::Console;
 use crate::cycle::CycleArgs;
 use crate::exit;
@@ -12,10 +12,9 @@ use crate::failure::Failure;
 use crate::html::{HtmlArgs, write_page};
 use crate::identify::refusal;
 use crate::outputs::{Outputs, write_picture};
-use crate::recorded_files::{copies_among, recordings_in};
 use crate::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
-use frictcomp_host::{Disk, FileRegistry, read_axis};
+use frictcomp_host::{Disk, FileRegistry, copies_among, read_axis, recordings_in};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
 use frictcomp_report::trend::{DatedFriction, TrendReport, document, render_json};
 
@@ -47,6 +46,7 @@ pub(crate) struct TrendArgs {
 /// Runs the command.
 pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     let paths = recordings_in(&args.folder)?;
+    let axis = args.channels.sole_axis("a trend is that of")?;
     let registry = FileRegistry::default();
     for path in &paths {
         registry.reads("recording", path);
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     let mut target = outputs.result(args.result.output.as_deref())?;
     outputs.check()?;
     let mut report = TrendReport {
-        axis: args.channels.axis.clone(),
+        axis: named(axis),
         unit: String::new(),
         dates: Vec::new(),
         changes: Vec::new(),
@@ -71,7 +71,7 @@ pub(crate) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
             report.left_out.push((shown_path(path), reason));
             continue;
         }
-        match args.dated(path, &registry) {
+        match args.dated(axis, path, &registry) {
             Ok((dated, unit)) if report.unit.is_empty() || report.unit == unit => {
                 report.unit = unit;
                 report.dates.push(dated);
@@ -118,6 +118,7 @@ impl TrendArgs {
     /// Returns the friction of a recording with its date, and the unit of its torque.
     fn dated(
         &self,
+        axis: &str,
         path: &Path,
         registry: &FileRegistry,
     ) -> Result<(DatedFriction, String), Failure> {
@@ -125,7 +126,7 @@ impl TrendArgs {
         let cycle = self.cycle.seconds()?;
         let recording = read_axis(
             path,
-            &self.channels.selection(path, registry)?,
+            &self.channels.selection(axis, path, registry)?,
             cycle,
             &Disk::default(),
         )?;

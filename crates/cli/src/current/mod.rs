@@ -7,19 +7,17 @@ mod program;
 mod recorded;
 mod table;
 
-pub(super) use args::CurrentArgs;
+pub(super) use args::CurrentCall;
 
 use super::console::Console;
 use super::failure::Failure;
-use args::CurrentFormat;
+use args::{CurrentFormat, CurrentSource};
 
 /// Runs the command.
-pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
+pub(super) fn run(CurrentCall(args): &CurrentCall, console: Console) -> Result<u8, Failure> {
     let CurrentFormat::Csv = args.format;
-    match (&args.program, &args.recording) {
-        (Some(program), _) => program::run(program, args, console),
-        (None, Some(recording)) => recorded::run(recording, args, console),
-        // The argument declaration ensures that one of them is given.
-        (None, None) => Err(Failure::new("give a program or a recording")),
+    match args.source() {
+        CurrentSource::Program(program) => program::run(program, args, console),
+        CurrentSource::Recording(recording) => recorded::run(recording, args, console),
     }
 }

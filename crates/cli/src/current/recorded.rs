@@ -12,6 +12,7 @@ use super::super::per_axis::ByAxis;
 use super::args::CurrentArgs;
 use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use frictcomp::comp::State;
+use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_commanded};
 use frictcomp_physics::current::{Added, AdditiveCurrent, CommandedTrace, Reading, Switched};
 use frictcomp_report::pictures::{AxisPlot, AxisSample};
@@ -34,6 +35,13 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
         given: &args.value_list,
         axes: &[name],
     };
+    if args.value_list.is_empty() {
+        let message = format!(
+            "the current of `{}` needs a value list",
+            shown_path(recording)
+        );
+        return Err(Failure::new(message).with_help("give it with `--value-list LIST`"));
+    }
     let list = value_list(lists.required(name)?, &registry)?;
     let mut writer = outputs.result(args.output.as_deref())?.writer;
     let axes = vec![AxisPlot::new("", None)];

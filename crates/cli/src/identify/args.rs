@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::channels::{AxisChannelArgs, TorqueArgs};
+use crate::channels::{AxisChannelArgs, TorqueArgs, named};
 use crate::cnc_build::CncBuildArgs;
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
@@ -71,13 +71,16 @@ pub(crate) struct IdentifyArgs {
     /// Write the value list to this file
     #[arg(long, value_name = "FILE")]
     pub(super) write_list: Option<PathBuf>,
+    /// Write the value list of each axis to this folder, named after the axis: `X.lis`
+    #[arg(long, value_name = "FOLDER", requires = "axes", conflicts_with_all = ["write_list", "circles", "states"])]
+    pub(super) into: Option<PathBuf>,
 }
 
 impl IdentifyArgs {
     /// Returns the values identified in a recording.
     pub(super) fn identified(
         &self,
-        trace: &Path,
+        (axis, path): (&str, &Path),
         recording: AxisRecording,
         options: &IdentifyOptions,
     ) -> Result<IdentifyReport, Failure> {
@@ -88,8 +91,8 @@ impl IdentifyArgs {
         let identified = identify(&recording.track, &options)
             .map_err(|error| refusal(error, &recording.findings))?;
         Ok(IdentifyReport {
-            name: shown_path(trace),
-            axis: self.channels.axis.clone(),
+            name: shown_path(path),
+            axis: named(axis),
             recording,
             identified,
         })

@@ -8,10 +8,9 @@ use crate::exit;
 use crate::failure::Failure;
 use crate::html::write_page;
 use crate::outputs::{Outputs, write_picture, write_text};
-use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Disk, FileRegistry, read_axis};
+use frictcomp_host::{Disk, FileRegistry, read_axis, refuse_copies};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
 use frictcomp_report::states::{StatesReport, document, render_json};
 use frictcomp_report::visible_line;
@@ -28,6 +27,7 @@ pub(super) fn run(
     let recordings = args.recordings.iter().map(|it| state_of(it));
     let recordings = recordings.collect::<Result<Vec<(&str, PathBuf)>, Failure>>()?;
     let names: Vec<&str> = recordings.iter().map(|it| it.0).collect();
+    let axis = args.channels.sole_axis("the states are those of")?;
     let working = working(&names, args.working.as_deref().unwrap_or(WORKING))?;
     let registry = FileRegistry::default();
     for (_, path) in &recordings {
@@ -48,13 +48,13 @@ pub(super) fn run(
     let states = recordings.iter().map(|(name, path)| {
         let recording = read_axis(
             path,
-            &args.channels.selection(path, &registry)?,
+            &args.channels.selection(axis, path, &registry)?,
             cycle,
             &Disk::default(),
         )?;
         Ok((
             (*name).to_owned(),
-            args.identified(path, recording, options)?,
+            args.identified((axis, path), recording, options)?,
         ))
     });
     let states = states.collect::<Result<Vec<_>, Failure>>()?;

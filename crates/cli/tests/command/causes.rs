@@ -186,6 +186,27 @@ fn axes_are_enabled_for_those_programs_that_have_them() {
 }
 
 #[test]
+fn a_file_that_is_no_program_is_named_before_its_axes() {
+    // R9.74, R18.6
+    let bench = Bench::new(&[]);
+    fs::remove_file(bench.folder().join("frictcomp.toml")).expect("a configuration");
+    bench.write("a.nc", "PK\u{3}\u{4}");
+    for arguments in [
+        &["check", "--enable", "X", "a.nc"][..],
+        &["check", "--enable", "X", "."],
+    ] {
+        let (status, said) = crate::folder::said(&bench.call(arguments));
+        assert!(status == Some(2) || status == Some(1), "{said}");
+        assert!(said.contains("is a ZIP archive"), "{said}");
+        assert!(!said.contains("axis"), "{said}");
+    }
+    bench.write("b.nc", "G0 Y1\nM30\n");
+    let (status, said) = crate::folder::said(&bench.call(&["check", "--enable", "X", "."]));
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("no program names an axis `X`"), "{said}");
+}
+
+#[test]
 fn an_axis_that_a_program_only_reads_can_be_enabled() {
     // R17.7
     let folder = tempfile::tempdir().expect("a folder");

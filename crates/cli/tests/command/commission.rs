@@ -123,6 +123,13 @@ fn programs_stay_in_the_travel_and_carry_their_number() {
         said.contains("6 programs") && said.contains(" min"),
         "{said}"
     );
+    let json = [&["commission"], &SMALL[..], &["--format", "json"]].concat();
+    let plan = crate::folder::document(folder.path(), &json);
+    let headline = plan["headline"]["text"].as_str().expect("a verdict");
+    assert!(
+        said.starts_with(headline) && headline.starts_with("stage 1, friction compensation off"),
+        "{headline}"
+    );
     let one = programs(&folder.path().join("one"));
     assert_eq!(
         one,

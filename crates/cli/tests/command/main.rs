@@ -47,6 +47,7 @@ mod programs;
 mod public;
 mod questions;
 mod reach;
+mod recognised;
 mod records;
 mod replay;
 mod schema;

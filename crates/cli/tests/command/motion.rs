@@ -246,7 +246,7 @@ fn rows_that_are_no_cycles_are_refused_or_resampled() {
     let (status, _, said) = run(gap, &[]);
     assert_eq!(status, Some(2));
     assert!(
-        said.contains("the trace `t.csv`: a gap of 3 ms before row 3, at 0.004 s")
+        said.contains("the recording `t.csv`: a gap of 3 ms before row 3, at 0.004 s")
             && said.contains("`--resample`"),
         "{said}"
     );

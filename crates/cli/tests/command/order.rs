@@ -556,3 +556,28 @@ fn the_state_at_an_error_of_one_way_reaches_the_next_program() {
     let mended = bench.read("guard.nc");
     assert!(mended.contains("X[COMP ON FRICT]\n#ERROR"), "{mended}");
 }
+
+#[test]
+fn axes_of_one_name_are_told_apart_by_their_machines() {
+    // R18.23
+    let leaves = "X[COMP OFF FRICT]\nM30\n";
+    let bench = Bench::new(&[]);
+    for (folder, axes) in [("one", "X"), ("two", "XY")] {
+        fs::create_dir(bench.folder().join(folder)).expect("a folder");
+        let axis = |axis| format!("[[axis]]\nname = \"{axis}\"\nfrict_comp = true\n");
+        let machine: String = axes.chars().map(axis).collect();
+        bench.write(&format!("{folder}/frictcomp.toml"), &machine);
+        bench.write(&format!("{folder}/leaves.nc"), leaves);
+        bench.write(&format!("{folder}/moves.nc"), "X1 Y1\nM30\n");
+    }
+    bench.write("two/other.nc", "Y[COMP OFF FRICT]\nM30\n");
+    let said = text(&bench, &["audit", "one", "two"]);
+    let said = crate::folder::one_line(&said);
+    for cause in [
+        "1 program leaves X (one/frictcomp.toml) off, 1 runs with it off",
+        "1 program leaves X (two/frictcomp.toml) off, 1 runs with it off",
+        "1 program leaves Y off, 1 runs with it off",
+    ] {
+        assert!(said.contains(cause), "{said}");
+    }
+}

@@ -374,6 +374,24 @@ fn channels_are_named_by_options() {
     assert_eq!(bench.status(&arguments), Some(0));
 }
 
+/// R15.20, R6.3: an actual position that is recognised counts as the column of the axis does.
+#[test]
+fn a_recognised_position_needs_no_option() {
+    let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
+    let control = Control {
+        with_lines: false,
+        ..CONTROL
+    };
+    let recording = control.record(WITHOUT_CONDITIONS);
+    let replayed = |head: &str| {
+        bench.write("states.csv", &recording.replace("t,active_X,pos_X", head));
+        bench.stdout(&["replay", "states.csv", "m.nc", "--format", "json"])
+    };
+    let named = replayed("t,active_X,pos_X");
+    assert_eq!(replayed("t,active_X,X.ActPos [mm]"), named);
+    assert_ne!(replayed("t,active_X,Way"), named);
+}
+
 /// R15.21: without lines and positions only the order is compared, and that is reported.
 #[test]
 fn what_is_compared_by_the_order_alone_is_said() {

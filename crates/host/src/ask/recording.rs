@@ -53,9 +53,6 @@ const CURRENTS: [(u32, &str, bool); 3] = [
     (0x9F, "add_cmd_torque", true),
 ];
 
-/// The object group of axes, without the part of the platform.
-const AXES: u32 = 0x2_0300;
-
 const NO_CURRENT: &str = "the recording has no channel with the additive current: record \
     `0x120300:0x<axis>010B`, `frict_comp.output`, or name the channel with `torque`";
 
@@ -149,7 +146,7 @@ impl RecordedQuestions<'_> {
         let own = self.axis.number?;
         let objects = channels.iter().filter_map(|it| it.object);
         let mut numbers: Vec<u32> = objects
-            .filter(|it| it.group & 0xF_FFFF == AXES)
+            .filter(|it| it.is_of_axis())
             .map(CncObject::axis)
             .collect();
         numbers.sort_unstable();
@@ -177,7 +174,7 @@ impl RecordedQuestions<'_> {
             let is_object = |channel: &&Channel| {
                 channel.object.is_some_and(|it| {
                     let is_own = self.axis.number.is_none_or(|own| own == it.axis());
-                    it.group & 0xF_FFFF == AXES && it.element() == element && is_own
+                    it.is_of_axis() && it.element() == element && is_own
                 })
             };
             let is_named = |channel: &&Channel| {

@@ -200,7 +200,7 @@ impl ReplayChannels {
             ));
         }
         for axis in &mut axes {
-            axis.position = self.position_of(&axis.name, channels)?;
+            axis.position = self.position_of(&axis.name, machine, channels)?;
         }
         let line = given(&self.line, "line")?.filter(|_| self.block.is_none());
         let block = match line {
@@ -233,15 +233,36 @@ impl ReplayChannels {
     fn position_of(
         &self,
         axis: &str,
+        machine: &Machine,
         channels: &[Channel],
     ) -> Result<Option<(ChannelIndex, f64)>, SelectError> {
         let position = ChannelQuantity::Position;
         let given = self.positions.iter().find(|(name, _)| name == axis);
         let pick = match given {
             Some((_, name)) => Some(self.of_axis(axis, (name, position), channels)?),
-            None => position_column(&self.selection, axis, channels)?,
+            None => match position_column(&self.selection, axis, channels)? {
+                None => self.recognised_of(axis, machine, channels)?,
+                column => column,
+            },
         };
         Ok(pick.map(|pick| (pick.channel, pick.unit.factor / POSITION_UNITS_PER_MM)))
+    }
+
+    /// Returns the actual position of an axis that is recognised by its name or its number.
+    fn recognised_of(
+        &self,
+        axis: &str,
+        machine: &Machine,
+        channels: &[Channel],
+    ) -> Result<Option<Pick>, SelectError> {
+        if let Some(found) = self.selection.actual_position_of(axis, channels)? {
+            return Ok(Some(found));
+        }
+        let described = machine.axes.iter().find(|it| it.name == axis);
+        let number = described.and_then(|it| it.number).map(|it| it.to_string());
+        number.map_or(Ok(None), |it| {
+            self.selection.actual_position_of(&it, channels)
+        })
     }
 }
 

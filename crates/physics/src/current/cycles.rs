@@ -100,7 +100,7 @@ pub enum CyclesError {
         row: usize,
     },
     /// Rows that are too far apart for the cycles between them.
-    #[error("the times of the trace are {} s apart, too far for cycles of {} ms", ReadableNumber(*.length_s), milliseconds(*.cycle_s))]
+    #[error("the times of the recording are {} s apart, too far for cycles of {} ms", ReadableNumber(*.length_s), milliseconds(*.cycle_s))]
     TooLong {
         /// From the first time to the last.
         length_s: f64,

@@ -13,6 +13,7 @@ mod found;
 mod judged;
 mod learned;
 mod plan;
+mod plan_file;
 mod plant_found;
 mod program;
 mod request;
@@ -31,6 +32,7 @@ pub use found::{CirclesFound, DirectionGlitches, FrictionFound, IsoFigures, MOST
 pub use judged::{JudgedRound, feeds_against};
 pub use learned::{LEAST_FEEDS, LearnError, LearnedCircles, RecordedTurn};
 pub use plan::{Plan, Stage};
+pub use plan_file::{PlanFile, ValueListUsed};
 pub use plant_found::{
     ComparedGlitch, MissedPrediction, PlantAxis, PlantFound, PredictedGlitch, RecordedGlitch,
     TunedList, against_plant, held_out, with_friction,

@@ -142,7 +142,7 @@ pub struct TunedList {
     pub file: String,
     /// The SHA-256 of its bytes.
     pub sha256: String,
-    /// The options with which it was tuned.
+    /// The SHA-256 of the options with which it was tuned.
     pub tuned_with: String,
     /// The largest predicted glitch in µm over all recorded feeds.
     #[serde(rename = "predicted_glitch")]

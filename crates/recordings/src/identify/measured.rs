@@ -2,12 +2,14 @@
 
 use std::str::FromStr;
 
+use serde::Serialize;
+
 use crate::trace::Channel;
 use frictcomp_physics::current::Switched;
 
 frictcomp::words! {
     /// Kind of torque in a channel.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
     #[non_exhaustive]
     pub enum TorqueKind {
         /// Torque or current as measured by the drive, including the additive current.

@@ -5,8 +5,8 @@ use super::measured::{Measured, RATED_UNITS, TorqueKind};
 use super::track::Track;
 use super::unit_doubts::{improbable_speed, scope_scale};
 use crate::trace::{
-    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, CncObject, NotAligned, Pick,
-    SelectError, TimeSource, TraceRecording, Unit,
+    Channel, ChannelIndex, ChannelQuantity, ChannelRole, ChannelSelection, Choice, CncObject,
+    NotAligned, Pick, SelectError, TimeSource, TraceRecording, Unit,
 };
 use frictcomp::diagnostic::Code;
 use frictcomp_physics::current::Switched;
@@ -249,19 +249,29 @@ fn example(quantity: ChannelQuantity) -> &'static str {
     }
 }
 
-/// The following error: the channel that the user names, `e`, or the actual position `x_act`.
+/// The following error: the channel that the user names, `e`, the actual position `x_act`, or one that is recognised.
 fn followed_of(
     selection: &ChannelSelection,
     channels: &[Channel],
 ) -> Result<Option<(FollowingForm, Pick)>, SelectError> {
-    for (followed, asked, taken) in [
+    let forms = [
         (FollowingForm::Error, &selection.following_error, "e"),
         (FollowingForm::Actual, &selection.actual_position, "x_act"),
-    ] {
+    ];
+    for (form, asked, taken) in forms {
         let is_there = |name: &&str| channels.iter().any(|it| it.name.eq_ignore_ascii_case(name));
         if let Some(name) = asked.as_deref().or(Some(taken).filter(is_there)) {
             let pick = selection.pick_named(name, ChannelQuantity::Position, channels)?;
-            return Ok(Some((followed, pick)));
+            return Ok(Some((form, pick)));
+        }
+    }
+    let roles = [
+        (FollowingForm::Error, ChannelRole::FollowingError),
+        (FollowingForm::Actual, ChannelRole::ActualPosition),
+    ];
+    for (form, role) in roles {
+        if let Some(pick) = selection.recognised(role, channels)? {
+            return Ok(Some((form, pick)));
         }
     }
     Ok(None)
@@ -290,10 +300,7 @@ pub enum StatedAxis {
 pub fn stated_axis(channel: &Channel) -> Option<StatedAxis> {
     const VARIABLE: &str = "FRICT_COMP_ACTIVE";
     const MEMBER: &str = "FRICT_COMP.F_IS_ACTIVE";
-    const STATE: CncObject = CncObject {
-        group: 0x2_0300,
-        offset: 0x221,
-    };
+    const STATE: u32 = 0x221;
     let texts = [&channel.name, &channel.symbol].map(|text| text.to_uppercase());
     let of_variable = || {
         texts
@@ -306,8 +313,7 @@ pub fn stated_axis(channel: &Channel) -> Option<StatedAxis> {
             return Some(StatedAxis::Named(axis.to_owned()));
         }
     }
-    let is_state =
-        |it: &CncObject| it.group & 0xF_FFFF == STATE.group && it.element() == STATE.offset;
+    let is_state = |it: &CncObject| it.is_of_axis() && it.element() == STATE;
     if let Some(object) = channel.object.filter(is_state) {
         return Some(StatedAxis::Numbered(object.axis()));
     }

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::statistics::count;
 
 /// Samples of one axis at common, rising times.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Track {
     /// Times in s.

@@ -29,7 +29,7 @@ pub struct Aligned {
 #[non_exhaustive]
 pub enum NotAligned {
     /// A table without a column of times, and without a known distance between its rows.
-    #[error("the trace has no times")]
+    #[error("the recording has no times")]
     NoTimes,
     /// A clock that jumps back or stops.
     #[error("the times do not rise: after {before_s} s comes {after_s} s")]
@@ -64,7 +64,9 @@ impl NotAligned {
             Self::NoTimes => {
                 "name the column of the times, or give the cycle in which the rows were recorded"
             }
-            Self::Backwards { .. } => "a trace is one recording; separate what was recorded later",
+            Self::Backwards { .. } => {
+                "a recording is one measurement; separate what was recorded later"
+            }
             Self::Apart { .. } => "record the channels together",
             Self::Short { .. } => "record for a longer time",
         }

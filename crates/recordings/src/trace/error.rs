@@ -121,7 +121,7 @@ impl TraceProblem {
             }
             Self::Gzip => "unpack it first, with `gunzip` or any archiver",
             Self::NoRows => {
-                "a trace is a CSV file with a header, an export of TwinCAT Scope or the XML of a SINUMERIK trace"
+                "a recording is a CSV file with a header, an export of TwinCAT Scope or the XML of a SINUMERIK trace"
             }
             Self::DecimalComma { .. } => {
                 "export with the separator tab or `;`, or with a decimal point"
@@ -134,11 +134,11 @@ impl TraceProblem {
             Self::Row { .. } => "every row has a cell for each column",
             Self::Number { .. } => "write numbers with a decimal point",
             Self::Switch { .. } => "write `on` or `off`",
-            Self::Long { .. } => "a trace has one line for each sample",
+            Self::Long { .. } => "a recording has one line for each sample",
             Self::TooLong { .. } => "record with a lower rate, or a shorter time",
             Self::Divided => "export with the separator tab or `;`",
-            Self::Entities { .. } => "export the trace again; a trace needs no entities",
-            Self::Xml { .. } => "export the trace of the control again",
+            Self::Entities { .. } => "export the recording again; it needs no entities",
+            Self::Xml { .. } => "export the recording from the control again",
             Self::Select(error) => return error.help(),
         };
         Some(help.to_owned())
@@ -182,7 +182,7 @@ pub enum SelectError {
         offset: Box<str>,
     },
     /// Channels that are needed and not named.
-    #[error("the trace has {lacks}, only {}", listed(.found))]
+    #[error("the recording has {lacks}, only {}", listed(.found))]
     Lacks {
         /// Missing items: no columns `x` and `y`.
         lacks: String,
@@ -220,13 +220,13 @@ impl SelectError {
         }
     }
 
-    /// Returns its words about a trace with a path.
+    /// Returns its words about a recording with a path.
     pub fn of_trace(&self, path: &str) -> String {
         match self {
             Self::Lacks { lacks, found, .. } => {
-                format!("the trace `{path}` has {lacks}, only {}", listed(found))
+                format!("the recording `{path}` has {lacks}, only {}", listed(found))
             }
-            _ => format!("the trace `{path}`: {self}"),
+            _ => format!("the recording `{path}`: {self}"),
         }
     }
 

@@ -2,14 +2,18 @@
 
 use std::borrow::Cow;
 
+use serde::Serialize;
+
 use super::channel::{Channel, ChannelIndex, CncObject, parse_address};
 use super::error::SelectError;
+use super::recognised::ChannelRole;
 use super::unit::ChannelQuantity::Position;
 use super::unit::{ChannelQuantity, Unit, split_unit};
 use frictcomp::diagnostic::did_you_mean;
+use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 
 /// Selection of the channels of a trace by the user.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChannelSelection {
     /// The axis whose channels are meant, by its name or its number; `%` stands for it in the names below.
@@ -93,8 +97,8 @@ impl ChannelSelection {
         }
     }
 
-    /// The channel of a quantity: the one that the user names, otherwise the one with its short name;
-    /// `None` if there is neither.
+    /// The channel of a quantity: the one that the user names, otherwise the one with its short name, otherwise the
+    /// only one that is recognised; `None` if there is none of them.
     ///
     /// # Errors
     /// No channel fits what the user names, or several do.
@@ -108,11 +112,78 @@ impl ChannelSelection {
                 // Nothing is spelled like it, but a similar channel may be meant.
                 error.or_guess(|| guess(quantity, channels))
             })?),
-            None => Self::taken(quantity, channels),
+            None => Self::taken(quantity, channels)?
+                .or_else(|| only(&self.candidates_for(quantity, channels), channels)),
         };
         found
             .map(|channel| self.pick(channel, quantity, channels))
             .transpose()
+    }
+
+    /// The only channel of the axis that is recognised as a quantity.
+    ///
+    /// # Errors
+    /// Scope scales its unit.
+    pub fn recognised(
+        &self,
+        role: ChannelRole,
+        channels: &[Channel],
+    ) -> Result<Option<Pick>, SelectError> {
+        only(&self.candidates(role, channels), channels)
+            .map(|channel| self.pick(channel, role.quantity(), channels))
+            .transpose()
+    }
+
+    /// What a recording lacks that has a quantity of other axes than that of the user.
+    fn of_other_axes(
+        &self,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Option<SelectError> {
+        let axis = self.axis.as_ref()?;
+        let others = Self::default()
+            .candidates_for(quantity, channels)
+            .into_iter();
+        let others = others.filter_map(|at| channels[at].recognised()?.axis);
+        let others: Vec<String> = others.collect();
+        (!others.is_empty()).then(|| SelectError::Lacks {
+            lacks: format!("no {} of {axis}", quantity.as_str()),
+            found: shown(channels),
+            help: format!(
+                "it has that of {}; name any other channel",
+                others.join(", ")
+            ),
+        })
+    }
+
+    fn candidates_for(&self, quantity: ChannelQuantity, channels: &[Channel]) -> Vec<usize> {
+        let role = ChannelRole::of(quantity);
+        role.map_or_else(Vec::new, |role| self.candidates(role, channels))
+    }
+
+    /// The channels that are recognised as a quantity: those of the axis, or else those that name none.
+    fn candidates(&self, role: ChannelRole, channels: &[Channel]) -> Vec<usize> {
+        let recognised = channels.iter().enumerate().filter_map(|(at, channel)| {
+            let found = channel.recognised().filter(|it| it.role == role)?;
+            Some((at, found.axis))
+        });
+        let recognised: Vec<(usize, Option<String>)> = recognised.collect();
+        let all = || recognised.iter();
+        let Some(own) = &self.axis else {
+            return all().map(|it| it.0).collect();
+        };
+        let is_own = |(at, axis): &&(usize, Option<String>)| {
+            let is_named = axis.as_ref().is_some_and(|it| it.eq_ignore_ascii_case(own));
+            is_named || self.is_of_axis(&channels[*at])
+        };
+        let found: Vec<usize> = all().filter(is_own).map(|it| it.0).collect();
+        if !found.is_empty() {
+            return found;
+        }
+        // A number may be that of the axis.
+        let is_open = |it: &String| it.parse::<u32>().is_ok() && own.parse::<u32>().is_err();
+        let open = all().filter(|it| it.1.as_ref().is_none_or(is_open));
+        open.map(|it| it.0).collect()
     }
 
     /// Finds a channel that must exist.
@@ -126,6 +197,13 @@ impl ChannelSelection {
     ) -> Result<Pick, SelectError> {
         self.find(quantity, channels)?.ok_or_else(|| {
             let name = quantity.as_str();
+            let several = self.candidates_for(quantity, channels);
+            if !several.is_empty() {
+                return several_fit(name, &several, channels);
+            }
+            if let Some(lacking) = self.of_other_axes(quantity, channels) {
+                return lacking;
+            }
             SelectError::Lacks {
                 lacks: format!("no channel that is known to be the {name}"),
                 found: shown(channels),
@@ -152,8 +230,8 @@ impl ChannelSelection {
         self.pick(self.named(wanted, channels)?, quantity, channels)
     }
 
-    /// The channel of the positions of an axis by the name of the axis alone, with its unit if that is one
-    /// of positions.
+    /// The channel of the positions of an axis: the one that has the name of the axis alone, with its unit if that is
+    /// one of positions, in mm where it names none; or the one that is recognised as the actual position of the axis.
     ///
     /// # Errors
     /// Scope scales the unit.
@@ -168,20 +246,59 @@ impl ChannelSelection {
             let fits = unit.is_none_or(|unit| unit.is_some_and(|it| it.quantity == Position));
             name.eq_ignore_ascii_case(axis) && fits
         });
-        found
-            .map(|channel| self.pick(ChannelIndex(channel), Position, channels))
+        let Some(channel) = found else {
+            return self.actual_position_of(axis, channels);
+        };
+        let mut pick = self.pick(ChannelIndex(channel), Position, channels)?;
+        if pick.is_unit_assumed {
+            pick.unit.factor = POSITION_UNITS_PER_MM;
+        }
+        Ok(Some(pick))
+    }
+
+    /// The only channel that is recognised as the actual position of an axis, by its name or its number.
+    ///
+    /// # Errors
+    /// Scope scales the unit.
+    pub fn actual_position_of(
+        &self,
+        axis: &str,
+        channels: &[Channel],
+    ) -> Result<Option<Pick>, SelectError> {
+        let is_own = |channel: &Channel| {
+            channel.recognised().is_some_and(|it| {
+                let own = it.axis.filter(|it| it.eq_ignore_ascii_case(axis));
+                it.role == ChannelRole::ActualPosition && own.is_some()
+            })
+        };
+        let found: Vec<usize> = (0..channels.len())
+            .filter(|&at| is_own(&channels[at]))
+            .collect();
+        only(&found, channels)
+            .map(|channel| self.pick(channel, Position, channels))
             .transpose()
     }
 
     /// The channel that has the short name of a quantity.
-    fn taken(quantity: ChannelQuantity, channels: &[Channel]) -> Option<ChannelIndex> {
-        let names = NAMES.iter().find(|names| names.quantity == quantity)?;
-        names.taken.iter().find_map(|name| {
-            let at = channels
-                .iter()
-                .position(|channel| split_unit(&channel.name).0.eq_ignore_ascii_case(name));
-            at.map(ChannelIndex)
-        })
+    fn taken(
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Option<ChannelIndex>, SelectError> {
+        let names = NAMES.iter().filter(|names| names.quantity == quantity);
+        for name in names.flat_map(|names| names.taken) {
+            let is_so = |channel: &Channel| split_unit(&channel.name).0.eq_ignore_ascii_case(name);
+            let found: Vec<usize> = (0..channels.len())
+                .filter(|&at| is_so(&channels[at]))
+                .collect();
+            match (only(&found, channels), quantity) {
+                (Some(channel), _) => return Ok(Some(channel)),
+                (None, _) if found.is_empty() => {}
+                // Each channel may have a column of its times.
+                (None, ChannelQuantity::Time) => return Ok(Some(ChannelIndex(found[0]))),
+                (None, _) => return Err(several_fit(name, &found, channels)),
+            }
+        }
+        Ok(None)
     }
 
     /// Returns the name of a channel with that of the axis in place of `%`, and with `%` in place of `%%`. A name
@@ -228,20 +345,10 @@ impl ChannelSelection {
                     found = of_axis;
                 }
             }
-            match found[..] {
-                [] => {}
-                [one] => return Ok(ChannelIndex(one)),
-                // Scope writes a channel once for each chart that shows it.
-                [first, ..] if all_alike(&found, channels) => return Ok(ChannelIndex(first)),
-                _ => {
-                    return Err(SelectError::Several {
-                        wanted: wanted.to_owned(),
-                        found: found
-                            .iter()
-                            .map(|&index| full_name(&channels[index]))
-                            .collect(),
-                    });
-                }
+            match only(&found, channels) {
+                Some(channel) => return Ok(channel),
+                None if found.is_empty() => {}
+                None => return Err(several_fit(wanted, &found, channels)),
             }
         }
         let names = channels.iter().map(|channel| channel.name.as_str());
@@ -325,6 +432,20 @@ fn shown(channels: &[Channel]) -> Vec<String> {
 
 fn holds(text: &str, wanted: &str) -> bool {
     wanted.len() > 2 && text.to_lowercase().contains(&wanted.to_lowercase())
+}
+
+/// The only one of some channels; Scope writes a channel once for each chart that shows it.
+fn only(found: &[usize], channels: &[Channel]) -> Option<ChannelIndex> {
+    let first = found.first()?;
+    all_alike(found, channels).then_some(ChannelIndex(*first))
+}
+
+fn several_fit(wanted: &str, found: &[usize], channels: &[Channel]) -> SelectError {
+    let found = found.iter().map(|&index| full_name(&channels[index]));
+    SelectError::Several {
+        wanted: wanted.to_owned(),
+        found: found.collect(),
+    }
 }
 
 fn all_alike(found: &[usize], channels: &[Channel]) -> bool {
@@ -508,12 +629,18 @@ mod tests {
     #[test]
     fn what_is_not_named_is_guessed() {
         // R6.3
-        let error = ChannelSelection::default().require(ChannelQuantity::Torque, &two_axes());
-        let error = error.expect_err("no channel `torque`");
+        let require = |channels: &[Channel]| {
+            let found = ChannelSelection::default().require(ChannelQuantity::Torque, channels);
+            found.expect_err("no channel `torque`")
+        };
+        let error = require(&[channel("MotorTorque", "", 0x1_0017)]);
         assert!(
             error
                 .help()
-                .is_some_and(|help| help.contains("perhaps `ActTorque`"))
+                .is_some_and(|help| help.contains("perhaps `MotorTorque`"))
         );
+        // Those of two axes are recognised, and none is taken.
+        let error = require(&two_axes());
+        assert!(matches!(error, SelectError::Several { .. }), "{error}");
     }
 }

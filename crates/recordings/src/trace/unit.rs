@@ -1,8 +1,10 @@
 //! Units of channels, and their conversion to the units of lists and traces.
 
+use serde::Serialize;
+
 frictcomp::words! {
     /// Quantity of a unit.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
     #[non_exhaustive]
     pub enum ChannelQuantity {
         /// In seconds.
@@ -29,7 +31,7 @@ impl ChannelQuantity {
 }
 
 /// The kind of motion of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub enum AxisMotion {
     /// Along a line.
@@ -39,7 +41,7 @@ pub enum AxisMotion {
 }
 
 /// A unit that a file names.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Unit {
     /// Quantity.

@@ -46,8 +46,8 @@ impl MachineAudit {
     }
 }
 
-/// "33 programs leave X off, 262 run with it off"
-fn cause(finding: &AxisFinding) -> String {
+/// "33 programs leave X off, 262 run with it off"; `of_machine` tells the axis from that of another machine.
+fn cause(finding: &AxisFinding, of_machine: &str) -> String {
     let counts = [finding.leavers.len(), finding.inheritors.len()];
     let verb = |count, one: &'static str, several| if count == 1 { one } else { several };
     let away = if finding.on_at_start_up { "off" } else { "on" };
@@ -57,7 +57,7 @@ fn cause(finding: &AxisFinding) -> String {
         "programs"
     };
     format!(
-        "{} {programs} {} {} {away}, {} {} with it {away}",
+        "{} {programs} {} {}{of_machine} {away}, {} {} with it {away}",
         counts[0],
         verb(counts[0], "leaves", "leave"),
         axis_name(&finding.axis, finding.kind),
@@ -74,8 +74,7 @@ impl AuditReport {
     /// (R10.2, R18.23).
     pub fn headline(&self) -> Headline {
         let programs = counted(self.programs(), "program");
-        let hazards = self.findings().filter(|it| it.hazards() > 0);
-        let mut said: Vec<String> = hazards.map(cause).collect();
+        let mut said = self.causes();
         let more = said.len().saturating_sub(NAMED);
         said.truncate(NAMED);
         if more > 0 {
@@ -102,6 +101,28 @@ impl AuditReport {
         };
         let assumptions = self.assumptions().map(str::to_owned);
         Headline::new(standing, text).assuming(assumptions)
+    }
+
+    /// Returns the hazards of each axis in words, with its machine where several have an axis of its name.
+    fn causes(&self) -> Vec<String> {
+        let named = self.machines.iter().flat_map(|machine| {
+            let hazards = machine.findings.iter().filter(|it| it.hazards() > 0);
+            hazards.map(move |it| (machine, it))
+        });
+        let named: Vec<(&MachineAudit, &AxisFinding)> = named.collect();
+        let is_alone = |finding: &AxisFinding| {
+            let same = named
+                .iter()
+                .filter(|(_, it)| (&it.axis, it.kind) == (&finding.axis, finding.kind));
+            same.count() == 1
+        };
+        let said = named.iter().map(|(machine, finding)| {
+            let origin = self.origin_among_several(machine);
+            let origin = origin.filter(|_| !is_alone(finding));
+            let of_machine = origin.map_or(String::new(), |it| format!(" ({it})"));
+            cause(finding, &of_machine)
+        });
+        said.collect()
     }
 
     pub(super) fn findings(&self) -> impl Iterator<Item = &AxisFinding> {

@@ -17,4 +17,4 @@ pub use results::{
     AxisVerdict, InputFile, Results, ResultsReport, Round, document, glitch_unit,
     render_results_json,
 };
-pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};
+pub use summary::{PlanReport, render_file, render_json, render_text};

@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 use super::acceptance::{Acceptance, push_acceptance};
 use super::picture::glitches_by_feed;
 use super::plants::{PlantVerdict, Plants, push_plants};
-use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
 use crate::document::{Document, Headline, Standing, Table};
 use crate::strings::{counted, to_pretty};
 use crate::visible::visible_line;
 use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{
-    BeforeAfter, FrictionFound, Plan, PlantFound, RecordingOutcome, RecordingResult, Shows, Stage,
+    BeforeAfter, FrictionFound, Plan, PlanFile, PlantFound, RecordingOutcome, RecordingResult,
+    Shows, Stage, ValueListUsed,
 };
 
 /// The content of `results.json`.
@@ -142,9 +142,10 @@ impl Round {
 impl ResultsReport {
     /// The verdict: whether the lists of the last round are accepted, and what speaks against them (R18.20).
     pub fn headline(&self) -> Headline {
-        let missing = match self.missing().as_slice() {
-            [] => String::new(),
-            files => format!("; not recorded, or not usable: {}", files.join(", ")),
+        let missing = match self.missing().len() {
+            0 => String::new(),
+            1 => "; 1 program has no usable recording".to_owned(),
+            more => format!("; {more} programs have no usable recording"),
         };
         let plant = self.fitted.verdicts.last();
         let rejected = plant.and_then(|plant| plant.rejected.first());
@@ -202,9 +203,8 @@ impl ResultsReport {
 
     /// Returns what is on in the program with a number: nothing, or the lists of a round.
     pub fn compensation_of(&self, number: u16) -> String {
-        let has = |plan: &&PlanFile| plan.plan.programs.iter().any(|it| it.number == number);
         let rounds = self.plans.iter().filter(|it| it.plan.stage == Stage::On);
-        let round = (2..).zip(rounds).find(|(_, plan)| has(plan));
+        let round = (2..).zip(rounds).find(|(_, plan)| plan.has(number));
         round.map_or("off".to_owned(), |(round, _)| format!("on, round {round}"))
     }
 

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::words::{number, told};
-use crate::document::Table;
-use crate::strings::to_pretty;
+use crate::document::{Headline, Standing, Table};
+use crate::strings::{counted, to_pretty};
 use crate::visible::visible_line;
-use frictcomp_recordings::commission::{MeasuringProgram, Plan, Stage};
+use frictcomp_recordings::commission::{MeasuringProgram, Plan, PlanFile, Stage, ValueListUsed};
 
 /// A plan with its basis.
 #[derive(Debug, Clone)]
@@ -23,57 +23,53 @@ pub struct PlanReport {
     pub assumed_jerk: Vec<String>,
 }
 
-/// A value list that is loaded while programs of stage 2 run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ValueListUsed {
-    /// Name of the axis.
-    pub axis: String,
-    /// The file, as it is shown.
-    pub file: String,
-    /// The SHA-256 of its bytes in hexadecimal digits.
-    pub sha256: String,
+impl PlanReport {
+    /// The verdict: the stage, and how long its programs take (R18.20).
+    pub fn headline(&self) -> Headline {
+        let plan = &self.plan;
+        let stage = match plan.stage {
+            Stage::Off => "stage 1, friction compensation off",
+            Stage::On => "stage 2, friction compensation on",
+        };
+        let programs = counted(plan.programs.len(), "program");
+        let text = format!("{stage}: {programs}, {}", minutes(plan.time_s()));
+        Headline::new(Standing::Plain, text)
+    }
+
+    /// The content of `plan.json`.
+    fn file(&self) -> PlanFile {
+        PlanFile {
+            schema: PlanFile::SCHEMA,
+            plan: self.plan.clone(),
+            lists: self.lists.clone(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct PlanDocument {
+    headline: Headline,
+    #[serde(flatten)]
+    file: PlanFile,
+}
+
+/// The plan with its verdict as JSON.
+pub fn render_json(report: &PlanReport) -> String {
+    to_pretty(&PlanDocument {
+        headline: report.headline(),
+        file: report.file(),
+    })
 }
 
 /// The content of `plan.json`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct PlanFile {
-    /// The version of the format of this file.
-    pub schema: u32,
-    /// The programs without their motions.
-    pub plan: Plan,
-    /// The value lists of stage 2.
-    pub lists: Vec<ValueListUsed>,
-}
-
-impl PlanFile {
-    /// The version that is written.
-    pub const SCHEMA: u32 = 1;
-}
-
-/// The plan as JSON: the content of `plan.json`.
-pub fn render_json(report: &PlanReport) -> String {
-    to_pretty(&PlanFile {
-        schema: PlanFile::SCHEMA,
-        plan: report.plan.clone(),
-        lists: report.lists.clone(),
-    })
+pub fn render_file(report: &PlanReport) -> String {
+    to_pretty(&report.file())
 }
 
 /// The programs with their times, and their basis.
 pub fn render_text(report: &PlanReport) -> String {
     let plan = &report.plan;
-    let mut out = String::new();
-    let stage = match plan.stage {
-        Stage::Off => "stage 1, friction compensation off",
-        Stage::On => "stage 2, friction compensation on",
-    };
-    let _ = writeln!(
-        out,
-        "{stage}: {} programs, {}\n",
-        plan.programs.len(),
-        minutes(plan.time_s())
-    );
+    let mut out = format!("{}\n\n", report.headline());
     let mut table = Table::default()
         .left("program")
         .right("time")

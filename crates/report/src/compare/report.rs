@@ -116,32 +116,28 @@ pub fn document(report: &VersionsReport) -> Document<'_> {
 }
 
 fn push_differences(out: &mut Document<'_>, report: &VersionsReport) {
-    let differences: Vec<_> = report.comparison.differences().collect();
+    let differences = folded(&report.comparison);
     if differences.is_empty() {
         return;
     }
     let (old, new) = (visible_line(&report.old), visible_line(&report.new));
     out.verbatim(&format!("\n--- {old}\n+++ {new}\n"));
-    let places = differences.iter().map(|(_, switch)| switch.place().width());
+    let places = differences.iter().map(|it| it.switch.place().width());
     let width = places.max().unwrap_or_default().max(LINE);
-    let mut rows: Vec<([String; 3], u64)> = Vec::new();
-    for (which, switch) in differences {
-        let (sign, place) = (sign(which), switch.place());
-        let place = format!("{sign} {:>width$}", visible_line(&place));
-        let text = visible_line(switch.first_line()).into_owned();
-        let row = [place, switch.to_string(), text];
-        match rows.iter_mut().find(|it| it.0 == row) {
-            Some((_, times)) => *times += 1,
-            None => rows.push((row, 1)),
-        }
-    }
     let mut table = Table::plain(["line", "change", "block", "times"]);
-    for ([place, change, text], times) in rows {
+    for FoldedDifference {
+        which,
+        switch,
+        times,
+    } in differences
+    {
+        let place = format!("{} {:>width$}", sign(which), visible_line(&switch.place()));
+        let text = visible_line(switch.first_line());
         let times = match times {
             1 => String::new(),
             _ => format!("({times} times)"),
         };
-        table.row(&[&place, &change, &text, &times]);
+        table.row(&[&place, switch, &text, &times]);
     }
     out.table(table);
 }
@@ -180,6 +176,30 @@ fn push_changes(out: &mut Document<'_>, comparison: &VersionComparison) {
     }
 }
 
+/// A difference, and how often the version has it.
+struct FoldedDifference<'a> {
+    which: Which,
+    switch: &'a Switch,
+    times: u64,
+}
+
+/// Returns the differences, equal ones as one.
+fn folded(comparison: &VersionComparison) -> Vec<FoldedDifference<'_>> {
+    let mut folded: Vec<FoldedDifference<'_>> = Vec::new();
+    for (which, switch) in comparison.differences() {
+        let is_same = |it: &&mut FoldedDifference<'_>| it.which == which && it.switch == switch;
+        match folded.iter_mut().find(is_same) {
+            Some(same) => same.times += 1,
+            None => folded.push(FoldedDifference {
+                which,
+                switch,
+                times: 1,
+            }),
+        }
+    }
+    folded
+}
+
 #[derive(Serialize)]
 struct ComparisonDocument<'a> {
     schema: u32,
@@ -215,6 +235,7 @@ struct DifferenceRecord<'a> {
     kind: &'static str,
     from: &'static str,
     to: &'static str,
+    times: u64,
 }
 
 #[derive(Serialize)]
@@ -230,9 +251,10 @@ struct Hindrance<'a> {
 }
 
 impl<'a> DifferenceRecord<'a> {
-    fn new((which, switch): (Which, &'a Switch)) -> Self {
+    fn new(difference: &FoldedDifference<'a>) -> Self {
+        let switch = difference.switch;
         Self {
-            version: which.as_str(),
+            version: difference.which.as_str(),
             file: &switch.file,
             line: switch.line,
             n: switch.number,
@@ -241,6 +263,7 @@ impl<'a> DifferenceRecord<'a> {
             kind: switch.kind.as_str(),
             from: switch.from.as_str(),
             to: switch.to.as_str(),
+            times: difference.times,
         }
     }
 }
@@ -282,8 +305,8 @@ pub fn render_json(report: &VersionsReport) -> String {
         headline: report.headline(),
         verdict: comparison.agreement().as_str(),
         common: comparison.common(),
-        differences: comparison
-            .differences()
+        differences: folded(comparison)
+            .iter()
             .map(DifferenceRecord::new)
             .collect(),
         moves: moves.collect(),

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::{Failure, shown};
 use crate::outputs::{Outputs, write_text};
-use crate::recorded_files::recordings_in;
-use frictcomp_host::{FileRegistry, read_text, sha256_of, sha256_of_text};
-use frictcomp_report::commission::ValueListUsed;
+use frictcomp_host::{FileRegistry, read_text, recordings_in, sha256_of, sha256_of_text};
+use frictcomp_recordings::commission::ValueListUsed;
+
 use frictcomp_report::learn::{
     LearningFile, LearningRound, MeasuredFriction, Prediction, RecordedFile,
 };

@@ -11,7 +11,8 @@ use crate::per_axis::{ByAxis, PerAxis};
 use frictcomp_host::{FileRegistry, read_text, sha256_of};
 use frictcomp_physics::circle::{PlaneAxis, TooMuchCurrent};
 use frictcomp_recordings::commission::MOST_CURRENT;
-use frictcomp_report::commission::ValueListUsed;
+use frictcomp_recordings::commission::ValueListUsed;
+
 use frictcomp_report::learn::MeasuredFriction;
 
 /// Begins in a folder: copies the lists of the first round into it, each within the limit set by the friction.

@@ -1,9 +1,8 @@
 //! The usable recorded circles of a plan.
 
 use frictcomp_recordings::commission::{
-    CirclesFound, Measurement, Plan, RecordingOutcome, RecordingResult,
+    CirclesFound, Measurement, Plan, PlanFile, RecordingOutcome, RecordingResult, ValueListUsed,
 };
-use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
 /// A recorded circle.
 #[derive(Debug, Clone, Copy)]

@@ -7,7 +7,7 @@ use super::fitting::{FittedAxis, Fitting, NoPlant};
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use frictcomp::text::SourceFile;
-use frictcomp_host::{in_order, processors, read_text, sha256_of_text};
+use frictcomp_host::{in_order, processors, read_text, sha256_of_data};
 use frictcomp_physics::circle::{DriveFit, FittedDrive, ObservedCircle, PlaneAxis};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::Plant;
@@ -22,7 +22,7 @@ impl Fitting<'_> {
         rounds: &[RoundCircles<'_>],
         outputs: &mut Outputs,
     ) -> Result<PlantFound, NoPlant> {
-        let key = self.key(axes, off, rounds)?;
+        let key = self.key(axes, off, rounds);
         if let Some(known) = self.known.iter().find(|it| it.key == key) {
             self.write_plant(known, outputs)?;
             return Ok(known.clone());
@@ -67,12 +67,12 @@ impl Fitting<'_> {
         axes: &[FittedAxis<'_>],
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
-    ) -> Result<String, Failure> {
-        let reading = &self.args.reading;
+    ) -> String {
+        let reading = self.reader.channels;
         let first = self.plans.iter().filter(|it| it.plan.stage == Stage::Off);
-        let channels = first.map(|it| reading.circle_channels(&it.plan));
-        let channels = channels.collect::<Result<Vec<_>, _>>()?;
-        let cycle = reading.cycle.seconds()?;
+        let channels = first.map(|it| reading.of_circles(&it.plan));
+        let channels: Vec<_> = channels.collect();
+        let cycle = reading.cycle_s;
         let frictions: Vec<_> = axes.iter().map(|it| &it.drive).collect();
         let sums = |circles: &[Driven<'_>]| {
             let sums = circles.iter().map(|it| it.result.sha256.clone());
@@ -81,8 +81,7 @@ impl Fitting<'_> {
         let on = rounds.iter().map(|it| (it.shas(), sums(&it.circles)));
         let on: Vec<_> = on.collect();
         let off = sums(off);
-        let all = format!("{channels:?} {cycle:?} {frictions:?} {off:?} {on:?}");
-        Ok(sha256_of_text(&all))
+        sha256_of_data(&(channels, cycle, frictions, off, on))
     }
 
     /// Returns the recorded reversals of each axis at the feeds of the fit.
@@ -114,8 +113,9 @@ impl Fitting<'_> {
                     .folder
                     .join("recordings")
                     .join(&driven.result.file);
-                let turns = self.args.reading.turns(&path, driven.plan, driven.radius)?;
-                let circle = self.circle(driven)?;
+                let turns = self.reader.turns(&path, driven.plan, driven.radius);
+                let turns = turns.map_err(Failure::from)?;
+                let circle = self.circle(driven);
                 for (at, plane) in PlaneAxis::ALL.into_iter().enumerate() {
                     let of_axis = ObservedCircle::of(plane, (circle, lists[at].clone()), &turns);
                     observed[at].extend(of_axis.map(|mut it| {

@@ -8,17 +8,18 @@ use crate::commission::sources::source_of;
 use crate::failure::Failure;
 use crate::machine::value_list;
 use frictcomp::lists::FrictionList;
+use frictcomp_host::commission::CommissionReader;
 use frictcomp_host::{FileRegistry, sha256_of};
 use frictcomp_physics::circle::{Circle, CircleError, PlaneAxis};
 use frictcomp_physics::simulation::{DriveParameters, Plant};
 use frictcomp_recordings::commission::{
-    FrictionFound, PlantFound, RecordingResult, Stage, with_friction,
+    FrictionFound, PlanFile, PlantFound, RecordingResult, Stage, ValueListUsed, with_friction,
 };
-use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
 /// The inputs for fitting plants.
 pub(crate) struct Fitting<'a> {
     pub(crate) args: &'a CommissionRunArgs,
+    pub(crate) reader: CommissionReader<'a>,
     /// The previously known plant.
     pub(crate) base: &'a Plant,
     pub(crate) plans: &'a [PlanFile],
@@ -96,12 +97,12 @@ impl Fitting<'_> {
     }
 
     /// Returns a circle as it was driven.
-    pub(super) fn circle(&self, driven: &Driven<'_>) -> Result<Circle, Failure> {
-        Ok(Circle {
+    pub(super) fn circle(&self, driven: &Driven<'_>) -> Circle {
+        Circle {
             radius_mm: driven.radius,
             feed_mm_per_min: driven.circles.measured_feed.unwrap_or(driven.circles.feed),
-            cycle_time_s: self.args.reading.cycle_time_s()?,
-        })
+            cycle_time_s: self.reader.channels.cycle_time_s(),
+        }
     }
 
     /// Returns a list as it was recorded.

@@ -10,12 +10,14 @@ use crate::failure::{Failure, shown};
 use crate::outputs::Outputs;
 use crate::progress;
 use frictcomp::lists::{FrictionList, Points};
-use frictcomp_host::{read_text, sha256_of_text, tune};
+use frictcomp_host::{read_text, sha256_of_data, sha256_of_text, tune};
 use frictcomp_physics::circle::{PlaneAxis, Ranges, Shaping, Task, TuningAim, predicted_height_um};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_recordings::commission::{MOST_CURRENT, PlantFound, PredictedGlitch, TunedList};
-use frictcomp_report::commission::ValueListUsed;
+use frictcomp_recordings::commission::{
+    MOST_CURRENT, PlantFound, PredictedGlitch, TunedList, ValueListUsed,
+};
+
 use frictcomp_report::value_lists::{TunedFrom, render_tuned_on_plant};
 
 /// The circles recorded off, and the feeds recorded both off and on.
@@ -57,7 +59,7 @@ impl Fitting<'_> {
         };
         let mut worst: f64 = 0.0;
         for driven in off.iter().filter(|it| has(feeds, it.circles.feed)) {
-            let circle = self.circle(driven)?;
+            let circle = self.circle(driven);
             let drive = (axis.plane, drive);
             let predicted_um = predicted_height_um(drive, circle, list, Reading::default())?;
             worst = worst.max(predicted_um);
@@ -135,7 +137,9 @@ impl Fitting<'_> {
 
     /// Returns the options that affect how lists are tuned.
     fn tuned_with(&self) -> String {
-        format!("{:?} {:?}", self.shaping(), self.args.build.cnc_build)
+        let shaping = self.shaping() == Shaping::Allowed;
+        let build = self.args.build.cnc_build.map(|it| it.to_string());
+        sha256_of_data(&(shaping, build))
     }
 
     fn shaping(&self) -> Shaping {
@@ -153,7 +157,7 @@ impl Fitting<'_> {
         Ok(Task {
             plant: plant_of(found)?,
             model: FrictionModel::default(),
-            circles: circles.collect::<Result<_, _>>()?,
+            circles: circles.collect(),
             ranges: Ranges::default(),
             reading: Reading::default(),
             points: Points::of_build(self.args.build.cnc_build),

@@ -189,3 +189,19 @@ fn differences_are_shown_beside() {
     );
     assert_eq!(bench.status(&["diff", "a.nc", "a.nc"]), Some(0));
 }
+
+#[test]
+fn equal_differences_are_counted() {
+    // R18.22
+    let new = "$FOR P1 = 1, 4, 1\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\n$ENDFOR\nM30\n";
+    let (status, shown) = diff("M30\n", new, &[]);
+    assert_eq!(status, Some(1));
+    let lines: Vec<&str> = shown.lines().filter(|it| it.starts_with("+  ")).collect();
+    assert_eq!(lines.len(), 2, "{shown}");
+    assert!(lines.iter().all(|it| it.ends_with("(4 times)")), "{shown}");
+    let (_, document) = diff("M30\n", new, &["--format", "json"]);
+    let document = crate::folder::json(&document);
+    let differences = document["differences"].as_array().expect("differences");
+    let times: Vec<Option<u64>> = differences.iter().map(|it| it["times"].as_u64()).collect();
+    assert_eq!(times, [Some(4), Some(4)]);
+}

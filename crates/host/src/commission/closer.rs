@@ -2,27 +2,26 @@
 
 use std::path::Path;
 
-use super::channels::ReadingArgs;
-use super::run::plan_of;
-use crate::failure::Failure;
-use crate::machine::value_list;
-use frictcomp_host::{Disk, FileRegistry, read_axis, read_motion, sha256_of};
+use super::reading::CommissionReader;
+use crate::digest::sha256_of;
+use crate::disk::Disk;
+use crate::error::HostError;
+use crate::parameter_files::read_value_list;
+use crate::registry::FileRegistry;
+use crate::traces::{read_axis, read_motion};
 use frictcomp_recordings::commission::{
-    CirclesFound, FollowedPosition, Plan, RecordingResult, ShareOfList, Stage, recorded_apart,
-    torque_of_list,
+    CirclesFound, FollowedPosition, Plan, PlanFile, RecordingResult, ShareOfList, Stage,
+    ValueListUsed, recorded_apart, torque_of_list,
 };
-use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
-impl ReadingArgs {
+impl CommissionReader<'_> {
     /// Refuses commanded positions that were recorded as actual ones, and names axes that were recorded apart. What was
     /// not recorded shows nothing.
-    pub(super) fn look_closer(&self, path: &Path, plan: &PlanFile, found: &mut CirclesFound) {
-        let cycle = self.cycle.seconds().ok().flatten();
+    pub(super) fn look_closer(&self, path: &Path, plan: &Plan, found: &mut CirclesFound) {
+        let cycle = self.channels.cycle_s;
         let mut followed = Vec::new();
-        for (at, axis) in plan.plan.axes.iter().take(2).enumerate() {
-            let Ok(channels) = self.followed(&axis.name, &plan.plan) else {
-                continue;
-            };
+        for (at, axis) in plan.axes.iter().take(2).enumerate() {
+            let channels = self.channels.followed(&axis.name);
             let recording = read_axis(path, &channels, cycle, &Disk::default());
             let Ok(recording) = recording.or_else(|_| read_motion(path, &channels, cycle)) else {
                 continue;
@@ -43,19 +42,22 @@ impl ReadingArgs {
     }
 
     /// Takes the share of the list of each round in the torque of its recordings, and in that of stage 1.
-    pub(super) fn take_shares(
+    ///
+    /// # Errors
+    /// A list cannot be read.
+    pub fn take_shares(
         &self,
         folder: &Path,
         plans: &[PlanFile],
         (results, registry): (&mut [RecordingResult], &FileRegistry),
-    ) -> Result<(), Failure> {
+    ) -> Result<(), HostError> {
         let rounds = plans.iter().filter(|it| it.plan.stage == Stage::On);
         for used in rounds.clone().flat_map(|it| &it.lists) {
             let is_own = |it: &PlanFile| it.plan.stage == Stage::Off || it.lists.contains(used);
             for result in &mut *results {
-                let own = plan_of(plans, result.program).filter(|it| is_own(it));
-                if let Some(own) = own.filter(|_| result.found.is_used()) {
-                    self.take_share(folder, (used, &own.plan), (result, registry))?;
+                let own = PlanFile::of(plans, result.program).filter(|it| is_own(it));
+                if own.is_some() && result.found.is_used() {
+                    self.take_share(folder, used, (result, registry))?;
                 }
             }
         }
@@ -66,9 +68,9 @@ impl ReadingArgs {
     fn take_share(
         &self,
         folder: &Path,
-        (used, plan): (&ValueListUsed, &Plan),
+        used: &ValueListUsed,
         (result, registry): (&mut RecordingResult, &FileRegistry),
-    ) -> Result<(), Failure> {
+    ) -> Result<(), HostError> {
         let is_same = |it: &ShareOfList| it.axis == used.axis && it.list == used.sha256;
         let path = folder.join("recordings").join(&result.file);
         let Some(shown) = result.found.compensation_mut() else {
@@ -79,16 +81,10 @@ impl ReadingArgs {
         if shown.shares.iter().any(is_same) || !is_there {
             return Ok(());
         }
-        let cycle = self.cycle.seconds()?;
-        let recording = read_axis(
-            &path,
-            &self.followed(&used.axis, plan)?,
-            cycle,
-            &Disk::default(),
-        )
-        .ok();
-        let list = value_list(list, registry)?;
-        let kind = self.kind.torque_kind;
+        let (cycle, kind) = (self.channels.cycle_s, self.channels.torque_kind);
+        let channels = self.channels.followed(&used.axis);
+        let recording = read_axis(&path, &channels, cycle, &Disk::default()).ok();
+        let list = read_value_list(list, registry, &Disk::default())?.list;
         shown.shares.push(ShareOfList {
             axis: used.axis.clone(),
             list: used.sha256.clone(),

@@ -2,31 +2,43 @@
 
 use std::path::{Path, PathBuf};
 
-use super::channels::ReadingArgs;
+use super::channels::CommissionChannels;
 use super::recorded::RecordedProgram;
-use crate::failure::Failure;
-use frictcomp_host::{
-    Disk, SignedAt, read_circles, read_motion, read_turns, signatures_of, switches_of,
-};
+use super::unused::UnusedRecording;
+use crate::disk::Disk;
+use crate::error::HostError;
+use crate::signatures::{SignedAt, signatures_of};
+use crate::switches::switches_of;
+use crate::traces::{read_circles, read_motion, read_turns};
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
-    CirclesFound, FollowedPosition, MeasuredAxis, Measurement, NotFollowed, Plan, RecordedStrokes,
+    CirclesFound, FollowedPosition, MeasuredAxis, Measurement, Plan, RecordedStrokes,
     RecordingOutcome, Stage, StrokesFound,
 };
 use frictcomp_recordings::identify::AxisRecording;
 
-impl ReadingArgs {
+/// Reads the recordings of a commissioning.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct CommissionReader<'a> {
+    /// The channels.
+    pub channels: &'a CommissionChannels,
+    /// The words of a front end for what is not used, kept with the results.
+    pub words: fn(&UnusedRecording) -> String,
+}
+
+impl CommissionReader<'_> {
     /// Returns the number of the program and what its recording shows. A failure to read it is a result, too; the
     /// other recordings are read nevertheless.
     pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u16>, RecordingOutcome) {
         let recorded = match self.recognise(path, plans) {
             Ok(recorded) => recorded,
-            Err(failure) => return (None, RecordingOutcome::Refused(failure.sentence())),
+            Err(unused) => return (None, RecordingOutcome::Refused((self.words)(&unused))),
         };
         let axis = |at: usize| {
             let axis = recorded.plan.axes.get(at);
-            axis.ok_or_else(|| Failure::new("its axis is not in the plan"))
+            axis.ok_or(UnusedRecording::NoAxis)
         };
         let found = match &recorded.program.role {
             Measurement::Friction { axis: at, speeds } => axis(*at)
@@ -40,9 +52,9 @@ impl ReadingArgs {
             }
         };
         let mut found =
-            found.unwrap_or_else(|failure| RecordingOutcome::Refused(failure.sentence()));
-        if let Err(failure) = self.compare_states(path, recorded, &mut found) {
-            found.refuse(failure.sentence());
+            found.unwrap_or_else(|unused| RecordingOutcome::Refused((self.words)(&unused)));
+        if let Err(error) = self.compare_states(path, recorded, &mut found) {
+            found.refuse((self.words)(&error.into()));
         }
         (Some(recorded.program.number), found)
     }
@@ -54,7 +66,7 @@ impl ReadingArgs {
         path: &Path,
         recorded: RecordedProgram<'_>,
         found: &mut RecordingOutcome,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), HostError> {
         const MEASURED: f64 = 0.9;
         let wanted = recorded.wanted();
         let state = if wanted == Switched::On { "on" } else { "off" };
@@ -66,9 +78,9 @@ impl ReadingArgs {
             }
             Measurement::Circles { .. } => &recorded.plan.axes[..],
         };
-        let cycle = self.cycle.seconds()?;
+        let cycle = self.channels.cycle_s;
         for axis in axes {
-            let switches = switches_of(path, &self.selection(&axis.name, recorded.plan)?, cycle)?;
+            let switches = switches_of(path, &self.channels.selection(&axis.name), cycle)?;
             let within = switches
                 .iter()
                 .filter(|it| it.0 > recorded.from_s && it.0 < to_s);
@@ -99,7 +111,7 @@ impl ReadingArgs {
         &self,
         path: &Path,
         plans: &[&'a Plan],
-    ) -> Result<RecordedProgram<'a>, Failure> {
+    ) -> Result<RecordedProgram<'a>, UnusedRecording> {
         let name = path
             .file_name()
             .map(|it| it.to_string_lossy().into_owned())
@@ -108,21 +120,16 @@ impl ReadingArgs {
             let mut programs = plans
                 .iter()
                 .flat_map(|plan| plan.programs.iter().map(move |it| (it, *plan)));
-            programs.find(|(it, _)| it.number == number).ok_or_else(|| {
-                Failure::new(format!(
-                    "it carries the number {number}, which no plan in this folder has"
-                ))
-            })
+            let found = programs.find(|(it, _)| it.number == number);
+            found.ok_or(UnusedRecording::NoProgram(number))
         };
-        let said = self.role.iter().find(|(file, _)| *file == name);
+        let said = self.channels.roles.iter().find(|(file, _)| *file == name);
         let said = said.map(|(_, number)| *number);
-        let cycle = self.cycle.seconds()?;
+        let cycle = self.channels.cycle_s;
         let mut signed: Vec<(&str, SignedAt)> = Vec::new();
         let mut failed = None;
-        let axes = plans.iter();
-        let axes = axes.flat_map(|plan| plan.axes.iter().map(move |axis| (axis, *plan)));
-        for (axis, plan) in axes {
-            match signatures_of(path, &self.selection(&axis.name, plan)?, cycle) {
+        for axis in plans.iter().flat_map(|plan| &plan.axes) {
+            match signatures_of(path, &self.channels.selection(&axis.name), cycle) {
                 Ok(found) => signed.extend(found.into_iter().map(|it| (axis.name.as_str(), it))),
                 Err(error) => failed = Some(error),
             }
@@ -136,33 +143,24 @@ impl ReadingArgs {
                     from_s: 0.0,
                 });
             }
-            return Err(failed.map_or_else(
-                || {
-                    Failure::new(format!(
-                        "it has no signature; say `--role {name}=NUMBER` if you know its program"
-                    ))
-                },
-                Failure::from,
+            return Err(failed.map_or(
+                UnusedRecording::NoSignature { file: name },
+                UnusedRecording::from,
             ));
         };
         let number = first.signature.number();
         if let Some(said) = said.filter(|it| *it != number) {
-            let message = format!("its strokes give the number {number}, but `--role` says {said}");
-            return Err(Failure::new(message));
+            return Err(UnusedRecording::OtherProgram {
+                found: number,
+                said,
+            });
         }
         if signed
             .iter()
             .any(|(_, it)| it.signature != first.signature || it.end_s > first.end_s)
         {
-            let numbers: Vec<String> = signed
-                .iter()
-                .map(|it| it.1.signature.number().to_string())
-                .collect();
-            let message = format!(
-                "it holds several programs, {}: record each alone",
-                numbers.join(", ")
-            );
-            return Err(Failure::new(message));
+            let numbers = signed.iter().map(|it| it.1.signature.number());
+            return Err(UnusedRecording::Several(numbers.collect()));
         }
         let (program, plan) = program(number)?;
         let moved = plan
@@ -170,10 +168,7 @@ impl ReadingArgs {
             .get(program.signed_axis())
             .map_or("", |it| it.name.as_str());
         if !signed.iter().any(|(axis, _)| *axis == moved) {
-            let message = format!(
-                "the strokes at its start are not those of `{moved}`: the channels of two axes are swapped"
-            );
-            return Err(Failure::new(message));
+            return Err(UnusedRecording::Swapped(moved.to_owned()));
         }
         Ok(RecordedProgram {
             program,
@@ -189,9 +184,9 @@ impl ReadingArgs {
         recorded: RecordedProgram<'_>,
         axis: &MeasuredAxis,
         feeds: &[f64],
-    ) -> Result<RecordingOutcome, Failure> {
-        let cycle = self.cycle.seconds()?;
-        let recording = read_motion(path, &self.followed(&axis.name, recorded.plan)?, cycle)?;
+    ) -> Result<RecordingOutcome, UnusedRecording> {
+        let cycle = self.channels.cycle_s;
+        let recording = read_motion(path, &self.channels.followed(&axis.name), cycle)?;
         let followed = FollowedPosition::of(&recording, recorded.from_s);
         let step_s = recording.track.step_s;
         let AxisRecording {
@@ -207,17 +202,7 @@ impl ReadingArgs {
             track: &track.since(recorded.from_s),
             following_errors: &following_errors[before..],
         };
-        let found = StrokesFound::of((&axis.name, axis.unit()), strokes, feeds);
-        let mut found = found.map_err(|error| {
-            let failure = Failure::new(error.to_string());
-            if error == NotFollowed::Absent {
-                failure.with_help(
-                    "name them with `--following-error`, or `--actual-position` and `--position`",
-                )
-            } else {
-                failure
-            }
-        })?;
+        let mut found = StrokesFound::of((&axis.name, axis.unit()), strokes, feeds)?;
         found.followed = followed;
         if recorded.plan.stage == Stage::Off && found.against.is_empty() && !found.is_seen() {
             found.against.push(
@@ -234,18 +219,17 @@ impl ReadingArgs {
     }
 
     /// Returns the turns of a recorded program of circles, in the units of their plan.
-    pub(super) fn turns(
+    ///
+    /// # Errors
+    /// The file cannot be read, or is not a recorded circle.
+    pub fn turns(
         &self,
         path: &Path,
         plan: &Plan,
         radius: f64,
-    ) -> Result<Vec<RecordedCircle>, Failure> {
-        Ok(read_turns(
-            path,
-            &self.circle_channels(plan)?,
-            Some(radius),
-            &Disk::default(),
-        )?)
+    ) -> Result<Vec<RecordedCircle>, HostError> {
+        let channels = self.channels.of_circles(plan);
+        read_turns(path, &channels, Some(radius), &Disk::default())
     }
 
     /// Returns the circles of a recorded program.
@@ -255,8 +239,8 @@ impl ReadingArgs {
         plan: &Plan,
         feed: f64,
         radius: f64,
-    ) -> Result<RecordingOutcome, Failure> {
-        let channels = self.circle_channels(plan)?;
+    ) -> Result<RecordingOutcome, UnusedRecording> {
+        let channels = self.channels.of_circles(plan);
         let commanded = CommandedCircle {
             radius_mm: Some(radius),
             feed_mm_per_min: None,

@@ -2,17 +2,18 @@
 
 use std::path::Path;
 
-use super::channels::ReadingArgs;
+use super::reading::CommissionReader;
 use super::recorded::RecordedProgram;
-use crate::failure::Failure;
-use crate::identify::refusal;
-use frictcomp_host::{Disk, read_axis};
-use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, Plan, actual_elsewhere};
+use super::unused::UnusedRecording;
+use crate::disk::Disk;
+use crate::error::HostError;
+use crate::traces::read_axis;
+use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, actual_elsewhere};
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyOptions, Measured, RequestedPoints, Track, identify,
 };
 
-impl ReadingArgs {
+impl CommissionReader<'_> {
     /// Returns the friction of an axis at these speeds; for a gantry, the mean of its motors.
     pub(super) fn friction(
         &self,
@@ -20,16 +21,17 @@ impl ReadingArgs {
         recorded: RecordedProgram<'_>,
         axis: &MeasuredAxis,
         speeds: &[f64],
-    ) -> Result<FrictionFound, Failure> {
+    ) -> Result<FrictionFound, UnusedRecording> {
         let judge =
             |motor: &str, recording: &AxisRecording| self.judge(recorded, recording, motor, speeds);
-        let mut mean = self.motor(path, recorded.plan, [&axis.name; 2])?;
+        let mut mean = self.motor(path, [&axis.name; 2])?;
         if axis.followers.is_empty() {
             return judge(&axis.name, &mean);
         }
-        let recordings = match self.followers(path, recorded.plan, (axis, &mean)) {
+        let recordings = match self.followers(path, axis, &mean) {
             Ok(recordings) => recordings,
             Err(reason) => {
+                let reason = (self.words)(&reason);
                 let mut found = judge(&axis.name, &mean)?;
                 found.against.push(format!(
                     "a gantry: the motors of {} share the friction, and {reason}",
@@ -40,8 +42,10 @@ impl ReadingArgs {
         };
         let mut motors = vec![judge(&axis.name, &mean)?];
         for (motor, recording) in axis.followers.iter().zip(&recordings) {
-            let found = judge(motor, recording)
-                .map_err(|failure| Failure::new(format!("{motor}: {}", failure.sentence())))?;
+            let found = judge(motor, recording).map_err(|reason| UnusedRecording::Motor {
+                motor: motor.clone(),
+                reason: Box::new(reason),
+            })?;
             motors.push(found);
         }
         let others: Vec<&Track> = recordings.iter().map(|it| &it.track).collect();
@@ -55,25 +59,20 @@ impl ReadingArgs {
     fn followers(
         &self,
         path: &Path,
-        plan: &Plan,
-        (axis, master): (&MeasuredAxis, &AxisRecording),
-    ) -> Result<Vec<AxisRecording>, String> {
-        if !self.torque.is_of_each() {
-            return Err(
-                "their torque is not read: name the channels of all motors, `--torque %.ActTorque`"
-                    .to_owned(),
-            );
+        axis: &MeasuredAxis,
+        master: &AxisRecording,
+    ) -> Result<Vec<AxisRecording>, UnusedRecording> {
+        if !self.channels.has_each_torque {
+            return Err(UnusedRecording::NoTorques);
         }
         let followers = axis.followers.iter();
         let read = followers.map(|motor| {
-            let recording = self
-                .motor(path, plan, [&axis.name, motor])
-                .map_err(|failure| failure.sentence())?;
+            let recording = self.motor(path, [&axis.name, motor])?;
             if recording.track.times_s != master.track.times_s {
-                return Err(format!(
-                    "that of {motor} has other samples than that of {}",
-                    axis.name
-                ));
+                return Err(UnusedRecording::OtherSamples {
+                    motor: motor.clone(),
+                    axis: axis.name.clone(),
+                });
             }
             Ok(recording)
         });
@@ -81,22 +80,16 @@ impl ReadingArgs {
     }
 
     /// Returns the motion of an axis with the torque of one motor.
-    fn motor(
-        &self,
-        path: &Path,
-        plan: &Plan,
-        [axis, motor]: [&str; 2],
-    ) -> Result<AxisRecording, Failure> {
-        let cycle = self.cycle.seconds()?;
-        let torque = self.selection(motor, plan)?.torque;
+    fn motor(&self, path: &Path, [axis, motor]: [&str; 2]) -> Result<AxisRecording, HostError> {
+        let torque = self.channels.selection(motor).torque;
         let torque = torque.map(|it| it.replace('%', motor));
-        let mut with = self.followed(axis, plan)?;
+        let mut with = self.channels.followed(axis);
         with.torque.clone_from(&torque);
-        let mut without = self.selection(axis, plan)?;
+        let mut without = self.channels.selection(axis);
         without.torque = torque;
         // An actual position in addition to the commanded one is only a check, and may be missing here.
-        let read = |selection| read_axis(path, selection, cycle, &Disk::default());
-        Ok(read(&with).or_else(|_| read(&without))?)
+        let read = |selection| read_axis(path, selection, self.channels.cycle_s, &Disk::default());
+        read(&with).or_else(|_| read(&without))
     }
 
     /// Identifies the friction in the torque of one motor.
@@ -106,20 +99,22 @@ impl ReadingArgs {
         recording: &AxisRecording,
         motor: &str,
         speeds: &[f64],
-    ) -> Result<FrictionFound, Failure> {
+    ) -> Result<FrictionFound, UnusedRecording> {
         let options = IdentifyOptions {
             measured: Measured {
                 // The program itself switches compensation.
                 compensation: Some(recorded.wanted()),
-                ..recording.measured.stated(self.kind.torque_kind, None)
+                ..recording.measured.stated(self.channels.torque_kind, None)
             },
             wanted: RequestedPoints::Points(12),
             ..IdentifyOptions::default()
         };
         let elsewhere = actual_elsewhere(&recording.track, &recording.following_errors);
         let track = recording.track.clone().since(recorded.from_s);
-        let found =
-            identify(&track, &options).map_err(|error| refusal(error, &recording.findings))?;
+        let found = identify(&track, &options).map_err(|error| UnusedRecording::Friction {
+            error,
+            findings: recording.findings.clone(),
+        })?;
         let mut friction = FrictionFound::of(motor, &found, speeds);
         let has_signature = recorded.from_s > 0.0;
         friction.check_length(

@@ -102,6 +102,7 @@ impl<S: LineSource> BlockReader<S> {
             }
             if !self.source.advance() {
                 self.remarks.end();
+                self.plain = None;
                 return None;
             }
             self.line += 1;
@@ -114,6 +115,11 @@ impl<S: LineSource> BlockReader<S> {
                 return Some(self.last());
             }
         }
+    }
+
+    /// The number of the first line that was not read.
+    pub(crate) fn next_line(&self) -> u32 {
+        self.line.saturating_add(1)
     }
 
     /// The stretch read last.

@@ -50,13 +50,6 @@ impl RawBlock<'_> {
         Place::in_block(file, self.text, self.line, span)
     }
 
-    /// The number of the line after it.
-    pub(crate) fn line_after(&self) -> u32 {
-        let lines = self.text.bytes().filter(|byte| *byte == b'\n').count();
-        self.line
-            .saturating_add(u32::try_from(lines + 1).unwrap_or(u32::MAX))
-    }
-
     /// Returns the messages on a `%` line, which no run reaches.
     pub(crate) fn opening_said(&self, file: &Arc<str>, block: &Block) -> Vec<Diagnostic> {
         let faults = block.faults.iter();

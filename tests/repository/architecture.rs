@@ -168,7 +168,6 @@ const FOLDERS: [(&str, &str, &[&str]); 24] = [
         &[
             "assumptions",
             "circle",
-            "commission",
             "document",
             "pictures",
             "svg",

@@ -67,11 +67,11 @@ impl<'l> MainLines<'l> {
 
     /// Takes the rest of the text, from the block that is due on.
     fn into_rest(mut self, lost: &mut Collected) -> SourceFile {
-        let raw = self.reader.last();
-        let (mut text, first) = match (self.is_due, raw.remark) {
-            (false, _) => (String::new(), raw.line_after()),
-            (true, Some(remark)) => (format!("{}\n{}\n", remark.text, raw.text), remark.line),
-            (true, None) => (format!("{}\n", raw.text), raw.line),
+        let due = self.is_due.then(|| self.reader.last());
+        let (mut text, first) = match due.map(|raw| (raw, raw.remark)) {
+            Some((raw, Some(remark))) => (format!("{}\n{}\n", remark.text, raw.text), remark.line),
+            Some((raw, None)) => (format!("{}\n", raw.text), raw.line),
+            None => (String::new(), self.reader.next_line()),
         };
         self.reader.append_rest(&mut text);
         gather(&self.file, self.reader.lost_remarks(), u32::MAX, lost);

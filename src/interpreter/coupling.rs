@@ -105,24 +105,20 @@ impl Couplings {
 
     /// They do not any more.
     pub(crate) fn unfollow(&mut self, command: &str) {
-        if self.followers.remove(command).is_some() {}
+        self.followers.remove(command);
     }
 
     /// No axis follows another one except by a coupling group.
     pub(crate) fn end_following(&mut self) {
-        if !(self.followers.is_empty() && self.strays.is_empty()) {
-            self.followers.clear();
-            self.strays.clear();
-        }
+        self.followers.clear();
+        self.strays.clear();
     }
 
     /// An axis that follows another one by such a command may do so, or not; so may these axes.
     pub(crate) fn havoc_followers(&mut self, axes: &[AxisIndex]) {
         let followers = std::mem::take(&mut self.followers);
         let followers = followers.into_values().flatten().map(|(axis, _)| axis);
-        let before = self.strays.len();
         self.strays.extend(followers.chain(axes.iter().copied()));
-        if self.strays.len() != before {}
     }
 
     /// Whether a group is in force, or may be.

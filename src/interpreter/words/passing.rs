@@ -75,7 +75,8 @@ struct PossibleEffects {
     /// Blocks to which they leave loops and cases.
     leaves: Vec<EntryIndex>,
     ends: Vec<Place>,
-    refused: Vec<Diagnostic>,
+    /// Errors of the control, each with whether the block was executed, which reports it there.
+    refused: Vec<(Diagnostic, bool)>,
 }
 
 impl PossibleEffects {
@@ -137,10 +138,10 @@ impl EffectReader<'_> {
     fn item(&mut self, item: &Item, at: &BlockContext<'_>) {
         match item {
             Item::Comp(command) => {
-                let refused = self.run.refusal_of(command, at);
-                // What is executed is reported there.
                 let (unit, entry) = self.place;
-                let refused = refused.filter(|_| !self.run.programs.was_read(unit, entry));
+                let is_told = self.run.programs.was_read(unit, entry);
+                let refused = self.run.refusal_of(command, at);
+                let refused = refused.map(|said| (said, is_told));
                 self.effects.refused.extend(refused);
                 let kinds = command.selection.kinds();
                 self.effects.switched.push((command.axis.clone(), kinds));
@@ -709,22 +710,21 @@ impl Executor {
         }
         let couples = effects.has(WideEffect::NewCouplings)
             || effects.has(WideEffect::Couplings)
-            || self.state.control.couplings.len() > 0;
+            || self.state.control.couplings.is_any();
         let is_coupled = couples && !effects.switched.is_empty();
         let is_refused = is_coupled || effects.has(WideEffect::Refusal);
         let mut ends: Vec<_> = is_refused
             .then_some((None, EndedBy::Error))
             .into_iter()
             .collect();
-        let refused = effects.refused.into_iter().map(|mut said| {
-            let value = cause.seen_from(&said.place.file);
-            let message = &mut said.message;
-            *message = format!("{message}; whether the block is executed depends on {value}");
-            said
-        });
-        for said in refused {
+        for (mut said, is_told) in effects.refused {
             ends.push((Some(said.place.clone()), EndedBy::Error));
-            self.scratch.messages.of_some_ways.push(said);
+            if !is_told {
+                let value = cause.seen_from(&said.place.file);
+                let message = &mut said.message;
+                *message = format!("{message}; whether the block is executed depends on {value}");
+                self.scratch.messages.of_some_ways.push(said);
+            }
         }
         let own = effects.ends.into_iter();
         ends.extend(own.map(|place| (Some(place), EndedBy::M30)));

@@ -160,6 +160,7 @@ impl Interpreter {
     }
 
     /// Executes the next block of the lines. Returns the step after it, where that is not the next block.
+    #[inline]
     pub(crate) fn run_line(
         &mut self,
         lines: &mut Option<MainLines<'_>>,

@@ -150,15 +150,16 @@ impl Interpreter {
             self.here.charge_block(weight);
         }
         let step = match flow {
-            ControlFlow::Continue(()) => None,
-            ControlFlow::Break(NextBlock::Step(step)) => Some(step),
+            ControlFlow::Continue(()) if self.here.sides.is_empty() => None,
+            ControlFlow::Continue(()) => self.part_and_step(None, finder),
+            ControlFlow::Break(NextBlock::Step(step)) => self.part_and_step(Some(step), finder),
             ControlFlow::Break(NextBlock::Paused) => {
                 let step = self.here.state.parked.take();
                 self.here.state.parked = self.part_and_step(step, finder);
                 return ControlFlow::Break(RunOutcome::Paused);
             }
         };
-        ControlFlow::Continue(self.part_and_step(step, finder))
+        ControlFlow::Continue(step)
     }
 
     /// Ends the way. Another one goes on if there is one.

@@ -193,7 +193,8 @@ fn run(text: &str, given: &[usize], skip: Option<SkipLevels>, handed: Handed) ->
         }
     };
     assert!(said.is_empty(), "{text}\n{said:?}");
-    if outcome == RunOutcome::Ended(EndedBy::Budget) || shown.never_ends {
+    let never_ends = skip.is_some() && shown.never_ends;
+    if outcome == RunOutcome::Ended(EndedBy::Budget) || never_ends {
         // Some way never ends, so nothing is reported about the end.
         let any = states(State::Unknown, None);
         shown.end = skip.is_none().then(|| [0, 1, 2].map(|_| any.clone()));

@@ -15,7 +15,7 @@ use crate::interpreter::motion::modal::Modal;
 use crate::interpreter::options::Options;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
-use crate::interpreter::stack::{AwaitedBlock, ControlStep};
+use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::handover::{FoundVariables, VariableUse};
 use crate::interpreter::values::location::{Reads, Unknown};
@@ -46,8 +46,6 @@ pub(crate) struct Executor {
     /// Whether any axis requires a compensation (P-AXIS-00465).
     pub(crate) any_required: bool,
     pub(crate) programs: ProgramStore,
-    /// Label at which a main program that is read line by line continues.
-    pub(crate) awaited: Option<AwaitedBlock>,
     /// Targets of the answers to the condition of the current block.
     pub(crate) sides: Vec<BranchSide>,
     /// Whether no other path waits.
@@ -124,7 +122,6 @@ impl Executor {
             machine,
             options,
             programs: ProgramStore::new(options.limits.nesting),
-            awaited: None,
             sides: Vec::new(),
             is_alone: true,
             shown: ShownWays::default(),

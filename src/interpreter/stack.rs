@@ -289,10 +289,24 @@ pub(crate) struct Destination {
     pub(crate) level: u32,
     /// The block, where it is not the one that follows the call.
     pub(crate) entry: Option<EntryIndex>,
+    /// The block of a main program that is read line by line; no snapshot of such a run is taken.
+    #[serde(skip)]
+    pub(crate) awaited: Option<Box<AwaitedBlock>>,
+}
+
+impl Destination {
+    /// The block after the call of a level.
+    pub(crate) fn after_call(level: u32) -> Self {
+        Self {
+            level,
+            entry: None,
+            awaited: None,
+        }
+    }
 }
 
 /// A block of a main program that is read line by line, and the message if it is not kept.
-#[derive(Clone, Debug)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct AwaitedBlock {
     pub(crate) label: LabelName,
     pub(crate) lost: Diagnostic,

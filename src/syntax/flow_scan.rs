@@ -1,5 +1,7 @@
 //! Whether a program needs its whole text at once.
 
+use super::raw::MAX_LINE;
+
 /// Looks through the bytes of a program, piece by piece, for anything that needs the whole text at
 /// once: a `$` statement, `#IF`, a local subprogram (`%L name`), a call (`L name`), whose program may return to a block
 /// further up, or which runs a part of this one (`L SEQUENCE`).
@@ -34,13 +36,25 @@ impl FlowScan {
         self.found
     }
 
-    /// `L` alone with a separator after it; a piece that ends before that is taken as one.
+    /// `L` alone with a separator after it, outside a comment; a piece that ends before that is taken as one.
     fn calls_program(before: &[u8], after: &[u8]) -> bool {
         let is_alone = before.last().is_none_or(|byte| !byte.is_ascii_alphabetic());
-        is_alone
-            && after
-                .first()
-                .is_none_or(|byte| matches!(byte, b' ' | b'\t'))
+        let is_followed = after
+            .first()
+            .is_none_or(|byte| matches!(byte, b' ' | b'\t'));
+        is_alone && is_followed && !Self::ends_in_comment(before)
+    }
+
+    /// Whether the last line is in a comment so far. A line that is longer than a block may be is not.
+    fn ends_in_comment(text: &[u8]) -> bool {
+        let near = &text[text.len().saturating_sub(MAX_LINE)..];
+        let line = match memchr::memrchr2(b'\n', b'\r', near) {
+            Some(end) => &near[end..],
+            None if near.len() < MAX_LINE => near,
+            None => return false,
+        };
+        let opened = memchr::memrchr(b'(', line);
+        memchr::memchr(b';', line).is_some() || opened > memchr::memrchr(b')', line)
     }
 
     /// `#IF`; a piece that ends before that is taken as one.

@@ -434,7 +434,8 @@ mod tests {
     fn a_look_ahead_loses_no_line() {
         for lines in [1, 5_000, 40_000] {
             let text = "N10 G01 X1.5 Y2.5\n".repeat(lines);
-            for (behind, found) in [("M30", false), ("$IF 1", true)] {
+            let tool = "M30 (L 100) ; L 20";
+            for (behind, found) in [(tool, false), ("$IF 1", true), ("N9 L a.nc", true)] {
                 let text = format!("\u{feff}{text}{behind}");
                 let mut reader = LineReader::new(io::Cursor::new(text.as_bytes()));
                 assert_eq!(reader.scan().unwrap().needs_whole_text(), found);

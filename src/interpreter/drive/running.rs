@@ -232,15 +232,19 @@ impl Interpreter {
     /// Executes a step. `Break` if it is the last one of the last way.
     pub(crate) fn take_step(
         &mut self,
-        step: ControlStep,
+        mut step: ControlStep,
         lines: &mut Option<MainLines<'_>>,
         observer: &mut dyn Observer,
     ) -> ControlFlow<RunOutcome> {
+        let awaited = match &mut step {
+            ControlStep::ReturnTo(destination) => destination.awaited.take(),
+            _ => None,
+        };
         if let ControlFlow::Break(by) = self.others.follow(&mut self.here, step) {
             return self.end_way(by);
         }
-        if let Some(awaited) = self.here.awaited.take() {
-            self.go_to_awaited(awaited, lines);
+        if let Some(awaited) = awaited {
+            self.go_to_awaited(*awaited, lines);
             self.here.tell_joined(observer);
         }
         ControlFlow::Continue(())
@@ -395,9 +399,9 @@ impl Interpreter {
             Some(ControlStep::ReturnTo(Destination {
                 level,
                 entry: Some(target),
+                awaited: None,
             })) if here.sides.is_empty() => {
-                let entry = None;
-                self.others.go_back(here, &Destination { level, entry });
+                self.others.go_back(here, &Destination::after_call(level));
                 Some(self.others.jump(here, target, finder))
             }
             Some(ControlStep::Jump(target)) => Some(self.others.jump(here, target, finder)),

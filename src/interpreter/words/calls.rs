@@ -654,22 +654,22 @@ impl Executor {
             outcome.returns = true;
             return Ok(());
         }
-        let entry = match back.target {
-            None => None,
+        let mut destination = Destination::after_call(level);
+        match back.target {
+            None => {}
             Some(target) => {
                 let name = match self.label_of(target, at)? {
                     Ok(name) => name,
                     Err(cause) => {
                         self.unknown_return("where the program continues", &cause, back.span, at);
-                        outcome.step =
-                            Some(ControlStep::ReturnTo(Destination { level, entry: None }));
+                        outcome.step = Some(ControlStep::ReturnTo(Destination::after_call(level)));
                         return Ok(());
                     }
                 };
                 let frame = self.state.control.frames.at_level(level);
                 let program = frame.map_or(ProgramId::FIRST, CallFrame::program);
-                let found = self.programs.block_of(program, &name, &self.state.work);
-                if found.is_none() {
+                destination.entry = self.programs.block_of(program, &name, &self.state.work);
+                if destination.entry.is_none() {
                     if !self.programs.is_cut(program.unit) || level > 0 {
                         return Err(Box::new(Fault::new(
                             Code::Fc209,
@@ -680,15 +680,14 @@ impl Executor {
                         )));
                     }
                     let lost = not_kept(&name, back.span, "the dry run continues after the call");
-                    self.awaited = Some(AwaitedBlock {
+                    destination.awaited = Some(Box::new(AwaitedBlock {
                         lost: at.diagnostic(lost),
                         label: name,
-                    });
+                    }));
                 }
-                found
             }
-        };
-        outcome.step = Some(ControlStep::ReturnTo(Destination { level, entry }));
+        }
+        outcome.step = Some(ControlStep::ReturnTo(destination));
         Ok(())
     }
 }

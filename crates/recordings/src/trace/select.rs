@@ -97,8 +97,8 @@ impl ChannelSelection {
         }
     }
 
-    /// The channel of a quantity: the one that the user names, otherwise the one with its short name, otherwise the
-    /// only one that is recognised; `None` if there is none of them.
+    /// The channel of a quantity, if there is one: that which the user names, else that of its short name, else the only
+    /// one that is recognised.
     ///
     /// # Errors
     /// No channel fits what the user names, or several do.

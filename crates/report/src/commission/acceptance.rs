@@ -134,7 +134,7 @@ fn push_grounds(out: &mut Document<'_>, report: &ResultsReport, given: &Acceptan
         "What depends on the fitted plant is called predicted; every other figure is recorded"
     };
     let date = given.date.as_deref().unwrap_or("date not stated");
-    out.detail("What it rests on");
+    out.detail("Basis");
     out.lines([format!("\nRecordings: {date}. {figures}.")]);
     out.lines([
         "  The programs switch compensation themselves; a recording of its state was compared where there is one, \

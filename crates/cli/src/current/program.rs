@@ -35,7 +35,12 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     machines.look_ahead(std::slice::from_ref(&input));
     let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
     args.use_lists(&mut loaded.machine, &registry)?;
-    let followed = axes_to_follow(&args.axes, &loaded.machine)?;
+    let followed = axes_to_follow(&args.axes, &loaded.machine).map_err(|error| {
+        let name = input.name(Naming::AsGiven);
+        Failure::from(error).with_help(format!(
+            "`{name}` was taken as a program; name a recording with `--recording`"
+        ))
+    })?;
     let options = options(args, &loaded)?;
     let result = outputs.result(args.output.as_deref())?;
     let plot = Plot::create(args, &mut outputs, plotted(&loaded, &followed))?;

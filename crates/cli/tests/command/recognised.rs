@@ -248,6 +248,9 @@ fn a_program_and_a_recording_are_told_by_their_content() {
         assert_eq!(status, Some(2), "{arguments:?}: {text}");
         assert!(text.contains(expected), "{text}");
     }
+    std::fs::write(bench.folder().join("broken.csv"), "x y z\n").expect("written");
+    let (_, text) = said(&bench.call(&["current", "broken.csv", "--isolated"]));
+    assert!(text.contains("was taken as a program"), "{text}");
     // A program without an ending, and a recording that is called like one.
     std::fs::rename(bench.folder().join("x.csv"), bench.folder().join("x.nc")).expect("renamed");
     let (_, text) = said(&bench.call(&["current", "x.nc"]));

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::{Code, Collected, Diagnostic, Severity};
 use crate::interpreter::events::{Aside, EndedBy, Note, Outcome};
-use crate::interpreter::motion::form::{AxisWord, Geometry, Motion, MovedAxis};
+use crate::interpreter::motion::block::BlockMotion;
 use crate::interpreter::programs::calls::WantedCall;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Parsed;
@@ -19,7 +19,7 @@ use crate::interpreter::values::location::{MissingProgram, Unknown};
 use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::path::{EarlierStates, Path};
 use crate::interpreter::ways::words::seen_from;
-use crate::language::{AxisWords, BlockGroup, GFunction, Group, MotionEffect};
+use crate::language::{AxisWords, BlockGroup, GFunction, Group};
 use crate::machine::HarmlessWords;
 use crate::syntax::ast::{Block, BlockSharing, Declaration, Item};
 use crate::syntax::{Comments, Fault, RawBlock, Remark, VariableName, code_of};
@@ -319,30 +319,6 @@ pub(crate) struct BlockReading {
     pub(crate) expansions: Cell<u32>,
 }
 
-/// How a block moves.
-#[derive(Default, Clone)]
-pub(crate) struct BlockMotion {
-    /// Its axis words.
-    pub(crate) moved: Vec<AxisWord>,
-    /// The axes that it moves, or may, without their own word.
-    pub(crate) also_moved: Vec<MovedAxis>,
-    /// Words of axes that the machine does not have.
-    pub(crate) lacking: Vec<(String, Span)>,
-    /// The axes that have a word, and those that may have another, a bit each.
-    pub(crate) seen: u64,
-    pub(crate) again: u64,
-    /// Motion of its axis words, where the G functions in force do not decide it.
-    pub(crate) word_row: Option<MotionEffect>,
-    /// I, J, K, R and the like, where the block has any.
-    pub(crate) geometry: Option<Geometry>,
-    /// Whether the axes come to rest in the block, or may.
-    pub(crate) rests: Cell<bool>,
-    /// Whether the block is G04 or `#TIME`.
-    pub(crate) dwells: bool,
-    /// Motion of the block, where motions are taken.
-    pub(crate) motion: Option<Motion>,
-}
-
 /// How a block ends the program, or its way through it.
 #[derive(Default, Clone)]
 pub(crate) struct BlockEnding {
@@ -397,31 +373,12 @@ impl BlockScratch {
         self.left_open = None;
         self.earlier = None;
         self.doubted.clear();
-        self.moves.also_moved.clear();
-        self.moves.word_row = None;
-        if !self.moves.moved.is_empty() {
-            std::mem::swap(&mut self.moves.moved, &mut self.aside.last_moved);
-            self.moves.moved.clear();
-            if self.aside.arc.is_some() || self.aside.last_arc.is_some() {
-                std::mem::swap(&mut self.aside.arc, &mut self.aside.last_arc);
-            }
-        }
-        if self.moves.rests.replace(false) || self.moves.dwells {
-            self.aside.last_moved.clear();
-            self.aside.last_arc = None;
-        }
-        self.aside.arc = None;
-        self.moves.lacking.clear();
-        self.moves.seen = 0;
-        self.moves.again = 0;
+        self.moves.clear();
         self.messages.diagnostics.clear();
         self.aside.withheld.clear();
         self.read.unknown_call = None;
         self.read.lone = None;
-        self.moves.geometry = None;
-        self.moves.dwells = false;
         self.read.plc_acts = false;
-        self.moves.motion = None;
         self.read.notes.get_mut().clear();
         self.aside.asked.clear();
         self.read.unread.set(false);

@@ -1,11 +1,14 @@
-//! Axis couplings (R2.47): which groups `#SET AX LINK` defined and which of them are in force.
+//! Axis couplings (R2.47): which groups `#SET AX LINK` defined, which of them are in force, and what that means for
+//! compensations and positions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{AxisIndex, Coupling};
-use crate::language::Certainty;
+use crate::interpreter::control::ControlState;
+use crate::language::{Certainty, Holds, Simplification};
+use crate::machine::Machine;
 
 /// The coupling groups of a run.
 ///
@@ -321,3 +324,107 @@ impl Couplings {
         self.named.iter().copied().collect()
     }
 }
+
+impl ControlState {
+    pub(crate) fn define_coupling(&mut self, group: &str, axes: Vec<AxisIndex>) {
+        let changed = self.couplings.define(group, axes);
+        self.mark_coupled(changed);
+    }
+
+    /// Defines the coupling group of the channel list (P-CHAN-00037, P-CHAN-00038), if all its axes are known.
+    pub(crate) fn define_listed_coupling(&mut self, machine: &Machine) {
+        let numbers = machine.channel.coupled.iter().flatten();
+        let axes = numbers.map(|number| machine.axis_numbered(*number));
+        let axes: Option<Vec<_>> = axes.collect();
+        if let Some(axes) = axes.filter(|axes| !axes.is_empty()) {
+            self.define_coupling(LISTED, axes);
+        }
+    }
+
+    pub(crate) fn enable_coupling(&mut self, group: &str, machine: &Machine) {
+        self.modal.simplify(Simplification::Coupling, Holds::On);
+        let axes = (0..machine.axes.len()).map(AxisIndex::new);
+        let changed = self.couplings.enable(group, axes);
+        self.mark_coupled(changed);
+        self.lose_followers(group);
+    }
+
+    /// Axes that follow others have unknown positions from here on: `slave=master` (PM/207120267).
+    fn lose_followers(&mut self, group: &str) {
+        let groups = self.couplings.groups();
+        let axes = groups.filter(|(name, _)| *name == group);
+        let followers = axes.flat_map(|(_, axes)| axes.iter().step_by(2).copied());
+        for axis in followers.collect::<Vec<_>>() {
+            self.modal.havoc_position(axis);
+        }
+    }
+
+    /// Couplings come into force as a group of these pairs, and no others are.
+    pub(crate) fn restore_couplings(&mut self, axes: Vec<AxisIndex>, machine: &Machine) {
+        self.release_couplings();
+        self.define_coupling(RESTORED, axes);
+        self.enable_coupling(RESTORED, machine);
+    }
+
+    /// Releases a group; without a name the last one that was enabled.
+    pub(crate) fn disable_coupling(&mut self, group: &str) {
+        let changed = if group.is_empty() {
+            self.couplings.release_last()
+        } else {
+            self.couplings.release(group)
+        };
+        self.mark_coupled(changed);
+        if !self.couplings.is_any() {
+            self.modal.simplify(Simplification::Coupling, Holds::Off);
+        }
+    }
+
+    /// No coupling is in force; the definitions stay.
+    pub(crate) fn release_couplings(&mut self) {
+        let changed = self.couplings.release_all();
+        self.mark_coupled(changed);
+        self.modal.simplify(Simplification::Coupling, Holds::Off);
+    }
+
+    /// Any coupling may be in force, or none.
+    pub(crate) fn havoc_couplings(&mut self) {
+        let changed = self.couplings.havoc();
+        self.couplings.havoc_followers(&[]);
+        if !changed.is_empty() {
+            self.modal.simplify(Simplification::Coupling, Holds::On);
+        }
+        for axis in &changed {
+            self.modal.havoc_position(*axis);
+        }
+        self.mark_coupled(changed);
+    }
+
+    /// Any axes may be coupled.
+    pub(crate) fn couple_any(&mut self, machine: &Machine) {
+        let all = (0..machine.axes.len()).map(AxisIndex::new).collect();
+        self.define_coupling(RESTORED, all);
+        self.havoc_couplings();
+    }
+
+    fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
+        for axis in changed {
+            let coupling = self.couplings.of(axis);
+            self.compensation.set_coupled(axis, coupling);
+        }
+    }
+}
+
+/// Returns the name of the gear of an axis.
+pub(crate) fn gear_of(axis: AxisIndex) -> String {
+    format!("gear {}", axis.get())
+}
+
+/// Name of the coupling group that the channel list defines.
+pub(crate) const LISTED: &str = "0";
+
+/// The group in which saved couplings are restored.
+const RESTORED: &str = "1";
+
+/// Names of the followers of other commands.
+pub(crate) const GANTRY: &str = "gantry";
+pub(crate) const CAXTRACK: &str = "track";

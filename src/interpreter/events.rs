@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::FailedAt;
-use crate::interpreter::motion::form::{AxisWord, Motion, MovedAxis, Travel};
+use crate::interpreter::motion::block::BlockMotion;
+use crate::interpreter::motion::form::{AxisWord, Motion, MovedAxis};
 use crate::interpreter::motion::modal::Modal;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::history::{FoundStates, History, RepeatedSwitch};
@@ -88,12 +89,6 @@ pub enum Notes {
 /// Details of a block that are rarely requested.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Aside {
-    /// The axis words of the last block that moved before it, unless the axes have come to rest since.
-    pub(crate) last_moved: Vec<AxisWord>,
-    /// The arc of that block.
-    pub(crate) last_arc: Option<Travel>,
-    /// The arc of the block.
-    pub(crate) arc: Option<Travel>,
     /// The states of compensation that it reads (R1.35).
     pub(crate) asked: Vec<(AxisIndex, Kind)>,
     /// Withheld messages about unknown values, because nothing differs or because they were reported
@@ -130,12 +125,10 @@ pub struct Executed<'a> {
     pub doubted: &'a [(AxisIndex, KindSet)],
     /// Its axis words that move an axis; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
-    /// The axes that have a word in it, a bit each by their positions modulo 64.
-    pub(crate) named: u64,
+    /// How it moves.
+    pub(crate) moves: &'a BlockMotion,
     /// Details that are rarely requested.
     pub(crate) aside: &'a Aside,
-    /// Whether the axes come to rest in it, or may.
-    pub(crate) rests: bool,
     /// The axes that it moves, or may, without their own word: by a command in their bracket, through
     /// another axis, in a rotated frame, or by something that it calls or contains and that is not
     /// executed here (R10.7, R2.51, R2.52).

@@ -3,19 +3,18 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::ops::Range;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{AxisIndex, Compensation, KindSet};
+use crate::interpreter::axes::{AxisLookup, AxisNames};
 use crate::interpreter::block::BlockScratch;
-use crate::interpreter::control::{AxisNameMeaning, ControlState};
+use crate::interpreter::control::ControlState;
 use crate::interpreter::motion::modal::Modal;
 use crate::interpreter::options::Options;
-use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
-use crate::interpreter::stack::ControlStep;
+use crate::interpreter::stack::{ControlStep, ProgramPosition};
 use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::handover::{FoundVariables, VariableUse};
 use crate::interpreter::values::location::{Reads, Unknown};
@@ -61,43 +60,6 @@ pub(crate) struct Executor {
     pub(crate) used: Option<RefCell<VariableUse>>,
     pub(crate) version: u64,
     pub(crate) scratch: BlockScratch,
-}
-
-/// The axes of a machine by their names.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct AxisNames {
-    letters: [Option<AxisIndex>; 26],
-    longer: BTreeMap<String, AxisIndex>,
-}
-
-impl AxisNames {
-    fn of(machine: &Machine) -> Self {
-        let mut names = Self::default();
-        // A spindle is not an axis that coordinates move.
-        let axes = machine.axes.iter().enumerate();
-        for (position, axis) in axes.filter(|(_, axis)| !axis.is_spindle()) {
-            let index = AxisIndex::new(position);
-            match axis.name.as_bytes() {
-                [letter @ b'A'..=b'Z'] => names.letters[usize::from(letter - b'A')] = Some(index),
-                _ => {
-                    names.longer.insert(axis.name.clone(), index);
-                }
-            }
-        }
-        names
-    }
-
-    #[inline]
-    pub(crate) fn letter(&self, letter: u8) -> Option<AxisIndex> {
-        self.letters[usize::from(letter - b'A')]
-    }
-
-    pub(crate) fn get(&self, name: &str) -> Option<AxisIndex> {
-        match name.as_bytes() {
-            [letter @ b'A'..=b'Z'] => self.letter(*letter),
-            _ => self.longer.get(name).copied(),
-        }
-    }
 }
 
 /// Ways to a block that are shown.
@@ -187,47 +149,26 @@ impl Executor {
         name.family() == VariableFamily::Shared || self.externals.is_own(name)
     }
 
+    /// The axes that names mean at the block.
+    pub(crate) fn axes(&self) -> AxisLookup<'_> {
+        AxisLookup {
+            machine: &self.machine,
+            own: &self.names,
+            channel: &self.state.control.channel_axes,
+        }
+    }
+
+    /// Where the path is in its programs.
+    pub(crate) fn position(&self) -> ProgramPosition<'_> {
+        ProgramPosition {
+            frames: &self.state.control.frames,
+            programs: &self.programs,
+        }
+    }
+
     /// The axis that `@X` means in the plane in force.
     pub(crate) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
-        let letter = self.state.control.modal.main_axis(letter)?;
-        self.letter_axis(letter)
-    }
-
-    /// The axis that a letter currently denotes, if that is known.
-    pub(crate) fn letter_axis(&self, letter: u8) -> Option<AxisIndex> {
-        let mut name = [0; 4];
-        self.axis_named(char::from(letter).encode_utf8(&mut name))
-    }
-
-    /// The axis that a name currently denotes, if that is known.
-    pub(crate) fn axis_now(&self, name: &str) -> Option<AxisIndex> {
-        match self.state.control.channel_axes.meaning(name) {
-            None => self.machine.find(name),
-            Some(AxisNameMeaning::Axis(axis)) => Some(axis),
-            Some(AxisNameMeaning::Released(_) | AxisNameMeaning::Unknown) => None,
-        }
-    }
-
-    /// An axis by its name.
-    pub(crate) fn axis_named(&self, name: &str) -> Option<AxisIndex> {
-        if let Some(meaning) = self.state.control.channel_axes.meaning(name) {
-            return match meaning {
-                AxisNameMeaning::Axis(axis) => Some(axis),
-                AxisNameMeaning::Released(_) | AxisNameMeaning::Unknown => None,
-            };
-        }
-        self.names.get(name)
-    }
-
-    /// Whether a name is that of the main spindle (P-CHAN-00053).
-    pub(crate) fn is_main_spindle(&self, name: &str) -> bool {
-        name == "S"
-            || self
-                .machine
-                .channel
-                .main_spindle
-                .iter()
-                .any(|main| main == name)
+        self.axes().main(letter, &self.state.control.modal)
     }
 
     /// An axis occurs.
@@ -296,14 +237,6 @@ impl Executor {
         for (name, code) in &self.machine.programs.macros {
             self.state.control.memory.define_macro(name, code);
         }
-    }
-
-    /// The statement being executed and the end of its control block.
-    pub(crate) fn current_block(&self) -> Range<EntryIndex> {
-        self.state.control.frames.running().map_or(0..0, |frame| {
-            let entry = frame.next - 1;
-            entry..self.programs.index(frame.unit).links(entry).end
-        })
     }
 
     /// Kinds of an axis become unknown.

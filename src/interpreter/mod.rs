@@ -9,6 +9,7 @@
     reason = "faults travel boxed in results; what makes one boxes it"
 )]
 
+mod axes;
 mod block;
 mod control;
 mod coupling;

@@ -1,17 +1,21 @@
 //! The call stack, and the step after a block that does not lead to the next one.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::Diagnostic;
+use crate::interpreter::block::BlockContext;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::motion::saved;
-use crate::interpreter::programs::index::{EntryIndex, LabelName, ProgramId};
+use crate::interpreter::programs::calls::{WantedCall, holds_program_end, is_main_program};
+use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, ProgramId};
+use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::names::join_value;
 use crate::interpreter::values::value::Value;
-use crate::syntax::ast::CallForm;
+use crate::syntax::ast::{CallForm, Item, Operand};
 use crate::text::Place;
 
 /// The programs that run, the main program first.
@@ -310,4 +314,95 @@ impl Destination {
 pub(crate) struct AwaitedBlock {
     pub(crate) label: LabelName,
     pub(crate) lost: Diagnostic,
+}
+
+/// Where a path is in its programs.
+#[derive(Clone, Copy)]
+pub(crate) struct ProgramPosition<'a> {
+    pub(crate) frames: &'a CallStack,
+    pub(crate) programs: &'a ProgramStore,
+}
+
+impl ProgramPosition<'_> {
+    /// The statement being executed and the end of its control block.
+    pub(crate) fn current_block(self) -> Range<EntryIndex> {
+        self.frames.running().map_or(0..0, |frame| {
+            let entry = frame.next - 1;
+            entry..self.programs.index(frame.unit).links(entry).end
+        })
+    }
+
+    /// Whether an `$IF` of the running file has no `$ENDIF`.
+    pub(crate) fn is_unclosed(self, opener: EntryIndex) -> bool {
+        let frame = self.frames.running();
+        frame.is_some_and(|frame| {
+            let index = self.programs.index(frame.unit);
+            index.unclosed.contains(&index.links(opener).opener)
+        })
+    }
+
+    /// What a jump from the current block crosses.
+    pub(crate) fn jump_across(self, to: EntryIndex) -> JumpAcross {
+        let frames = &self.frames;
+        match (frames.running(), frames.entry()) {
+            (Some(frame), Some(from)) => self.programs.index(frame.unit).jump_across(from, to),
+            _ => JumpAcross::Nothing,
+        }
+    }
+
+    /// Whether a jump of the running program may go to the block: it names the number or the label of the block, or
+    /// computes its target.
+    pub(crate) fn may_be_jumped_to(self, at: &BlockContext<'_>) -> bool {
+        let Some(frame) = self.frames.running() else {
+            return true;
+        };
+        let targets = &self.programs.index(frame.unit).targets;
+        let number = at.block.number.map(|number| match number.value {
+            Operand::Number(number) => Some(LabelName::numbered(number)),
+            Operand::Expression(_) => None,
+        });
+        let labels = at.block.items.iter().filter_map(|item| match item {
+            Item::Label(name) => Some(Some(LabelName::Text(name.of(at.text).to_owned()))),
+            _ => None,
+        });
+        let mut names = number.into_iter().chain(labels);
+        names.any(|name| name.is_none_or(|name| targets.may_be(&name)))
+    }
+
+    /// Whether the file that runs is a main program: one that ends with M02 or M30.
+    pub(crate) fn runs_main_program(self) -> bool {
+        let Some(frame) = self.frames.iter().next() else {
+            return true;
+        };
+        let index = self.programs.index(frame.unit);
+        let start = index.sections.get(frame.section).map_or(0, |it| it.start);
+        index.entries.is_empty() || is_main_program(index.text_from(frame.section, start))
+    }
+
+    /// Whether the running program has M30 or M02 after its last executed block; `None` if its lines are read one
+    /// after another.
+    pub(crate) fn holds_end_after(self) -> Option<bool> {
+        let frame = self.frames.running()?;
+        let index = self.programs.index(frame.unit);
+        let is_kept = !index.source.text().is_empty();
+        is_kept.then(|| holds_program_end(index.text_from(frame.section, frame.next)))
+    }
+
+    /// The block after the one being executed.
+    pub(crate) fn next_block(self) -> EntryIndex {
+        self.frames.running().map_or(0, |it| it.next)
+    }
+
+    /// Whether a part belongs to the program being executed.
+    pub(crate) fn is_here(self, wanted: &WantedCall) -> bool {
+        let own_name = || {
+            let found = self.frames.program()?;
+            let index = self.programs.index(found.unit);
+            index.sections[found.section].name.clone()
+        };
+        wanted
+            .part
+            .as_ref()
+            .is_some_and(|part| part.here || own_name().as_deref() == Some(&*wanted.name))
+    }
 }

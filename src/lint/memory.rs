@@ -225,7 +225,7 @@ impl ProgramEffects {
     /// Whether an axis word of the block may be the first to move its axis.
     #[inline]
     pub(super) fn has_new(&self, executed: &Executed<'_>) -> bool {
-        executed.named & !self.moved != 0
+        executed.moves.named() & !self.moved != 0
     }
 
     /// Whether none of these motions is new.

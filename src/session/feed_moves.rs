@@ -109,7 +109,7 @@ impl FeedMoveCounter {
 /// The travel of an axis along the arc or helix of a block, forth and back (R11.31); its length does not
 /// depend on where the origin is.
 fn travel_on_arc(executed: &Executed<'_>, axis: AxisIndex) -> Option<f64> {
-    let way = executed.aside.arc.as_ref()?;
+    let way = executed.moves.arcs()[0]?;
     let PathForm::Arc(arc) = &way.form else {
         return None;
     };

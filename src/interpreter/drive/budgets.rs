@@ -244,7 +244,7 @@ impl OtherPaths {
         joined.track.marked = None;
         joined.track.labels = None;
         here.enter_path(joined);
-        here.scratch.havoc_last_motion();
+        here.scratch.moves.forget_last();
         for (unit, section) in left {
             let section = here.programs.section(ProgramId { unit, section });
             let blocks = section.start..section.end;

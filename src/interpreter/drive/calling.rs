@@ -7,7 +7,6 @@ use std::sync::Arc;
 use crate::interpreter::drive::host::Interpreter;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
-use crate::interpreter::programs::calls::holds_program_end;
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::stack::{CallFrame, CallStack, ControlStep, Destination, Request, Retains};
 use crate::interpreter::values::location::Unknown;
@@ -17,15 +16,6 @@ use crate::lists::ChannelSwitch;
 use crate::syntax::ast::CallForm;
 
 impl Executor {
-    /// Whether the running program has M30 or M02 after its last executed block; `None` if its lines are read one
-    /// after another.
-    fn holds_end_after(&self) -> Option<bool> {
-        let frame = self.state.control.frames.running()?;
-        let index = self.programs.index(frame.unit);
-        let is_kept = !index.source.text().is_empty();
-        is_kept.then(|| holds_program_end(index.text_from(frame.section, frame.next)))
-    }
-
     pub(crate) fn push_call(&mut self, request: Request) {
         let ProgramId { unit, section } = request.found;
         let level = self.state.control.frames.level() + 1;
@@ -193,7 +183,7 @@ impl OtherPaths {
                 _ => {
                     // A subprogram run by itself ends as it should; one that holds M30 is a main program. For a program
                     // read line by line, this is decided when the rest of its lines is available.
-                    if here.holds_end_after() == Some(false) {
+                    if here.position().holds_end_after() == Some(false) {
                         here.state.last = None;
                     }
                     return ControlFlow::Break(EndedBy::EndOfFile);

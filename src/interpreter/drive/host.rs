@@ -116,7 +116,7 @@ impl Interpreter {
     /// Sets the position of an axis before the first program, in mm or degrees; a name that no axis has
     /// is ignored.
     pub fn place(&mut self, name: &str, position: f64) {
-        if let Some(axis) = self.here.axis_named(name) {
+        if let Some(axis) = self.here.axes().named(name) {
             self.here.state.control.modal.place(axis, Some(position));
         }
     }
@@ -266,8 +266,9 @@ impl Interpreter {
     /// state, depending on the reading; kinds with manual activation are switched off in any case. Couplings and
     /// exchanged axes end with it, unless the channel list says otherwise.
     pub fn reset(&mut self) {
-        self.here.end_exchange(ProgramStop::Reset);
-        let _ = self.here.state.control.compensation.reset();
+        let control = &mut self.here.state.control;
+        control.end_exchange(ProgramStop::Reset, &self.here.machine.channel);
+        let _ = control.compensation.reset();
         self.here.reset_friction();
         self.here.scratch.changes.clear();
         self.here.version += 1;

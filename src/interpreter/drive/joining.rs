@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::block::{BlockScratch, OwnEnd};
+use crate::interpreter::block::OwnEnd;
 use crate::interpreter::control::ControlState;
 use crate::interpreter::drive::loops::watches;
 use crate::interpreter::events::{EndedBy, ProgramEnd, StoppedState};
@@ -67,7 +67,7 @@ impl OtherPaths {
             } else {
                 let mine = here.state.leave_path();
                 here.enter_path(other);
-                here.scratch.havoc_last_motion();
+                here.scratch.moves.forget_last();
                 self.waiting.push(mine);
             }
         }
@@ -88,7 +88,7 @@ impl OtherPaths {
         let differing = mine.join(other, &cause);
         here.state.work.charge_reading(ITEM * differing);
         here.enter_path(mine);
-        here.scratch.havoc_last_motion();
+        here.scratch.moves.forget_last();
         if both_count {
             self.tell_join(here, &before, parted);
         }
@@ -170,14 +170,6 @@ impl RunState {
         if !reach.is_always() {
             limit_to(said, &ways_of(&reach, &self.conditions));
         }
-    }
-}
-
-impl BlockScratch {
-    /// The block before was executed on another way.
-    pub(crate) fn havoc_last_motion(&mut self) {
-        self.moves.moved.clear();
-        self.aside.last_moved.clear();
     }
 }
 
@@ -320,7 +312,7 @@ impl OtherPaths {
             here.state.ended.push(ended);
         }
         if self.enter_first(here) {
-            here.scratch.havoc_last_motion();
+            here.scratch.moves.forget_last();
             return None;
         }
         let last = here.state.ended.pop()?;

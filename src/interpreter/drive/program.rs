@@ -8,10 +8,11 @@ use std::sync::Arc;
 
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::interpreter::axes::ChannelAxes;
 use crate::interpreter::block::{
     AfterError, BlockContext, OwnEnd, ShownBlockLines, ended_by, is_harmless, one,
 };
-use crate::interpreter::control::{ChannelAxes, ControlState, ModalCycles, OptionalSection};
+use crate::interpreter::control::{ControlState, ModalCycles, OptionalSection};
 use crate::interpreter::drive::host::Interpreter;
 use crate::interpreter::drive::joining::MetWays;
 use crate::interpreter::drive::lines::MainLines;
@@ -26,7 +27,7 @@ use crate::interpreter::values::location::MissingProgram;
 use crate::interpreter::ways::others::OtherPaths;
 use crate::interpreter::ways::path::{Last, RunTrack};
 use crate::interpreter::ways::set::WaySet;
-use crate::lists::ChannelSwitch;
+use crate::lists::{ChannelSettings, ChannelSwitch};
 use crate::machine::Machine;
 use crate::syntax::ast::{Block, CallForm, CallScope};
 use crate::syntax::{Fault, LineFault, LostRemarks, RawBlock, Remark, allow};
@@ -147,7 +148,7 @@ impl Executor {
 
     fn start(&mut self) {
         self.state.start(&self.machine);
-        self.define_listed_couplings();
+        self.state.control.define_listed_coupling(&self.machine);
         self.begin_search();
         self.is_alone = true;
         self.sides.clear();
@@ -296,13 +297,15 @@ impl Interpreter {
             let kinds = KindSet::of(change.kind);
             self.here.state.control.history.close(change.axis, kinds);
         }
-        self.here.state.control.frames.clear();
-        self.here.end_exchange(match by {
+        let stop = match by {
             EndedBy::Error => ProgramStop::Reset,
             _ if self.here.scratch.ending.endless => ProgramStop::Reset,
             _ => ProgramStop::End,
-        });
-        self.here.state.control.couplings.end_following();
+        };
+        let control = &mut self.here.state.control;
+        control.frames.clear();
+        control.end_exchange(stop, &self.here.machine.channel);
+        control.couplings.end_following();
         // The program ends on all ways.
         self.here.state.track.reach = WaySet::always();
         self.here.version += u64::from(self.here.state.control.history.is_open());
@@ -362,32 +365,6 @@ impl Executor {
         }
         self.fail(AfterError::Reset, &at);
         false
-    }
-
-    /// Couplings and exchanged axes end with the program or by a reset, unless the channel list says otherwise (R2.105).
-    pub(crate) fn end_exchange(&mut self, stop: ProgramStop) {
-        use ChannelSwitch::{KeepAxes, KeepAxesAfterReset, KeepCouplings, KeepCouplingsAfterReset};
-        let channel = &self.machine.channel;
-        let [keeps_axes, keeps_couplings] = match stop {
-            ProgramStop::Reset => [KeepAxesAfterReset, KeepCouplingsAfterReset],
-            ProgramStop::End => [KeepAxes, KeepCouplings],
-        }
-        .map(|switch| channel.has(switch));
-        let keeps_configuration = channel.has(KeepAxes);
-        if keeps_configuration && stop == ProgramStop::Reset && !keeps_couplings {
-            // What the reset of P-CHAN-00460 does to couplings is not documented.
-            if self.state.control.couplings.is_any() {
-                self.havoc_couplings();
-            }
-        } else if !(keeps_couplings || keeps_configuration) {
-            self.release_couplings();
-        }
-        if !keeps_configuration {
-            let axes = &mut self.state.control.channel_axes;
-            // P-CHAN-00115 decides which of the exchanged axes a reset leaves in the channel.
-            axes.doubtful = keeps_axes && !axes.are_own();
-            axes.names.clear();
-        }
     }
 
     /// The end of the program where all ways reach one.
@@ -581,6 +558,33 @@ impl ControlState {
         let keeps_axes = [ChannelSwitch::KeepAxes, ChannelSwitch::KeepAxesAfterReset];
         if !keeps_axes.into_iter().any(|it| machine.channel.has(it)) {
             self.channel_axes = ChannelAxes::default();
+        }
+    }
+
+    /// Couplings and exchanged axes end with the program or by a reset, unless the channel list says otherwise (R2.105).
+    pub(crate) fn end_exchange(&mut self, stop: ProgramStop, channel: &ChannelSettings) {
+        use ChannelSwitch::{KeepAxes, KeepAxesAfterReset, KeepCouplings, KeepCouplingsAfterReset};
+        let [keeps_axes, keeps_couplings] = match stop {
+            ProgramStop::Reset => [KeepAxesAfterReset, KeepCouplingsAfterReset],
+            ProgramStop::End => [KeepAxes, KeepCouplings],
+        }
+        .map(|switch| channel.has(switch));
+        let keeps_configuration = channel.has(KeepAxes);
+        if keeps_configuration && stop == ProgramStop::Reset && !keeps_couplings {
+            // What the reset of P-CHAN-00460 does to couplings is not documented.
+            if self.couplings.is_any() {
+                self.havoc_couplings();
+            }
+        } else if !(keeps_couplings || keeps_configuration) {
+            self.release_couplings();
+        }
+        if !keeps_configuration {
+            // P-CHAN-00115 decides which of the exchanged axes a reset leaves in the channel.
+            let is_exchanged = keeps_axes && !self.channel_axes.are_own();
+            self.channel_axes = ChannelAxes::default();
+            if is_exchanged {
+                self.channel_axes.havoc();
+            }
         }
     }
 }

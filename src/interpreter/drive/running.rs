@@ -414,7 +414,7 @@ impl Interpreter {
     #[inline]
     fn note_lone_motion(&mut self) {
         let here = &mut self.here;
-        if here.options.takes_motions() && here.scratch.moves.motion.is_some() {
+        if here.options.takes_motions() && here.scratch.moves.motion().is_some() {
             let is_alone = self.others.waiting.is_empty() && here.state.ended.is_empty();
             here.state.track.shadow.moves_alone |= !is_alone;
         }
@@ -506,12 +506,10 @@ impl Executor {
     #[inline]
     fn look_at_motion(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
         let words = outcome.axis_words;
-        if self.scratch.moves.again != 0 {
+        if self.scratch.moves.has_repeated() {
             self.refuse_repeated_axes(words, at);
         }
-        if !self.scratch.moves.lacking.is_empty() {
-            self.say_lacking(words, at);
-        }
+        self.say_lacking(words, at);
         self.move_around(words);
         self.check_feed(outcome, at);
         self.carry_along(words);
@@ -529,8 +527,7 @@ impl Executor {
     /// Remembers the axes that a shadow moves.
     #[cold]
     fn note_moves_of_shadow(&mut self) {
-        let words = self.scratch.moves.moved.iter().map(|word| word.axis);
-        let axes = words.chain(self.scratch.moves.also_moved.iter().map(|moved| moved.axis));
+        let axes = self.scratch.moves.axes();
         self.state.track.shadow.moved.extend(axes);
     }
 
@@ -539,7 +536,7 @@ impl Executor {
     fn take_moves_of_shadows(&mut self) {
         for axis in std::mem::take(&mut self.state.track.shadow.moved) {
             self.state.control.modal.havoc_position(axis);
-            self.scratch.perhaps_move(axis);
+            self.scratch.moves.perhaps_move(axis);
         }
     }
 
@@ -576,18 +573,17 @@ impl Executor {
             moved: if stopped {
                 &[]
             } else {
-                &self.scratch.moves.moved
+                self.scratch.moves.words()
             },
-            named: self.scratch.moves.seen,
+            moves: &self.scratch.moves,
             aside: &self.scratch.aside,
-            rests: self.scratch.moves.rests.get() || self.scratch.moves.dwells,
             also_moved: if stopped {
                 &[]
             } else {
-                &self.scratch.moves.also_moved
+                self.scratch.moves.also_moved()
             },
-            word_motion: self.scratch.moves.word_row.map(|row| row.kind),
-            motion: self.scratch.moves.motion.as_ref(),
+            word_motion: self.scratch.moves.row().map(|row| row.kind),
+            motion: self.scratch.moves.motion(),
             notes: &self.scratch.read.notes.borrow(),
             diagnostics: &self.scratch.messages.diagnostics,
             stopped,
@@ -693,7 +689,7 @@ impl Executor {
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<ControlStep> {
-        let moved = !self.scratch.moves.moved.is_empty();
+        let moved = !self.scratch.moves.words().is_empty();
         if !calls.is_empty() {
             outcome.step = Some(ControlStep::Call(calls));
         }
@@ -710,7 +706,7 @@ impl Executor {
             if at.used.is_none() && self.state.control.ending.is_none() {
                 self.scratch.ending.at = Some(OwnEnd {
                     place: at.place(Span::new(0, at.text.len())),
-                    is_passed_into: !self.may_be_jumped_to(at),
+                    is_passed_into: !self.position().may_be_jumped_to(at),
                 });
             }
             return Some(self.program_end(by, at, finder));

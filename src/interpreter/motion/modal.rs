@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comp::AxisIndex;
 use crate::interpreter::motion::contouring::Contouring;
-use crate::interpreter::motion::form::{AxisWord, BlockEnd, ToolSide, shifted};
+use crate::interpreter::motion::form::{AxisWord, BlockEnd, ToolSide, WordValue, shifted};
 use crate::interpreter::motion::pace::{LackingFeeds, Pace, ProgrammedFeed, SlopeSelection};
 use crate::language::{
     ChainStep, ContouringCommand, GAction, GFunction, Group, GroupSet, HashCommand, HashWords,
@@ -326,6 +326,34 @@ impl Modal {
             .iter()
             .filter_map(|name| HashCommand::named(name));
         rows.any(|row| row.chain == Some(ChainStep::Machine))
+    }
+
+    /// Whether a rotation is in force in which a motion along one axis of the plane moves the other one, too.
+    pub(crate) fn is_skewed(&self) -> bool {
+        self.skewed && !self.are_offsets_suspended()
+    }
+
+    /// The centre of an arc on one axis: G162 counts from the start of the arc, G161 from the origin of the
+    /// program (PM/206537483). A word may be left out only with G162.
+    pub(crate) fn centre_of(
+        &self,
+        axis: AxisIndex,
+        word: WordValue,
+        from: &[Option<f64>],
+    ) -> Option<f64> {
+        if !self.is_known(Group::CircleCentre) {
+            return None;
+        }
+        let start = if self.functions.centre_absolute {
+            self.reference(axis)
+        } else {
+            from.get(axis.get()).copied().flatten()
+        };
+        let word = match word {
+            None if !self.functions.centre_absolute => Some(0.0),
+            word => word.flatten(),
+        };
+        start.zip(word).map(|(start, word)| start + word)
     }
 
     /// Positions are in program coordinates from here on.

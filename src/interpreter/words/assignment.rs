@@ -386,7 +386,7 @@ impl Executor {
                 own: frame.map_or(&NONE, |frame| &frame.own),
                 given,
                 unread: &self.scratch.read.unread,
-                waits: &self.scratch.moves.rests,
+                waits: self.scratch.moves.rest_flag(),
                 flushing: &self.scratch.read.flushing,
                 relied: &self.scratch.read.relied,
                 held: self.scratch.read.held,
@@ -485,7 +485,7 @@ impl Executor {
     fn own_variable(&self, name: &VariableName) -> Option<OwnVariable> {
         let (variable, axis) = name.of_axis()?;
         let axis = match axis {
-            AxisOfVariable::Name(name) => self.axis_now(name)?,
+            AxisOfVariable::Name(name) => self.axes().any(name)?,
             AxisOfVariable::Index(position) => {
                 let are_own = self.state.control.channel_axes.are_own();
                 let is_there = are_own && position < self.machine.axes.len();

@@ -154,7 +154,7 @@ impl Executor {
             .control
             .frames
             .program()
-            .filter(|_| self.is_here(&wanted));
+            .filter(|_| self.position().is_here(&wanted));
         let found = match here.map_or_else(
             || {
                 self.programs
@@ -417,19 +417,6 @@ impl Executor {
             form: CallForm::Cycle,
             called_from: at.place(Span::new(0, at.text.len())),
         })
-    }
-
-    /// Whether a part belongs to the program being executed.
-    pub(crate) fn is_here(&self, wanted: &WantedCall) -> bool {
-        let own_name = || {
-            let found = self.state.control.frames.program()?;
-            let index = self.programs.index(found.unit);
-            index.sections[found.section].name.clone()
-        };
-        wanted
-            .part
-            .as_ref()
-            .is_some_and(|part| part.here || own_name().as_deref() == Some(&*wanted.name))
     }
 
     /// The blocks that a call asks for; `Err` where they are not in the program.

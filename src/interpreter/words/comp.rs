@@ -4,8 +4,9 @@ use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
 };
 use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
+use crate::interpreter::axes::Addressed;
 use crate::interpreter::block::BlockContext;
-use crate::interpreter::control::{Addressed, OptionalSection};
+use crate::interpreter::control::OptionalSection;
 use crate::interpreter::events::Outcome;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::values::location::Unknown;
@@ -13,7 +14,7 @@ use crate::interpreter::ways::history::RepeatedSwitch;
 use crate::interpreter::words::refusal::{PossibleRefusal, StopScope};
 use crate::language::{ChainStep, HashCommand};
 use crate::lists::Origin;
-use crate::machine::{Axis, AxisSet, Parameterisation};
+use crate::machine::{Axis, AxisSet, Machine, Parameterisation};
 use crate::readings::Question;
 use crate::syntax::{Fault, is_axis_name};
 use crate::text::Span;
@@ -55,7 +56,7 @@ impl Executor {
                 self.warn_optional(command, *axis, at);
             }
             Err(error) => {
-                let diagnostic = self.refusal(error, command, at);
+                let diagnostic = refusal(&self.machine, error, command, at);
                 self.scratch.messages.diagnostics.push(diagnostic);
             }
         }
@@ -347,116 +348,113 @@ impl Executor {
         let axis = compensation.resolve(&command.axis);
         let result =
             axis.and_then(|axis| compensation.switch(axis, command.selection, &mut Vec::new()));
-        result.err().map(|error| self.refusal(&error, command, at))
+        result
+            .err()
+            .map(|error| refusal(&self.machine, &error, command, at))
     }
+}
 
-    fn refusal(
-        &self,
-        error: &CompensationError,
-        command: &CompCommand,
-        at: &BlockContext<'_>,
-    ) -> Diagnostic {
-        let name = &command.axis;
-        let axis_span = Span::new(
-            command.span.start as usize,
-            command.span.start as usize + name.len(),
-        );
-        let span = match error {
-            CompensationError::UnknownAxis { .. } => axis_span,
-            _ => command.span,
-        };
-        let fault = Fault::new(error.code(), span, error.to_string());
-        let mut diagnostic = at.diagnostic(fault).with_axis(name.clone());
-        match error {
-            CompensationError::NotConfigured { kind, .. } if *kind != Kind::Frict => {
-                let facts = kind.facts();
-                diagnostic = diagnostic.with_help(format!(
-                    "set {} (`{}`) in the axis list of `{name}` and restart the control",
-                    facts.parameter, facts.selector
-                ));
-            }
-            CompensationError::NotConfigured { .. } => {
-                let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
-                let undescribed = axis.filter(|axis| !axis.is_described());
-                diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
-                    Some(Origin::File { file, line }) => Advice::ConfigureInList {
-                        axis: name.clone(),
-                        file: file.clone(),
-                        line: *line,
-                    },
-                    _ => undescribed.map_or_else(
-                        || format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
-                        Axis::describing,
-                    ),
-                });
-                // Otherwise a list of all axes is shown above (R1.37).
-                if self.machine.is_described() {
-                    diagnostic = diagnostic.with_help(Advice::Enable(vec![name.clone()]));
-                }
-                diagnostic
-                    .fixes
-                    .extend(axis.and_then(|axis| axis.configuring.clone()));
-            }
-            CompensationError::UnknownAxis { .. } => {
-                diagnostic = self.advise_on_axis(diagnostic, name);
-            }
-            CompensationError::Coupled { .. } => {
-                diagnostic =
-                    diagnostic.with_help("release the coupling first, with `#DISABLE AX LINK`");
-            }
-            CompensationError::ReadAsRefused { rule, .. } => {
-                diagnostic = diagnostic.with_help(format!(
-                    "`\"{rule}\"` in `[reading]` selects this reading; the documents leave it open"
-                ));
-            }
-            CompensationError::Spindle { .. } => {
-                diagnostic =
-                    diagnostic.with_help("name an axis; a spindle in axis mode has its axis name");
-            }
+fn refusal(
+    machine: &Machine,
+    error: &CompensationError,
+    command: &CompCommand,
+    at: &BlockContext<'_>,
+) -> Diagnostic {
+    let name = &command.axis;
+    let axis_span = Span::new(
+        command.span.start as usize,
+        command.span.start as usize + name.len(),
+    );
+    let span = match error {
+        CompensationError::UnknownAxis { .. } => axis_span,
+        _ => command.span,
+    };
+    let fault = Fault::new(error.code(), span, error.to_string());
+    let mut diagnostic = at.diagnostic(fault).with_axis(name.clone());
+    match error {
+        CompensationError::NotConfigured { kind, .. } if *kind != Kind::Frict => {
+            let facts = kind.facts();
+            diagnostic = diagnostic.with_help(format!(
+                "set {} (`{}`) in the axis list of `{name}` and restart the control",
+                facts.parameter, facts.selector
+            ));
         }
-        diagnostic
-    }
-
-    /// Adds advice on an axis that the machine does not have. Without a configuration the axes of the machine
-    /// are not known (R2.20).
-    fn advise_on_axis(&self, mut diagnostic: Diagnostic, name: &str) -> Diagnostic {
-        let known: Vec<&str> = self
-            .machine
-            .axes
-            .iter()
-            .map(|axis| axis.name.as_str())
-            .collect();
-        let configured = self.machine.axis_set == AxisSet::Configured;
-        let slaves = &self.machine.gantry_slaves;
-        if let Some(slave) = slaves.iter().find(|slave| slave.name == name) {
-            // R1.43
-            return diagnostic.with_help(match &slave.master {
-                Some(master) => format!(
-                    "`{name}` follows `{master}` as its static gantry slave; programs address only `{master}`"
+        CompensationError::NotConfigured { .. } => {
+            let axis = machine.find(name).map(|axis| machine.axis(axis));
+            let undescribed = axis.filter(|axis| !axis.is_described());
+            diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
+                Some(Origin::File { file, line }) => Advice::ConfigureInList {
+                    axis: name.clone(),
+                    file: file.clone(),
+                    line: *line,
+                },
+                _ => undescribed.map_or_else(
+                    || format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
+                    Axis::describing,
                 ),
-                None => format!("`{name}` is the slave of a static gantry, which programs do not address"),
             });
+            // Otherwise a list of all axes is shown above (R1.37).
+            if machine.is_described() {
+                diagnostic = diagnostic.with_help(Advice::Enable(vec![name.clone()]));
+            }
+            diagnostic
+                .fixes
+                .extend(axis.and_then(|axis| axis.configuring.clone()));
         }
-        let near = if configured {
-            nearest(name, known.iter().copied())
-        } else {
-            let same = known.iter().find(|axis| axis.eq_ignore_ascii_case(name));
-            same.copied().into_iter().collect()
-        };
-        diagnostic = diagnostic.with_near(name, &near);
-        if configured {
-            let all = known.join(", ");
-            diagnostic = diagnostic.with_help(format!("the configuration lists all axes: {all}"));
-            let one_more = self.machine.one_more_axis.as_ref();
-            let added = one_more.filter(|_| is_axis_name(name));
-            diagnostic.fixes.extend(added.map(|fix| fix.guess(name)));
-        } else {
-            diagnostic.message = format!(
-                "no machine is described, and `{name}` is not one of the axes assumed without one"
-            );
+        CompensationError::UnknownAxis { .. } => {
+            diagnostic = advise_on_axis(machine, diagnostic, name);
         }
-        diagnostic.with_help(Advice::AddAxis(name.to_owned()))
+        CompensationError::Coupled { .. } => {
+            diagnostic =
+                diagnostic.with_help("release the coupling first, with `#DISABLE AX LINK`");
+        }
+        CompensationError::ReadAsRefused { rule, .. } => {
+            diagnostic = diagnostic.with_help(format!(
+                "`\"{rule}\"` in `[reading]` selects this reading; the documents leave it open"
+            ));
+        }
+        CompensationError::Spindle { .. } => {
+            diagnostic =
+                diagnostic.with_help("name an axis; a spindle in axis mode has its axis name");
+        }
     }
+    diagnostic
+}
+
+/// Adds advice on an axis that the machine does not have. Without a configuration the axes of the machine
+/// are not known (R2.20).
+fn advise_on_axis(machine: &Machine, mut diagnostic: Diagnostic, name: &str) -> Diagnostic {
+    let known: Vec<&str> = machine.axes.iter().map(|axis| axis.name.as_str()).collect();
+    let configured = machine.axis_set == AxisSet::Configured;
+    let slaves = &machine.gantry_slaves;
+    if let Some(slave) = slaves.iter().find(|slave| slave.name == name) {
+        // R1.43
+        return diagnostic.with_help(match &slave.master {
+            Some(master) => format!(
+                "`{name}` follows `{master}` as its static gantry slave; programs address only `{master}`"
+            ),
+            None => format!("`{name}` is the slave of a static gantry, which programs do not address"),
+        });
+    }
+    let near = if configured {
+        nearest(name, known.iter().copied())
+    } else {
+        let same = known.iter().find(|axis| axis.eq_ignore_ascii_case(name));
+        same.copied().into_iter().collect()
+    };
+    diagnostic = diagnostic.with_near(name, &near);
+    if configured {
+        let all = known.join(", ");
+        diagnostic = diagnostic.with_help(format!("the configuration lists all axes: {all}"));
+        let one_more = machine.one_more_axis.as_ref();
+        let added = one_more.filter(|_| is_axis_name(name));
+        diagnostic.fixes.extend(added.map(|fix| fix.guess(name)));
+    } else {
+        diagnostic.message = format!(
+            "no machine is described, and `{name}` is not one of the axes assumed without one"
+        );
+    }
+    diagnostic.with_help(Advice::AddAxis(name.to_owned()))
 }
 
 /// Whether a name is one of a transformation between the coordinates of the program and those of the axes.

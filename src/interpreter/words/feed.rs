@@ -6,16 +6,15 @@ use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::{AfterError, BlockContext, BlockOutcome, Feed};
 use crate::interpreter::executor::Executor;
-use crate::interpreter::motion::form::MovedAxis;
 use crate::interpreter::options::StopPolicy;
-use crate::interpreter::programs::calls::{Configured, FunctionWord, is_main_program};
+use crate::interpreter::programs::calls::{Configured, FunctionWord};
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::value::rounded;
 use crate::interpreter::ways::history::Split;
 use crate::interpreter::ways::possible_state::ways_of;
 use crate::interpreter::ways::words::limit_to;
 use crate::interpreter::words::refusal::StopScope;
-use crate::language::{AxisWords, Certainty, GFunction, MotionKind};
+use crate::language::{AxisWords, GFunction};
 use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, Item, Operand, Word};
@@ -61,16 +60,12 @@ impl Executor {
         if !self.moves_at_feed(outcome) {
             return;
         }
-        let span = self
-            .scratch
-            .moves
-            .moved
-            .first()
-            .map_or(Span::default(), |word| word.span);
+        let first = self.scratch.moves.words().first();
+        let span = first.map_or(Span::default(), |word| word.span);
         let functions = &self.state.control.modal.functions;
         if functions.programmed_feed().is_some() {
             self.refuse_feed_of_zero(span, at);
-        } else if !self.runs_main_program() {
+        } else if !self.position().runs_main_program() {
             // A subprogram runs with the feed of its caller.
             self.state.control.modal.functions.perhaps_give_feeds();
             return;
@@ -120,14 +115,9 @@ impl Executor {
 
     /// Whether the block moves along its axis words at the feed in force.
     fn moves_at_feed(&self, outcome: &BlockOutcome) -> bool {
-        let geometry = self.scratch.moves.geometry.as_ref();
-        let is_other = geometry.is_some_and(|it| it.foreign.is_some() || it.end_feed.is_some());
         outcome.axis_words == AxisWords::Motion
-            && !self.scratch.moves.moved.is_empty()
-            && self.scratch.moves.word_row.is_none()
             && self.state.control.described.is_none()
-            && self.state.control.modal.functions.is_feed_move()
-            && !is_other
+            && self.scratch.moves.is_at_feed(&self.state.control.modal)
             && !self.is_halted()
     }
 
@@ -161,21 +151,11 @@ impl Executor {
                         let word = FunctionWord { letter, number };
                         self.calls_by_words() && !matches!(self.configured(word), Configured::None)
                     }
-                    Address::Letter(letter) => moves && self.letter_axis(letter).is_some(),
+                    Address::Letter(letter) => moves && self.axes().letter(letter).is_some(),
                     Address::Name(_) | Address::Main(_) => moves,
                     Address::Lower(_) => false,
                 }
             })
-    }
-
-    /// Whether the file that runs is a main program: one that ends with M02 or M30.
-    fn runs_main_program(&self) -> bool {
-        let Some(frame) = self.state.control.frames.iter().next() else {
-            return true;
-        };
-        let index = self.programs.index(frame.unit);
-        let start = index.sections.get(frame.section).map_or(0, |it| it.start);
-        index.entries.is_empty() || is_main_program(index.text_from(frame.section, start))
     }
 }
 
@@ -186,23 +166,6 @@ fn feed_word(block: &Block) -> Option<Span> {
 }
 
 impl Executor {
-    /// The axes that the block certainly moves, except by homing, and the words that move them (R1.36).
-    fn moved_in_automatic(&self, words: AxisWords) -> Vec<(AxisIndex, Span)> {
-        let homing_counts = self.machine.readings.takes_second(Question::Homing);
-        let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring)
-            || (homing_counts && words == AxisWords::Homing);
-        let of_words = self.scratch.moves.moved.iter().filter(|_| is_motion);
-        let of_words = of_words.map(|word| (word.axis, word.span));
-        let counts = |motion: &&MovedAxis| {
-            motion.certainty == Certainty::Certain
-                && (homing_counts || motion.kind != MotionKind::Homing)
-        };
-        let others = self.scratch.moves.also_moved.iter().filter(counts);
-        of_words
-            .chain(others.map(|motion| (motion.axis, motion.span)))
-            .collect()
-    }
-
     /// Notes that it matters whether homing is monitored: G74 moves an axis without a compensation that it
     /// requires.
     fn note_homing(&mut self, words: AxisWords) {
@@ -211,12 +174,7 @@ impl Executor {
             let mut required = self.machine.axis(axis).monitored().iter();
             required.any(|kind| compensation.state(axis, kind) != State::Active)
         };
-        let of_words = self.scratch.moves.moved.iter().map(|word| word.axis);
-        let others = self.scratch.moves.also_moved.iter();
-        let others = others.filter(|it| it.kind == MotionKind::Homing);
-        if of_words.filter(|_| words == AxisWords::Homing).any(lacks)
-            || others.map(|it| it.axis).any(lacks)
-        {
+        if self.scratch.moves.homed(words).any(lacks) {
             self.state.rests_on.insert(Question::Homing);
         }
     }
@@ -224,7 +182,7 @@ impl Executor {
     /// Notes that it matters whether a command acts before the motion of its block (R1.9).
     pub(crate) fn note_command_with_motion(&mut self) {
         let is_taken = self.scratch.outcomes.iter().any(|it| it.result.is_ok());
-        if is_taken && !self.scratch.moves.moved.is_empty() {
+        if is_taken && !self.scratch.moves.words().is_empty() {
             self.state.rests_on.insert(Question::WithMotion);
         }
     }
@@ -247,7 +205,8 @@ impl Executor {
         }
         let machine = Arc::clone(&self.machine);
         self.note_homing(words);
-        for (axis, span) in self.moved_in_automatic(words) {
+        let homing_counts = machine.readings.takes_second(Question::Homing);
+        for (axis, span) in self.scratch.moves.certain(words, homing_counts) {
             let state = |kind| self.state_in_motion(axis, kind);
             let required = machine.axis(axis).monitored();
             let missing = required

@@ -223,8 +223,8 @@ impl Executor {
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
         let (value, doubt) = self.asked_value(condition, at)?;
-        let whole = self.current_block();
-        let is_open = self.is_unclosed(whole.start);
+        let whole = self.position().current_block();
+        let is_open = self.position().is_unclosed(whole.start);
         if is_open && value.truth() != Some(false) {
             self.warn_unclosed(span, at);
         }
@@ -248,19 +248,10 @@ impl Executor {
     /// The branches after the one that was executed are passed over. Without `$ENDIF` there is nothing to be found after
     /// them.
     fn skip_other_branches(&mut self, links: Links, after: ControlStep) -> ControlStep {
-        if self.is_unclosed(links.opener) {
+        if self.position().is_unclosed(links.opener) {
             self.state.control.seek(Seeking::Condition);
         }
         after
-    }
-
-    /// Whether an `$IF` of the running file has no `$ENDIF`.
-    fn is_unclosed(&self, opener: EntryIndex) -> bool {
-        let frame = self.state.control.frames.running();
-        frame.is_some_and(|frame| {
-            let index = self.programs.index(frame.unit);
-            index.unclosed.contains(&index.links(opener).opener)
-        })
     }
 
     /// P-ERR-20375: an `$IF` has no `$ENDIF`.
@@ -459,7 +450,7 @@ impl Executor {
         span: Span,
         at: &BlockContext<'_>,
     ) -> Result<(), Box<Fault>> {
-        let what = match self.jump_across(to) {
+        let what = match self.position().jump_across(to) {
             JumpAcross::Nothing => return Ok(()),
             JumpAcross::WithinLoop => {
                 let what = "this jump stays within its loop, which the control refuses";
@@ -476,15 +467,6 @@ impl Executor {
         let refusal = PossibleRefusal::asked(21480, Question::JumpInto);
         self.may_refuse(refusal, what, span, at);
         Ok(())
-    }
-
-    /// What a jump from the current block crosses.
-    pub(crate) fn jump_across(&self, to: EntryIndex) -> JumpAcross {
-        let frames = &self.state.control.frames;
-        match (frames.running(), frames.entry()) {
-            (Some(frame), Some(from)) => self.programs.index(frame.unit).jump_across(from, to),
-            _ => JumpAcross::Nothing,
-        }
     }
 }
 

@@ -40,7 +40,7 @@ impl Executor {
     ) -> Result<(), Box<Fault>> {
         let command = hash.command;
         if command.path == PathFlow::MayRest {
-            self.scratch.moves.rests.set(true);
+            self.scratch.moves.rest();
         }
         self.scratch.read.plc_acts |= command.lets_plc_act();
         self.check_flushing(hash, at)?;
@@ -58,19 +58,16 @@ impl Executor {
             HashAction::Delete => return self.delete(hash, at),
             HashAction::Dwell => {
                 outcome.axis_words = AxisWords::Other;
-                self.scratch.moves.dwells = true;
+                self.scratch.moves.dwell();
                 if let Some(&time) = hash.arguments.first() {
                     let seconds = self.number(time, hash.span, at)?;
-                    self.scratch.geometry().dwell = Some(seconds);
+                    self.scratch.moves.geometry().dwell = Some(seconds);
                 }
             }
-            HashAction::DefineCoupling(by) => {
-                let axes = self.members(by, &hash.brackets, at.text);
-                self.define_coupling(hash, axes, at);
-            }
+            HashAction::DefineCoupling(by) => self.define_coupling(by, hash, at),
             HashAction::EnableCoupling => self.enable_coupling(hash, at),
             HashAction::ReleaseCoupling => self.disable_coupling(hash, at),
-            HashAction::ReleaseCouplings => self.release_couplings(),
+            HashAction::ReleaseCouplings => self.state.control.release_couplings(),
             HashAction::EndModalCycles => self.state.control.cycles = ModalCycles::default(),
             HashAction::ForgetMacros => {
                 self.state.control.memory.clear_macros();
@@ -156,7 +153,7 @@ impl Executor {
         self.couple_by(hash, at);
         self.command_motion(hash, at);
         if command.unmodelled.is_some() {
-            self.scratch.geometry().foreign = command.unmodelled;
+            self.scratch.moves.geometry().foreign = command.unmodelled;
         }
         self.pace_command(hash, at);
         for target in &hash.written {
@@ -203,13 +200,13 @@ impl Executor {
                 self.perhaps_move_all();
             }
             Touches::Plane => {
-                for axis in self.plane_axes() {
+                for axis in self.axes().plane(&self.state.control.modal) {
                     self.state.control.modal.havoc_position(axis);
-                    self.scratch.perhaps_move(axis);
+                    self.scratch.moves.perhaps_move(axis);
                 }
             }
             Touches::Friction => {
-                for axis in self.axes_or_all(&hash.brackets, at.text) {
+                for axis in self.axes().given_or_all(&hash.brackets, at.text) {
                     self.havoc(axis, KindSet::of(Kind::Frict));
                 }
                 self.say_undescribed(hash, at);
@@ -295,7 +292,7 @@ impl Executor {
 
     /// `#RT WHILE` runs as long as its condition on a real-time variable holds (tf5261, 783727499).
     fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>) {
-        let whole = self.current_block();
+        let whole = self.position().current_block();
         if !whole.is_empty() {
             let cause = Unknown::text("V.RTG.LOOP.ENABLED");
             self.pass_over_part(cause, span, at);
@@ -554,9 +551,6 @@ fn named(machine: &Machine, arguments: &BracketArguments, text: &str) -> Vec<Axi
     }
 }
 
-/// The group in which saved couplings are restored.
-const RESTORED_GROUP: &str = "1";
-
 impl Executor {
     /// Executes a command of saved configurations.
     fn saved_config(
@@ -607,7 +601,7 @@ impl Executor {
                 let what =
                     "which axes are restored here is not known: no program of this run saved them";
                 self.may_refuse(21274, what, hash.span, at);
-                self.state.control.havoc_exchange();
+                self.state.control.channel_axes.havoc();
             }
         }
         Ok(())
@@ -615,10 +609,7 @@ impl Executor {
 
     fn load_links(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         match self.state.control.saved.links.clone() {
-            SavedItem::Known(axes) => {
-                self.release_couplings();
-                self.restore_couplings(RESTORED_GROUP, axes);
-            }
+            SavedItem::Known(axes) => self.state.control.restore_couplings(axes, &self.machine),
             SavedItem::Nothing => {
                 let what = "no couplings are saved, and the control refuses to restore them";
                 return Err(Fault::refused(Code::PErr21275, hash.span, what));
@@ -626,25 +617,17 @@ impl Executor {
             SavedItem::Perhaps => {
                 let what = "which couplings are restored here is not known: no program of this run saved them";
                 self.may_refuse(21275, what, hash.span, at);
-                self.couple_any();
+                self.state.control.couple_any(&self.machine);
             }
         }
         Ok(())
-    }
-
-    /// Any axes may be coupled.
-    pub(crate) fn couple_any(&mut self) {
-        let all = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
-        let changed = self.state.control.couplings.define(RESTORED_GROUP, all);
-        self.state.control.mark_coupled(changed);
-        self.havoc_couplings();
     }
 }
 
 impl ControlState {
     fn save_config(&mut self, axes: bool, links: bool) {
         if axes {
-            self.saved.axes = if self.channel_axes.doubtful {
+            self.saved.axes = if self.channel_axes.is_doubtful() {
                 SavedItem::Perhaps
             } else {
                 SavedItem::Known(self.channel_axes.clone())

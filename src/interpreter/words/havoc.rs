@@ -5,10 +5,9 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet, Membership};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::block::{BlockContext, BlockScratch, LeftOpen};
+use crate::interpreter::block::{BlockContext, LeftOpen};
 use crate::interpreter::control::{ControlState, Description};
 use crate::interpreter::executor::Executor;
-use crate::interpreter::motion::form::MovedAxis;
 use crate::interpreter::values::handover::VariableUse;
 use crate::interpreter::values::location::{Location, Unknown};
 use crate::interpreter::values::value::Value;
@@ -17,9 +16,8 @@ use crate::interpreter::ways::history::Split;
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::words::questions::answers;
-use crate::language::{Certainty, MotionKind};
 use crate::syntax::ast::{Effect as Unread, Hash};
-use crate::text::{Place, Span};
+use crate::text::Place;
 
 impl Executor {
     /// Makes unknown what text of unknown meaning could change (R2.70).
@@ -40,7 +38,7 @@ impl Executor {
         self.state.control.memory.havoc_macros(cause, |_, _| false);
         self.state.control.modal.havoc_words();
         self.perhaps_move_all();
-        self.havoc_couplings();
+        self.state.control.havoc_couplings();
         self.havoc_compensation();
     }
 
@@ -54,21 +52,8 @@ impl Executor {
 
     /// It is not known whether any axis moves.
     pub(crate) fn perhaps_move_all(&mut self) {
-        let count = self.machine.axes.len();
-        let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
-        if self
-            .scratch
-            .moves
-            .also_moved
-            .iter()
-            .filter(possible)
-            .count()
-            < count
-        {
-            for axis in (0..count).map(AxisIndex::new) {
-                self.scratch.perhaps_move(axis);
-            }
-        }
+        let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
+        self.scratch.moves.perhaps_move_all(axes);
     }
 
     /// Every parameter and variable becomes unknown.
@@ -99,18 +84,6 @@ impl Executor {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
             self.havoc(axis, kinds);
         }
-    }
-}
-
-impl BlockScratch {
-    /// It is not known whether an axis moves.
-    pub(crate) fn perhaps_move(&mut self, axis: AxisIndex) {
-        self.moves.also_moved.push(MovedAxis {
-            axis,
-            span: Span::default(),
-            kind: MotionKind::Unknown,
-            certainty: Certainty::Possible,
-        });
     }
 }
 

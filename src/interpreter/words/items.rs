@@ -185,7 +185,7 @@ impl Executor {
             Item::BareNumber(operand, span) => {
                 let value = self.number(*operand, *span, at)?;
                 if outcome.axis_words != AxisWords::Motion {
-                    self.scratch.geometry().dwell = Some(value);
+                    self.scratch.moves.geometry().dwell = Some(value);
                     return Ok(());
                 }
                 let found = span.of(at.text);
@@ -299,11 +299,8 @@ impl Executor {
             depth,
         };
         let inner = at.in_macro(&code, span, &shown);
-        let (said, moved) = (
-            self.scratch.messages.diagnostics.len(),
-            self.scratch.moves.moved.len(),
-        );
-        let also_moved = self.scratch.moves.also_moved.len();
+        let said = self.scratch.messages.diagnostics.len();
+        let moved = self.scratch.moves.len();
         let (switched, noted) = (
             self.scratch.outcomes.len(),
             self.scratch.read.notes.borrow().len(),
@@ -316,12 +313,7 @@ impl Executor {
         for diagnostic in &mut self.scratch.messages.diagnostics[said..] {
             diagnostic.place = at.place(span);
         }
-        for word in &mut self.scratch.moves.moved[moved..] {
-            word.span = span;
-        }
-        for motion in &mut self.scratch.moves.also_moved[also_moved..] {
-            motion.span = span;
-        }
+        self.scratch.moves.show_at(moved, span);
         for outcome in &mut self.scratch.outcomes[switched..] {
             outcome.command.span = span;
         }

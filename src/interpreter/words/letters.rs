@@ -1,15 +1,13 @@
 //! Words of a block: axes, G, M, T and the other letters (R2.20 to R2.25, R2.45, R2.46).
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
-
 use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
+use crate::interpreter::axes::AxisNameMeaning;
 use crate::interpreter::block::{BlockContext, BlockOutcome, Feed};
-use crate::interpreter::control::{AxisNameMeaning, ControlState};
+use crate::interpreter::control::ControlState;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
-use crate::interpreter::motion::form::{AxisWord, BlockEnd};
+use crate::interpreter::motion::form::BlockEnd;
 use crate::interpreter::programs::calls::FunctionWord;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
@@ -77,7 +75,7 @@ impl Executor {
                 }
                 match self.names.get(name) {
                     Some(axis) => self.axis_word(axis, word.span, number),
-                    None if self.is_main_spindle(name) => {
+                    None if self.axes().is_main_spindle(name) => {
                         self.state.control.modal.pace.speed(number);
                     }
                     None if name.starts_with('S') => {}
@@ -100,7 +98,7 @@ impl Executor {
     /// `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
     fn lower_axis(&mut self, letter: u8, span: Span, at: &BlockContext<'_>) {
         let upper = letter.to_ascii_uppercase();
-        let axis = self.letter_axis(upper);
+        let axis = self.axes().letter(upper);
         let mut fault = not_known(span.of(at.text), span);
         if let Some(axis) = axis {
             self.state.control.modal.havoc_position(axis);
@@ -122,7 +120,7 @@ impl Executor {
             Some(AxisNameMeaning::Axis(axis)) => self.axis_word(axis, span, value),
             Some(AxisNameMeaning::Released(_)) => self.say_released(name, span, at),
             Some(AxisNameMeaning::Unknown)
-                if is_axis || self.state.control.channel_axes.names.contains_key(name) =>
+                if is_axis || self.state.control.channel_axes.has(name) =>
             {
                 self.state.control.modal.havoc_positions();
                 self.perhaps_move_all();
@@ -149,20 +147,17 @@ impl Executor {
     /// A word of an axis that the machine does not have.
     fn lack_axis(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         let exchanged = &self.state.control.channel_axes;
-        let is_exchanged = exchanged.doubtful || exchanged.names.contains_key(name);
+        let is_exchanged = exchanged.is_doubtful() || exchanged.has(name);
         if self.machine.axes_are_listed && !is_exchanged {
-            self.scratch
-                .moves
-                .lacking
-                .push((name.to_owned(), at.in_block(span)));
+            let span = at.in_block(span);
+            self.scratch.moves.lack(name.to_owned(), span);
         }
         self.pass_over(name, span, at);
     }
 
     /// FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
-    #[cold]
     pub(crate) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
-        for (name, span) in std::mem::take(&mut self.scratch.moves.lacking) {
+        for (name, span) in self.scratch.moves.take_lacking() {
             let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
             if !moves || !self.state.is_new_word(&name) {
                 continue;
@@ -222,15 +217,7 @@ impl Executor {
     #[inline]
     pub(crate) fn axis_word(&mut self, axis: AxisIndex, span: Span, value: Option<f64>) {
         self.see(axis);
-        let bit = 1 << (axis.get() % 64);
-        self.scratch.moves.again |= self.scratch.moves.seen & bit;
-        self.scratch.moves.seen |= bit;
-        self.scratch.moves.moved.push(AxisWord {
-            axis,
-            span,
-            value,
-            from: None,
-        });
+        self.scratch.moves.take_word(axis, span, value);
     }
 
     /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
@@ -240,28 +227,18 @@ impl Executor {
         if !absolute || words == AxisWords::Other {
             return;
         }
-        let (mut first, mut said) = (BTreeMap::new(), BTreeSet::new());
-        let machine = Arc::clone(&self.machine);
-        let diagnostics = &mut self.scratch.messages.diagnostics;
-        self.scratch.moves.moved.retain(|word| {
-            let Some(&earlier) = first.get(&word.axis) else {
-                first.insert(word.axis, word.span);
-                return true;
-            };
-            if !said.insert(word.axis) {
-                return false;
-            }
-            let name = &machine.axis(word.axis).name;
+        for [first, second] in self.scratch.moves.drop_repeated() {
+            let name = &self.machine.axis(second.axis).name;
             let fault = Fault::new(
                 Code::Fc313,
-                word.span,
+                second.span,
                 format!("axis `{name}` has a second coordinate in this block"),
             )
             .with_help("give an axis one coordinate per block; several add up only with G91");
-            let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-            diagnostics.push(diagnostic.with_label(at.place(earlier), "the first one is here"));
-            false
-        });
+            let said = at.diagnostic(fault).with_axis(name.clone());
+            let said = said.with_label(at.place(first.span), "the first one is here");
+            self.scratch.messages.diagnostics.push(said);
+        }
     }
 
     fn letter(
@@ -318,7 +295,7 @@ impl Executor {
             }
             (b'M' | b'T' | b'D', number) => {
                 // A function may wait for its acknowledgement.
-                self.scratch.moves.rests.set(true);
+                self.scratch.moves.rest();
                 self.scratch.read.plc_acts |=
                     letter == b'M' && self.may_acknowledge(letter, number);
                 if letter == b'D' || gives_data {
@@ -334,7 +311,7 @@ impl Executor {
                 self.circle_word(letter, number, span);
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
-            (b'P', _) if self.scratch.moves.dwells => self.dwell_parameter(number),
+            (b'P', _) if self.scratch.moves.dwells() => self.dwell_parameter(number),
             (b'H', _) => {
                 let function = number.and_then(rounded);
                 self.scratch.read.plc_acts |= self.may_acknowledge(letter, function);
@@ -353,7 +330,7 @@ impl Executor {
 
     /// The feed at the end of the block; FC327 for one that is not above 0 (R2.113).
     fn end_feed_word(&mut self, feed: Option<f64>, span: Span, at: &BlockContext<'_>) {
-        self.scratch.geometry().end_feed = Some(feed);
+        self.scratch.moves.geometry().end_feed = Some(feed);
         if let Some(feed) = feed.filter(|feed| *feed <= 0.0) {
             let message = format!("the feed `{feed}` at the end of this block is not above 0");
             let fault = Fault::new(Code::Fc327, at.in_block(span), message);
@@ -398,16 +375,16 @@ impl Executor {
             GAction::Dwell => {
                 outcome.axis_words = function.axis_words;
                 self.scratch.read.plc_acts = true;
-                self.scratch.moves.dwells = true;
+                self.scratch.moves.dwell();
                 return Ok(());
             }
             GAction::RestAtEnd => {
-                self.scratch.moves.rests.set(true);
-                self.scratch.geometry().end = BlockEnd::ExactStop;
+                self.scratch.moves.rest();
+                self.scratch.moves.geometry().end = BlockEnd::ExactStop;
                 return Ok(());
             }
             GAction::RunAtFullSpeed => {
-                self.scratch.geometry().at_full_speed = true;
+                self.scratch.moves.geometry().at_full_speed = true;
                 return Ok(());
             }
             GAction::SetReference => {
@@ -449,14 +426,13 @@ impl Executor {
         if let Some(function) = GFunction::of(number) {
             self.check_flush(function.flushes, &format!("G{number}"), span, at);
             if let Some(motion) = function.motion {
-                self.scratch.moves.word_row = Some(motion);
-                self.scratch.moves.rests.set(true);
+                self.scratch.moves.move_as(motion);
             }
             if function.axis_words != AxisWords::Motion {
                 outcome.axis_words = function.axis_words;
             }
             if function.unmodelled.is_some() {
-                self.scratch.geometry().foreign = function.unmodelled;
+                self.scratch.moves.geometry().foreign = function.unmodelled;
             }
             if let Some((what, holds)) = function.simplifies {
                 self.simplify(what, holds);
@@ -472,49 +448,41 @@ impl Executor {
             self.state.control.modal.set_feed(feed);
         }
         if self.state.control.described.is_some() {
-            self.scratch.moves.moved.clear();
-            self.scratch.moves.geometry = None;
+            self.scratch.moves.drop_all();
             return;
         }
         // The lint for switches during motion looks at arcs (R1.57).
         let is_arc = self.state.control.modal.functions.is_arc();
-        let start = (is_arc || self.options.takes_motions()).then(|| self.state.control.stand());
-        let before = outcome.radius.map(|_| self.ends());
-        let coordinates = self.scratch.coordinates();
+        let is_followed = is_arc || self.options.takes_motions();
+        let start = is_followed.then(|| self.state.control.modal.positions().to_vec());
         let modal = &mut self.state.control.modal;
+        let moves = &mut self.scratch.moves;
+        let before = outcome.radius.map(|_| moves.ends(modal));
         match outcome.axis_words {
-            AxisWords::Motion => modal.move_axes(&mut self.scratch.moves.moved[..coordinates]),
+            AxisWords::Motion => modal.move_axes(moves.coordinates()),
             AxisWords::Homing | AxisWords::Measuring => {
-                for word in &self.scratch.moves.moved {
+                for word in moves.words() {
                     modal.havoc_position(word.axis);
                 }
             }
-            AxisWords::Reference => modal.set_references(&self.scratch.moves.moved),
+            AxisWords::Reference => modal.set_references(moves.words()),
             AxisWords::Other => {}
         }
         if let (Some(span), Some(before)) = (outcome.radius, before) {
             self.warn_full_circle(span, &before, at);
         }
-        if start.is_some() || self.scratch.moves.geometry.is_some() {
+        if start.is_some() || self.scratch.moves.has_geometry() {
             self.take_motion(start, outcome.axis_words);
         }
         if matches!(outcome.axis_words, AxisWords::Reference | AxisWords::Other) {
-            self.scratch.moves.moved.clear();
+            self.scratch.moves.drop_words();
         }
-    }
-
-    /// Returns the positions of the axes of the block's words, where they are known.
-    fn ends(&self) -> Vec<Option<f64>> {
-        let words = self.scratch.moves.moved[..self.scratch.coordinates()].iter();
-        words
-            .map(|word| self.state.control.modal.position(word.axis).value)
-            .collect()
     }
 
     /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
         let circular = self.state.control.modal.functions.is_arc();
-        let ends = self.ends();
+        let ends = self.scratch.moves.ends(&self.state.control.modal);
         let stays = !ends.is_empty() && ends.iter().all(Option::is_some) && ends == before;
         if circular && stays {
             let fault = Fault::new(

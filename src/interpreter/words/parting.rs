@@ -175,7 +175,7 @@ impl Executor {
         place: Span,
         at: &BlockContext<'_>,
     ) -> bool {
-        let next = self.next_block();
+        let next = self.position().next_block();
         let (goal, span) = match self.jump_after(place, at) {
             ConditionalJump::To(goal, span) => (goal, span),
             ConditionalJump::Missing(label, span) => {
@@ -191,7 +191,7 @@ impl Executor {
         };
         let asked = (ConditionKind::Branch, span);
         let across = if goal.labels.is_none() {
-            self.jump_across(goal.to)
+            self.position().jump_across(goal.to)
         } else {
             JumpAcross::Nothing
         };
@@ -216,7 +216,7 @@ impl Executor {
         at: &BlockContext<'_>,
     ) {
         if let Some((goal, span)) = self.possible_jump(place, at) {
-            let goals = vec![goal, Goal::block(self.next_block())];
+            let goals = vec![goal, Goal::block(self.position().next_block())];
             let texts = vec![span.of(at.text).trim().into()];
             self.part_by_cause(ConditionKind::Branch, (cause, span), (goals, texts), at);
         }
@@ -248,7 +248,7 @@ impl Executor {
         (cause, span): (Unknown, Span),
         at: &BlockContext<'_>,
     ) {
-        let next = self.next_block();
+        let next = self.position().next_block();
         let entry = next.saturating_sub(1);
         let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return;
@@ -311,7 +311,7 @@ impl Executor {
 
     /// Whether the jump after a condition goes back, so that its condition is that of a loop.
     pub(crate) fn jumps_back(&mut self, place: Span, at: &BlockContext<'_>) -> bool {
-        let next = self.next_block();
+        let next = self.position().next_block();
         let jump = self.jump_after(place, at);
         matches!(jump, ConditionalJump::To(goal, _) if goal.labels.is_none() && goal.to < next)
     }
@@ -398,7 +398,7 @@ impl Executor {
             reads: None,
             kept: None,
         };
-        let goals = vec![goal, Goal::block(self.next_block())];
+        let goals = vec![goal, Goal::block(self.position().next_block())];
         self.part(question, goals, at);
     }
 
@@ -421,11 +421,6 @@ impl Executor {
             let goals = [end, frame.next].map(Goal::block);
             self.part(question("M returns"), goals.into(), at);
         }
-    }
-
-    /// The block after the one being executed.
-    fn next_block(&self) -> EntryIndex {
-        self.state.control.frames.running().map_or(0, |it| it.next)
     }
 
     /// The jump at a place of a block or after it, before its next condition; `None` where its label does not exist.
@@ -538,7 +533,7 @@ impl Executor {
     /// The cases of the `$SWITCH` being executed, with their values, and the target of everything else.
     fn cases(&mut self, at: &BlockContext<'_>) -> Option<(Vec<(EntryIndex, Value)>, Goal)> {
         let unit = self.state.control.frames.running()?.unit;
-        let whole = self.current_block();
+        let whole = self.position().current_block();
         let mut cases: Vec<(EntryIndex, Value)> = Vec::new();
         let mut entry = self.programs.index(unit).links(whole.start).next;
         while entry < whole.end {
@@ -716,23 +711,4 @@ fn measures(number: f64) -> bool {
     GFunction::of_value(number).is_some_and(GFunction::is_measuring)
 }
 
-impl Executor {
-    /// Whether a jump of the running program may go to the block: it names the number or the label of the block, or
-    /// computes its target.
-    pub(crate) fn may_be_jumped_to(&self, at: &BlockContext<'_>) -> bool {
-        let Some(frame) = self.state.control.frames.running() else {
-            return true;
-        };
-        let targets = &self.programs.index(frame.unit).targets;
-        let number = at.block.number.map(|number| match number.value {
-            Operand::Number(number) => Some(LabelName::numbered(number)),
-            Operand::Expression(_) => None,
-        });
-        let labels = at.block.items.iter().filter_map(|item| match item {
-            Item::Label(name) => Some(Some(LabelName::Text(name.of(at.text).to_owned()))),
-            _ => None,
-        });
-        let mut names = number.into_iter().chain(labels);
-        names.any(|name| name.is_none_or(|name| targets.may_be(&name)))
-    }
-}
+impl Executor {}

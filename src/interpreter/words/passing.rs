@@ -10,10 +10,10 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::axes::Addressed;
 use crate::interpreter::block::{
     BlockContext, BlockOutcome, MacroCode, OwnEnd, PassedBlocks, ShownBlockLines,
 };
-use crate::interpreter::control::Addressed;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::options::StopPolicy;
@@ -285,7 +285,7 @@ impl EffectReader<'_> {
         let links = matches!(moves, Some(Moves::Gantry | Moves::Follower));
         self.effects.add_if(links, WideEffect::Followers);
         if hash.command.touches == Touches::Friction {
-            let axes = self.run.axes_or_all(&hash.brackets, at.text);
+            let axes = self.run.axes().given_or_all(&hash.brackets, at.text);
             let frict = KindSet::of(Kind::Frict);
             self.effects.switched.extend(all(axes, frict));
         }
@@ -328,8 +328,8 @@ impl EffectReader<'_> {
     /// A word of an axis, or one that stays in force.
     fn axis_word(&mut self, name: &str) {
         let control = &self.run.state.control;
-        match self.run.axis_named(name) {
-            _ if control.channel_axes.doubtful => self.effects.add(WideEffect::AnyMotion),
+        match self.run.axes().named(name) {
+            _ if control.channel_axes.is_doubtful() => self.effects.add(WideEffect::AnyMotion),
             Some(axis) => _ = self.effects.moved.insert(axis),
             None => self.effects.add(WideEffect::ModalWords),
         }
@@ -443,7 +443,7 @@ impl Executor {
         let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return;
         };
-        let whole = self.current_block();
+        let whole = self.position().current_block();
         let message = format!(
             "how this control block is executed depends on {}; whatever it could change is unknown from here on",
             cause.seen_from(at.file)
@@ -677,7 +677,7 @@ impl Executor {
         }
         for axis in &effects.moved {
             self.state.control.modal.havoc_position(*axis);
-            self.scratch.perhaps_move(*axis);
+            self.scratch.moves.perhaps_move(*axis);
             self.see(*axis);
         }
         if effects.has(WideEffect::ModalWords) {
@@ -694,10 +694,10 @@ impl Executor {
             self.state.control.couplings.havoc_followers(&[]);
         }
         if effects.has(WideEffect::NewCouplings) {
-            self.couple_any();
+            self.state.control.couple_any(&self.machine);
         }
         if effects.has(WideEffect::Couplings) {
-            self.havoc_couplings();
+            self.state.control.havoc_couplings();
         }
         if effects.has(WideEffect::ModalCycles) {
             self.state.control.cycles.havoc();
@@ -705,7 +705,7 @@ impl Executor {
         if effects.has(WideEffect::Anything) {
             self.havoc_all(cause);
             self.state.control.cycles.havoc();
-            self.state.control.havoc_exchange();
+            self.state.control.channel_axes.havoc();
             self.state.control.files.change(None);
         }
         let couples = effects.has(WideEffect::NewCouplings)

@@ -191,7 +191,7 @@ impl Executor {
         let keeps = self.machine.programs.keeps(&name);
         self.scratch.read.plc_acts = true;
         if !keeps.compensation {
-            self.havoc_couplings();
+            self.state.control.havoc_couplings();
             self.havoc_compensation();
         }
         if !keeps.parameters {

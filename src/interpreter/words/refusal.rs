@@ -406,7 +406,7 @@ impl Executor {
         if self.options.stop == StopPolicy::KeepGoing {
             return;
         }
-        let is_passed_into = !self.may_be_jumped_to(at);
+        let is_passed_into = !self.position().may_be_jumped_to(at);
         let sides = self.sides_after(ways, after, at);
         // The states after a reset and after a restart differ, which is reported.
         let is_one_end = sides.len() == 1;

@@ -14,11 +14,11 @@ impl Linter<'_> {
         if self.machine.readings.takes_second(Question::LookAhead) {
             return;
         }
-        if executed.rests && executed.moved.is_empty() {
+        if executed.moves.rests() && executed.moved.is_empty() {
             self.jumps.clear();
             return;
         }
-        if !executed.outcomes.is_empty() && !executed.rests {
+        if !executed.outcomes.is_empty() && !executed.moves.rests() {
             self.note_jumps(executed);
         }
         if executed.moved.is_empty() || self.jumps.is_empty() {
@@ -51,12 +51,12 @@ impl Linter<'_> {
             let Some(change) = change.filter(|it| matters(it.from, it.to)) else {
                 continue;
             };
-            let mut moved = executed.aside.last_moved.iter();
+            let mut moved = executed.moves.last_words().iter();
             let word = moved.find(|word| word.axis == axis);
             // In a block with motion words, the current position is the one after them.
             let to = executed.moved.iter().find(|word| word.axis == axis);
             let to = to.map_or_else(|| position(axis, executed), |word| word.from);
-            let rises = word.and_then(|word| match &executed.aside.last_arc {
+            let rises = word.and_then(|word| match executed.moves.arcs()[1] {
                 Some(arc) if to.is_some() && is_around(arc, axis) => {
                     tangent(arc, axis, ArcEnd::Last)
                 }
@@ -145,7 +145,7 @@ fn position(axis: AxisIndex, executed: &Executed<'_>) -> Option<f64> {
 }
 
 fn rises(word: &AxisWord, executed: &Executed<'_>) -> Option<bool> {
-    if let Some(arc) = &executed.aside.arc
+    if let Some(arc) = executed.moves.arcs()[0]
         && is_around(arc, word.axis)
     {
         position(word.axis, executed)?;

@@ -1,17 +1,17 @@
-//! The block that ends a hazard: its place, tried out before it is offered (R10.3).
+//! The block that ends a hazard: the places for it, inserted into a text that stays as it is everywhere else, and tried out
+//! before it is offered (R10.3).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::sync::Arc;
 
 use serde::Serialize;
 
 use super::effect::{Inherits, ProgramEffect};
-use super::insertion::{Insertion, with_blocks};
 use super::observation::Observation;
-use super::places::places;
 use super::program::{Auditor, AxisAudit};
 use super::runs::ProgramRuns;
-use crate::interpreter::{Interpreter, Observer};
+use crate::interpreter::{EndedBy, Interpreter, Observer};
 use crate::text::Numbering;
 
 /// Whether a block may change the state in which an axis moves.
@@ -347,4 +347,199 @@ pub struct Mending {
     pub at: usize,
     /// Side of the hazards to mend: [`Cure::Leavers`] or [`Cure::Inheritors`].
     pub cure: Cure,
+}
+
+/// A block that is inserted into a program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Insertion {
+    /// The line before which it is inserted, from 1; one past the last line means the end.
+    pub line: u32,
+    /// The block to insert, without its line end.
+    pub text: String,
+}
+
+/// Returns the places in a text at which blocks are inserted, and the text inserted there: each block on its own line,
+/// with the text's line ends (R10.3). In text order.
+pub fn insertions(text: &str, blocks: &[Insertion]) -> Vec<(Range<usize>, String)> {
+    let lines = lines(text);
+    let usual = lines.first().map_or("", |line| line_end(line.1));
+    let usual = if usual.is_empty() { "\n" } else { usual };
+    let is_open = lines.last().is_some_and(|last| line_end(last.1).is_empty());
+    let mut sorted: Vec<&Insertion> = blocks.iter().collect();
+    sorted.sort_by_key(|block| block.line);
+    let insertion = |block: &Insertion| {
+        let before = usize::try_from(block.line.saturating_sub(1)).unwrap_or(usize::MAX);
+        let end = match lines.get(before).map(|line| line_end(line.1)) {
+            Some(end) if !end.is_empty() => end,
+            _ => usual,
+        };
+        match lines.get(before) {
+            Some((from, _)) => (*from..*from, format!("{}{end}", block.text)),
+            // The last line of the text gets a line end; the block has none.
+            None if is_open => (text.len()..text.len(), format!("{end}{}", block.text)),
+            None => (text.len()..text.len(), format!("{}{end}", block.text)),
+        }
+    };
+    sorted.into_iter().map(insertion).collect()
+}
+
+/// Returns the text with the blocks inserted.
+pub(super) fn with_blocks(text: &str, blocks: &[Insertion]) -> String {
+    let mut result = String::with_capacity(text.len() + 40 * blocks.len());
+    let mut copied = 0;
+    for (range, inserted) in insertions(text, blocks) {
+        result.push_str(&text[copied..range.start]);
+        result.push_str(&inserted);
+        copied = range.end;
+    }
+    result.push_str(&text[copied..]);
+    result
+}
+
+/// Returns the offset of each line, and the line with its end.
+fn lines(text: &str) -> Vec<(usize, &str)> {
+    let mut lines = Vec::new();
+    let mut from = 0;
+    while from < text.len() {
+        let rest = &text[from..];
+        let end = rest.find(['\r', '\n']).unwrap_or(rest.len());
+        let ends = if rest[end..].starts_with("\r\n") {
+            2
+        } else {
+            1
+        };
+        let length = rest.len().min(end + ends);
+        lines.push((from, &rest[..length]));
+        from += length;
+    }
+    lines
+}
+
+fn line_end(line: &str) -> &str {
+    &line[line.trim_end_matches(['\r', '\n']).len()..]
+}
+
+/// The most places that are tried.
+const MOST: usize = 16;
+
+/// Returns the lines before which blocks could go, the best ones first; several lines get a block
+/// each.
+pub(super) fn places<'a>(
+    text: &str,
+    mending: Mending,
+    runs: impl Iterator<Item = &'a ProgramRuns> + Clone,
+) -> Vec<Vec<u32>> {
+    let observations = runs.flat_map(|ProgramRuns { start_up, away, .. }| [start_up, away]);
+    let mut places = match mending.cure {
+        Cure::Inheritors => before_motions(mending.at, observations),
+        Cure::Leavers | Cure::None => before_ends(text, &observations),
+    };
+    let mut seen = BTreeSet::new();
+    places.retain(|place| !place.is_empty() && seen.insert(place.clone()));
+    places.truncate(MOST);
+    places
+}
+
+fn before_motions<'a>(
+    at: usize,
+    runs: impl Iterator<Item = &'a Observation> + Clone,
+) -> Vec<Vec<u32>> {
+    let moved = runs.clone().filter_map(|run| {
+        let moved = run.observed[at].inherited.as_ref();
+        moved.and_then(|moved| moved.within)
+    });
+    let firsts = runs.filter_map(|run| run.within.first_line);
+    let each = moved.clone().chain(firsts).map(|line| vec![line]);
+    let all: BTreeSet<u32> = moved.collect();
+    each.chain([all.into_iter().collect()]).collect()
+}
+
+fn before_ends<'a>(
+    text: &str,
+    runs: &(impl Iterator<Item = &'a Observation> + Clone),
+) -> Vec<Vec<u32>> {
+    let numbering = Numbering::of(text);
+    let ends = |end: &dyn Fn(&Observation) -> BTreeSet<u32>| {
+        let ends: BTreeSet<u32> = runs.clone().flat_map(end).collect();
+        ends.into_iter().collect::<Vec<_>>()
+    };
+    let end_after = |line: u32| after(&numbering, line);
+    // A file that others call ends with M17, however it is started.
+    let is_called = runs.clone().any(|run| !run.within.is_of_main());
+    let returned = |run: &Observation| match run.end {
+        _ if !run.within.is_of_main() => run.within.returns.clone(),
+        Some(line) if run.by != Some(EndedBy::EndOfFile) => BTreeSet::from([line]),
+        _ => {
+            let last = run.within.last_lines().next().unwrap_or_default();
+            BTreeSet::from([if is_called { last } else { end_after(last) }])
+        }
+    };
+    // A file that ends without M17 ends after its last block.
+    let run_out = |run: &Observation| {
+        let last = |line: u32| {
+            let end = end_after(line);
+            let is_last = end == line + 1;
+            if is_last { end } else { line }
+        };
+        returned(run).into_iter().map(last).collect()
+    };
+    // It may also end earlier, in a control block or at an error.
+    let each = |run: &Observation| run.ends.clone();
+    let back = runs.clone().take(1);
+    let back = back.flat_map(|run| run.within.last_lines());
+    [ends(&returned), ends(&run_out), ends(&each)]
+        .into_iter()
+        .chain(back.map(|line| vec![line]))
+        .collect()
+}
+
+/// Returns the line after the blocks that follow a line: the end of the file, or of its section.
+fn after(numbering: &Numbering<'_>, last: u32) -> u32 {
+    let lines = numbering.lines();
+    let last = usize::try_from(last).unwrap_or_default();
+    // Another program may follow in the same file.
+    let after = lines.iter().enumerate().skip(last);
+    let mut sections = after.filter(|(_, line)| line.trim_start().starts_with('%'));
+    let end = sections.next().map_or(lines.len(), |(at, _)| at);
+    let written = lines[..end]
+        .iter()
+        .rposition(|line| !line.trim().is_empty());
+    let end = written.map_or(0, |written| written + 1);
+    u32::try_from(end + 1).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn block(line: u32, text: &str) -> Insertion {
+        Insertion {
+            line,
+            text: text.to_owned(),
+        }
+    }
+
+    #[test]
+    fn nothing_but_the_blocks_is_added() {
+        // R10.3
+        for (before, blocks, after) in [
+            ("a\nb\n", &[block(2, "X")][..], "a\nX\nb\n"),
+            ("a\r\nb", &[block(2, "X")], "a\r\nX\r\nb"),
+            ("a\rb\r", &[block(1, "X"), block(3, "Y")], "X\ra\rb\rY\r"),
+            (
+                "a\r\nb",
+                &[block(3, "X"), block(3, "Y")],
+                "a\r\nb\r\nX\r\nY",
+            ),
+            (
+                "a\nb\n\n",
+                &[block(3, "X"), block(2, "Y")],
+                "a\nY\nb\nX\n\n",
+            ),
+            ("", &[block(1, "X")], "X\n"),
+        ] {
+            assert_eq!(with_blocks(before, blocks), after, "{before:?}");
+        }
+    }
 }

@@ -13,23 +13,17 @@
 
 mod archive;
 mod effect;
-mod insertion;
 mod mending;
 mod motions;
 mod observation;
-mod places;
 mod program;
 mod runs;
 mod scope;
-mod sequence;
-mod ways;
-mod within;
 
-pub use archive::{Archive, AxisFinding, MendedEnd};
+pub use archive::{Archive, AxisFinding, MendedEnd, Sequence, Step, StepAxis};
 pub use effect::{FirstMotion, Inherits, ProgramEffect, Site, WhyUnknown};
-pub use insertion::{Insertion, insertions};
-pub use mending::{Affected, CuredMotions, Mended, Missed, WhyMissed, mend};
-pub use mending::{Cure, Mending};
+pub use mending::{
+    Affected, Cure, CuredMotions, Insertion, Mended, Mending, Missed, WhyMissed, insertions, mend,
+};
 pub use program::{Auditor, AxisAudit, Ending, ProgramAudit};
 pub use scope::{AuditedKind, Scope, Selected};
-pub use sequence::{Sequence, Step, StepAxis};

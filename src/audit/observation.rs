@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::effect::{FirstMotion, Site, WhyUnknown};
 use super::motions::{SelectionAtMotions, Stood};
+use super::runs::Within;
 use super::scope::{AuditedKind, Scope, Selected};
-use super::within::Within;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{

@@ -1,11 +1,10 @@
-//! The compensation state of every axis and what a COMP command does to it.
+//! What compensation depends on, the COMP command as data, the compensation state of every axis, and what a command does to it.
 
 use serde::{Deserialize, Serialize};
 
-use super::axis::{AxisIndex, AxisSetup};
-use super::command::{CompCommand, Selection};
 use super::error::CompensationError;
 use super::kind::{Kind, KindSet, Membership};
+use crate::text::Span;
 
 /// The compensation of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -357,4 +356,90 @@ pub struct Change {
     pub from: State,
     /// The state after it.
     pub to: State,
+}
+
+/// The position of an axis in the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct AxisIndex(u16);
+
+impl AxisIndex {
+    /// Creates the index from a position in the axis list.
+    pub fn new(position: usize) -> Self {
+        Self(u16::try_from(position).expect("a control has fewer than 65536 axes"))
+    }
+
+    /// Returns the position in the axis list.
+    pub fn get(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// The properties of an axis that matter to compensation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct AxisSetup {
+    /// The name in NC programs, case-sensitive.
+    pub name: String,
+    /// Whether it is a spindle; spindles have no COMP.
+    pub is_spindle: bool,
+    /// The kinds that the axis parameters configure.
+    pub configured: KindSet,
+    /// The kinds that are known not to be configured, so that the control refuses to switch them on
+    /// (R1.24, R1.41).
+    pub unselected: KindSet,
+    /// The kinds that only the program activates and that switch off at program end (R1.40).
+    pub manual: KindSet,
+    /// The kinds that have all values they need to work.
+    pub parameterised: KindSet,
+}
+
+impl AxisSetup {
+    /// Creates an axis on which the kinds are configured and parameterised. Of the other kinds,
+    /// only FRICT is known not to be configured.
+    pub fn new(name: impl Into<String>, configured: KindSet) -> Self {
+        Self {
+            name: name.into(),
+            is_spindle: false,
+            configured,
+            unselected: KindSet::of(Kind::Frict).without(configured),
+            manual: KindSet::NONE,
+            parameterised: configured,
+        }
+    }
+}
+
+/// Selection of a COMP bracket.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Selection {
+    /// `ON` and the kinds after it.
+    On(KindSet),
+    /// `OFF` and the kinds after it.
+    Off(KindSet),
+    /// `OFF_ALL`.
+    OffAll,
+}
+
+impl Selection {
+    /// Returns the kinds that the command names; `OFF_ALL` names every kind (R1.3).
+    pub fn kinds(self) -> KindSet {
+        match self {
+            Self::On(kinds) | Self::Off(kinds) => kinds,
+            Self::OffAll => KindSet::ALL,
+        }
+    }
+}
+
+/// One understood COMP command, `X[COMP ON FRICT]`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct CompCommand {
+    /// The axis before the bracket.
+    pub axis: String,
+    /// Kinds to switch.
+    pub selection: Selection,
+    /// Whether the bracket contains `NO_MOVE`, which does not matter to friction compensation (R1.6).
+    pub no_move: bool,
+    /// From the axis name to the closing bracket.
+    pub span: Span,
 }

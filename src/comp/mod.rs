@@ -4,19 +4,14 @@
 //! It depends on no files, no interpreter and no clock. A host with its own interpreter passes it
 //! the COMP commands that it meets and gets the changes, or the control's own error.
 
-mod axis;
-mod build;
-mod command;
 mod compensation;
 mod error;
 mod facts;
 mod kind;
 
-pub use axis::{AxisIndex, AxisSetup};
-pub use build::{CncBuild, NoBuild};
-pub use command::{CompCommand, Selection};
-pub use compensation::{Change, State};
-pub use compensation::{Compensation, Coupling};
+pub use compensation::{
+    AxisIndex, AxisSetup, Change, CompCommand, Compensation, Coupling, Selection, State,
+};
 pub use error::CompensationError;
-pub use facts::Facts;
+pub use facts::{CncBuild, Facts, NoBuild};
 pub use kind::{Kind, KindSet, Membership, UnknownKind};

@@ -4,12 +4,9 @@ use std::sync::Arc;
 
 use toml::de::DeTable;
 
-use super::advice::no_toml;
-use super::axis::{AXIS, AxisTable, VALUE};
-use super::error::ConfigError;
-use super::machine::{MACHINE, MachineTable};
-use super::one_more_axis::one_more_axis;
-use super::readings;
+use super::axis::{AXIS, AxisTable, VALUE, one_more_axis};
+use super::error::{ConfigError, no_toml};
+use super::machine::{MACHINE, MachineTable, selected_readings};
 use super::section::{Section, Shape};
 use crate::diagnostic::{Code, Levels, NamedFix, Severity};
 use crate::lists::{Given, Written};
@@ -98,7 +95,7 @@ impl ConfigFile {
             levels: levels(&root)?,
             extensions: extensions(&root)?,
             exclude: exclude(&root)?,
-            readings: readings::read(&root)?,
+            readings: selected_readings(&root)?,
             axes: AxisTable::read_all(&root)?,
             one_more_axis: one_more_axis(&root),
         })

@@ -2,8 +2,7 @@
 
 use super::axis::{AXIS, VALUE};
 use super::file::{CHECK, LINT, ROOT, VARIABLES};
-use super::machine::{EXTERNAL_KEEPS, MACHINE, WORDS};
-use super::readings::{CONFIRMATION, CONFIRMED, READING};
+use super::machine::{CONFIRMATION, CONFIRMED, EXTERNAL_KEEPS, MACHINE, READING, WORDS};
 use super::section::Shape;
 
 /// The form of a value.
@@ -351,7 +350,7 @@ pub static CONFIG_FORMS: [TableForm; 12] = [
 
 #[cfg(test)]
 mod tests {
-    use super::super::keys::keys;
+    use super::super::section::keys;
     use super::*;
 
     #[test]

@@ -4,26 +4,20 @@
 // Without the feature, the items that only they see are in effect private.
 #![cfg_attr(not(feature = "unstable"), allow(unreachable_pub, dead_code))]
 
-mod advice;
 mod axis;
 mod error;
 mod file;
 mod forms;
-mod keys;
 mod machine;
-mod one_more_axis;
-mod readings;
 mod section;
 
-#[cfg(feature = "unstable")]
-pub use advice::example;
 pub(crate) use axis::AxisTable;
 pub use error::ConfigError;
+#[cfg(feature = "unstable")]
+pub use error::example;
 pub(crate) use file::{ConfigFile, ConfiguredVariable};
 #[cfg(feature = "unstable")]
 pub use forms::{CONFIG_FORMS, Form, KeyForm, TableForm};
-#[cfg(feature = "unstable")]
-pub use keys::keys;
 pub(crate) use machine::MachineTable;
 #[cfg(feature = "unstable")]
-pub use section::{Section, Shape};
+pub use section::{Section, Shape, keys};

@@ -1,12 +1,14 @@
-//! Tables of TOML with the place of everything in them.
+//! Tables of TOML with the place of everything in them, and the keys that `frictcomp.toml` may have.
 
 use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::advice::example;
-use super::error::ConfigError;
+use super::axis::{AXIS, VALUE};
+use super::error::{ConfigError, example};
+use super::file::{CHECK, LINT, ROOT, VARIABLES};
+use super::machine::{CONFIRMATION, CONFIRMED, EXTERNAL_KEEPS, MACHINE, READING, WORDS};
 use crate::lists::{Given, Number, Written};
 use crate::syntax::SkipLevels;
 use crate::text::{SourceFile, Span};
@@ -376,4 +378,27 @@ fn end(value: &Spanned<DeValue<'_>>) -> usize {
 fn span<T>(spanned: &Spanned<T>) -> Span {
     let range = spanned.span();
     Span::new(range.start, range.end)
+}
+
+/// Every table, by its header; the file itself has none.
+const TABLES: [(&str, &Shape); 12] = [
+    ("", &ROOT),
+    (AXIS.name, &AXIS),
+    (VALUE.name, &VALUE),
+    (MACHINE.name, &MACHINE),
+    (EXTERNAL_KEEPS.name, &EXTERNAL_KEEPS),
+    (WORDS.name, &WORDS),
+    (VARIABLES.name, &VARIABLES),
+    (LINT.name, &LINT),
+    (CHECK.name, &CHECK),
+    (READING.name, &READING),
+    (CONFIRMED.name, &CONFIRMED),
+    (CONFIRMATION.name, &CONFIRMATION),
+];
+
+/// Returns the keys of the table with a header such as `[[axis]]`; `None` if the user chooses them, or there is no such
+/// table.
+pub fn keys(header: &str) -> Option<&'static [&'static str]> {
+    let table = TABLES.iter().find(|(name, _)| *name == header);
+    table.and_then(|(_, shape)| shape.keys)
 }

@@ -1,7 +1,9 @@
-//! One statement about a program or a list.
+//! One statement about a program or a list: its numbers, and the main programs that reach it in a called program (R17.1).
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
 
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
@@ -9,7 +11,6 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::advice::{Advice, Wording};
 use super::codes::Code;
 use super::fix::Fix;
-use super::reached::ReachedFrom;
 use crate::text::{Place, Span};
 
 /// A second place that explains the first.
@@ -277,5 +278,153 @@ impl Collected {
 impl Extend<Diagnostic> for Collected {
     fn extend<T: IntoIterator<Item = Diagnostic>>(&mut self, messages: T) {
         messages.into_iter().for_each(|message| self.push(message));
+    }
+}
+
+/// Number of programs kept by name; further ones are only counted.
+const MAX_NAMED: usize = 20;
+
+/// Number of programs that a sentence names.
+const MAX_IN_SENTENCE: usize = 5;
+
+/// The main programs that reach the place of a message in a called program, in the order in which
+/// they ran (R17.1). Empty if the message is about the main program itself.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ReachedFrom {
+    named: Vec<Arc<str>>,
+    count: usize,
+}
+
+impl ReachedFrom {
+    /// Returns the files of the first 20 programs.
+    pub fn programs(&self) -> &[Arc<str>] {
+        &self.named
+    }
+
+    /// Returns the number of programs, including those that are not kept by name.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Whether no other program reaches the place.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Returns the number of programs if [`programs`](Self::programs) does not contain all of them.
+    pub fn count_beyond_names(&self) -> Option<usize> {
+        (self.count > self.named.len()).then_some(self.count)
+    }
+
+    /// Adds a program, unless it is named already.
+    pub fn add(&mut self, file: &Arc<str>) {
+        if self.named.contains(file) {
+            return;
+        }
+        self.count += 1;
+        if self.named.len() < MAX_NAMED {
+            self.named.push(Arc::clone(file));
+        }
+    }
+
+    /// Adds the programs of another message about the same cause.
+    pub(crate) fn append(&mut self, other: &Self) {
+        other.named.iter().for_each(|file| self.add(file));
+        self.count += other.count - other.named.len();
+    }
+}
+
+/// `reached from a.nc`, `reached from 7 programs: a.nc, b.nc, c.nc, d.nc, e.nc, …`.
+impl fmt::Display for ReachedFrom {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("reached from ")?;
+        if self.count != 1 {
+            write!(f, "{} programs: ", self.count)?;
+        }
+        for (at, file) in self.named.iter().take(MAX_IN_SENTENCE).enumerate() {
+            if at > 0 {
+                f.write_str(", ")?;
+            }
+            f.write_str(file)?;
+        }
+        if self.count > MAX_IN_SENTENCE {
+            f.write_str(", …")?;
+        }
+        Ok(())
+    }
+}
+
+/// A number in a message; very large and very small ones have an exponent (R9.78).
+pub struct ReadableNumber(pub f64);
+
+impl fmt::Display for ReadableNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size != 0.0 && size.is_finite() && !(1e-9..1e12).contains(&size) {
+            write!(f, "{:e}", self.0)
+        } else {
+            // No negative zero.
+            write!(f, "{}", self.0 + 0.0)
+        }
+    }
+}
+
+/// A number with a fixed number of decimals; a value that rounds to zero has no sign.
+pub struct Rounded(pub f64, pub usize);
+
+impl fmt::Display for Rounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = format!("{:.*}", self.1, self.0);
+        let is_zero = |digits: &&str| digits.bytes().all(|it| matches!(it, b'0' | b'.'));
+        let unsigned = text.strip_prefix('-').filter(is_zero);
+        f.pad(unsigned.unwrap_or(&text))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_programs_are_counted() {
+        // R17.1
+        let mut reached = ReachedFrom::default();
+        let add = |reached: &mut ReachedFrom, numbers: std::ops::Range<usize>| {
+            for number in numbers {
+                reached.add(&Arc::from(format!("{number}.nc")));
+            }
+        };
+        add(&mut reached, 0..1);
+        assert_eq!(reached.to_string(), "reached from 0.nc");
+        let mut more = ReachedFrom::default();
+        add(&mut more, 0..30);
+        reached.append(&more);
+        assert_eq!(
+            reached.to_string(),
+            "reached from 30 programs: 0.nc, 1.nc, 2.nc, 3.nc, 4.nc, …"
+        );
+        assert_eq!((reached.programs().len(), reached.count()), (20, 30));
+        assert_eq!(reached.count_beyond_names(), Some(30));
+    }
+
+    #[test]
+    fn what_is_rounded_to_zero_has_no_sign() {
+        assert_eq!(Rounded(-0.0004, 3).to_string(), "0.000");
+        assert_eq!(Rounded(-0.000_500_1, 3).to_string(), "-0.001");
+        assert_eq!(format!("{:>8}", Rounded(-0.4, 0)), "       0");
+        assert_eq!(format!("{:>8}", Rounded(-1.25, 1)), "    -1.2");
+        assert_eq!(ReadableNumber(-0.0).to_string(), "0");
+    }
+
+    #[test]
+    fn numbers_in_messages_stay_short() {
+        // R9.78
+        let shown = |number| ReadableNumber(number).to_string();
+        assert_eq!(shown(1e308), "1e308");
+        assert_eq!(shown(-2.5), "-2.5");
+        assert_eq!(shown(1e-300), "1e-300");
+        assert_eq!(shown(0.0), "0");
+        assert_eq!(shown(1e9), "1000000000");
+        assert_eq!(shown(f64::NAN), "NaN");
     }
 }

@@ -5,15 +5,13 @@ mod codes;
 mod filter;
 mod fix;
 mod message;
-mod number;
-mod reached;
 mod spelling;
 
 pub use advice::{Advice, Budget, Wording};
 pub use codes::{Code, UnknownCode};
 pub use filter::{CodeFilter, Levels};
 pub use fix::{Edit, Fix, FixForm, Fixed, NamedFix, Safety, edited, edits};
-pub use message::{Collected, Diagnostic, Label, MAX_MESSAGES, Severity};
-pub use number::{ReadableNumber, Rounded};
-pub use reached::ReachedFrom;
+pub use message::{
+    Collected, Diagnostic, Label, MAX_MESSAGES, ReachedFrom, ReadableNumber, Rounded, Severity,
+};
 pub use spelling::{UnknownName, did_you_mean, nearest};

@@ -6,10 +6,9 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use super::drive_type::DriveType;
 use super::network::{Device, Network, NetworkObject, Protocol, Slave};
 use super::settings::{DriveSettings, Telegram, TorqueScale};
-use super::signal::Signal;
+use super::signal::{DriveType, Signal};
 use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::lists::{Entry, FrictionList, Given, Origin};
 use crate::text::Place;

@@ -5,16 +5,14 @@
 //! data that the device could map (ESI). A value that none of them decides is unknown, never
 //! assumed to be present.
 
-mod drive_type;
 mod judge;
 mod network;
 mod settings;
 mod signal;
 
-pub use drive_type::DriveType;
 pub use judge::{
     DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, TorqueEvidence, check_drive,
 };
 pub use network::{Device, Network, NetworkObject, OwnFriction, Protocol, Slave};
 pub use settings::{DriveSettings, TorqueScale};
-pub use signal::{Signal, channel};
+pub use signal::{DriveType, Signal, channel};

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::drive_type::DriveType;
-use super::signal::{Signal, is_torque_command};
+use super::signal::{DriveType, Signal, is_torque_command};
 use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::lists::{Entry, Given, Number};
 use crate::text::Place;

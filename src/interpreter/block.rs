@@ -238,6 +238,26 @@ pub(crate) struct OwnEnd {
     pub(crate) is_passed_into: bool,
 }
 
+/// The last executed block, in case the program ends without M30.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LastBlock {
+    pub(crate) file: Arc<str>,
+    pub(crate) line: u32,
+    pub(crate) text: String,
+}
+
+impl LastBlock {
+    /// The whole block.
+    pub(crate) fn place(&self) -> Place {
+        Place {
+            file: self.file.clone(),
+            text: self.text.as_str().into(),
+            first_line: self.line,
+            span: Span::new(0, self.text.len()),
+        }
+    }
+}
+
 /// What comes between an error and the next program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum AfterError {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::interpreter::axes::{AxisLookup, AxisNames};
-use crate::interpreter::block::BlockScratch;
+use crate::interpreter::block::{BlockScratch, LastBlock};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::motion::modal::Modal;
 use crate::interpreter::options::Options;
@@ -21,7 +21,7 @@ use crate::interpreter::values::location::{Reads, Unknown};
 use crate::interpreter::values::rows;
 use crate::interpreter::values::work_budget::{PER_UNIT_READ, WorkBudget};
 use crate::interpreter::ways::history::FoundStates;
-use crate::interpreter::ways::path::{AskedCondition, BranchSide, EndedPath, Last, Path, RunTrack};
+use crate::interpreter::ways::path::{AskedCondition, BranchSide, EndedPath, Path, RunTrack};
 use crate::interpreter::ways::possible_state::{PossibleStates, shown, ways_of};
 use crate::interpreter::ways::question::Condition;
 use crate::interpreter::ways::set::WaySet;
@@ -294,7 +294,7 @@ pub(crate) struct RunState {
     pub(crate) watching: bool,
     pub(crate) reads: RefCell<Reads>,
     /// The last executed block of the main program.
-    pub(crate) last: Option<Last>,
+    pub(crate) last: Option<LastBlock>,
     /// First step of a paused run when it continues.
     pub(crate) parked: Option<ControlStep>,
     /// The unknown values that messages were about.

@@ -36,14 +36,15 @@ pub use motion::form::{
 };
 pub use motion::modal::{AxisPosition, GFunctions, Modal, PositionFrame};
 pub use motion::pace::ProgrammedFeed;
-pub use options::{Branches, Limits, Options, RunOutcome, StopPolicy};
+pub use options::{
+    Branches, Limits, NoSearchedBlock, Options, RunOutcome, SearchedBlock, StopPolicy,
+};
 pub use programs::calls::{CallSite, Finder, NoFiles, NoProgram, call_sites, holds_program_end};
 pub(crate) use values::handover::VariableUse;
 pub use values::handover::{ArrayShape, Carried, FoundVariables};
 pub use values::location::{ChangedVariable, MissingProgram, Unknown, UnknownText};
 pub use values::value::Value;
 pub(crate) use ways::history::{BlockSite, FoundOn, FoundStates, KindEffect, Split, UntouchedOn};
-pub use ways::path::{NoSearchedBlock, SearchedBlock};
 pub use ways::possible_state::{CarriedWays, PossibleState, PossibleStates};
 pub(crate) use ways::set::WayAnswer;
 pub use ways::words::{BlockCondition, WayChange, WayCondition};

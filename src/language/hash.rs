@@ -10,8 +10,7 @@ use std::ops::Deref;
 
 use serde::{Deserialize, Deserializer, Serializer};
 
-use super::chain::ChainStep;
-use super::motion::{Certainty, MotionEffect, MotionKind, Moves};
+use super::motion::{Certainty, ChainStep, MotionEffect, MotionKind, Moves};
 use super::simplification::{Holds, Simplification};
 use crate::readings::Question;
 

@@ -17,9 +17,7 @@ macro_rules! columns {
 use columns;
 
 mod bracket;
-mod chain;
 mod g;
-mod group;
 mod hash;
 mod motion;
 mod refusal;
@@ -28,17 +26,15 @@ mod system_variable;
 
 pub(crate) use bracket::AxisAction;
 pub use bracket::AxisCommand;
-pub(crate) use chain::{ChainStep, OnOff};
-pub(crate) use g::{BlockGroup, CoordinateEffect, GAction, GFunction};
-pub use group::Group;
-pub(crate) use group::GroupSet;
+pub use g::Group;
+pub(crate) use g::{BlockGroup, CoordinateEffect, GAction, GFunction, GroupSet};
 pub use hash::BlockSharing;
 pub(crate) use hash::{
     ConfigAction, ContouringCommand, Exchange, FileAction, Flushes, FurtherWord, HashAction,
     HashArguments, HashCommand, HashWords, MembersBy, PathFlow, Plc, SlopeForm, Touches,
     is_command,
 };
-pub(crate) use motion::{AxisWords, MotionEffect, Moves};
+pub(crate) use motion::{AxisWords, ChainStep, MotionEffect, Moves, OnOff};
 pub use motion::{Certainty, MotionKind};
 pub use refusal::{ControlError, ControlErrorCheck};
 pub(crate) use simplification::Holds;

@@ -1,4 +1,5 @@
-//! Motion that words and commands cause (R10.7).
+//! Motion that words and commands cause (R10.7), and the chain of coordinates: what separates positions from those of the
+//! machine (R2.47, R2.82).
 
 use serde::Serialize;
 
@@ -80,4 +81,33 @@ pub(crate) enum AxisWords {
     Reference,
     /// G04 and the like: other values.
     Other,
+}
+
+impl AxisWords {
+    /// Whether the words move their axes.
+    pub(crate) fn move_axes(self) -> bool {
+        !matches!(self, Self::Reference | Self::Other)
+    }
+}
+
+/// Effect of a command or function on positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum ChainStep {
+    /// It switches to other coordinates, and back.
+    Coordinates,
+    /// It chooses the kinematics of a transformation, which others switch on (R1.42).
+    Kinematics,
+    /// It switches all offsets off, and on again (PM/208517515).
+    Machine,
+    /// It leaves the programmed points as they are and the path to them open (PM/207256971).
+    Path,
+    /// It moves the origin, by the machine's own values or for one block.
+    Origin,
+}
+
+/// Direction in which a command or function switches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum OnOff {
+    On,
+    Off,
 }

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::dynamics::DynamicsDraft;
-use super::entry::Entry;
+use super::entry::{Entry, Given, Number};
 use super::line::Entries;
 use super::monitor::{Monitor, REQUIRED};
 use super::parameter::{AxisType, Origin, Parameter};
-use super::value::{Given, Number};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 

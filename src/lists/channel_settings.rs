@@ -6,10 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::channel_keys::number_of;
-use super::entry::Entry;
+use super::entry::{Entry, Given, Number};
 use super::line::Entries;
 use super::parameter::Parameter;
-use super::value::{Given, Number};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::language::GFunction;
 

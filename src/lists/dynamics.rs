@@ -3,9 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use super::entry::Entry;
+use super::entry::{Entry, Given, Number};
 use super::parameter::{AxisType, Parameter};
-use super::value::{Given, Number};
 use crate::diagnostic::{Code, Diagnostic};
 
 /// The quantity of a value.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::entry::Entry;
 use super::keywords::{blanked, is_known};
-use super::reference::resolve;
+use super::parameter::resolve;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{SourceFile, Span, changed_direction};
 
@@ -338,7 +338,7 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::value::Number;
+    use super::super::entry::Number;
     use super::*;
 
     fn parse(text: &str) -> Entries {

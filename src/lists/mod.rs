@@ -13,14 +13,9 @@ mod kind;
 mod line;
 mod monitor;
 mod parameter;
-mod plausible;
 mod program;
 mod project;
-mod reference;
-mod single;
 mod startup;
-mod value;
-mod write;
 
 pub use axis::AxisValues;
 pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
@@ -28,9 +23,11 @@ pub use channel_keys::ChannelKey;
 pub use channel_settings::{ChannelDraft, ChannelSettings, ChannelSwitch, FeedUnit, SlopeProfile};
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use dynamics::{DynamicsDraft, ListedDynamics};
-pub use entry::Entry;
-pub use friction::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
-pub use friction::{Field, FrictionDraft, WrittenPoint};
+pub use entry::{Entry, Given, Number, Written};
+pub use friction::{
+    DEFAULT_MAX_POINTS, Field, FrictionDraft, FrictionList, ListHead, NoValues, Points, ReadList,
+    TablePoint, WrittenPoint, write_value_list,
+};
 #[cfg(feature = "unstable")]
 pub use keywords::{KnownKey, known_keys};
 pub use kind::ListKind;
@@ -40,8 +37,5 @@ pub use parameter::{AxisType, Origin, Parameter, UnknownAxisType};
 pub use program::{ChannelPrograms, ProgramRole};
 pub use project::is_xml;
 pub(crate) use project::{NoProject, Project, ProjectList, ProjectReference};
-pub use single::{NoValues, ReadList};
 pub(crate) use startup::AxisPlacement;
 pub use startup::{ChannelAxis, ChannelList, NamedList, StartupList};
-pub use value::{Given, Number, Written};
-pub use write::{ListHead, Points, write_value_list};

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::entry::Entry;
-use super::value::{Given, Number};
+use super::entry::{Entry, Given, Number};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic, nearest};
 

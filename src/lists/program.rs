@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 
 use super::channel_keys::number_of;
 use super::channel_settings::odd;
-use super::entry::Entry;
+use super::entry::{Entry, Given};
 use super::line::Entries;
 use super::parameter::Parameter;
-use super::value::Given;
 use crate::diagnostic::Diagnostic;
 
 /// Event that starts a program of the channel list.

@@ -20,9 +20,9 @@ use quick_xml::escape::unescape;
 use quick_xml::events::{BytesStart, Event};
 use thiserror::Error;
 
+use super::entry::Given;
 use super::kind::ListKind;
 use super::line::Entries;
-use super::value::Given;
 use crate::text::{SourceFile, Span};
 
 /// Depth of nested elements that no project reaches.

@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 
 use super::axis::{axis_number, text};
 use super::channel_settings::{ChannelDraft, ChannelSettings};
-use super::entry::Entry;
+use super::entry::{Entry, Given};
 use super::line::Entries;
 use super::program::ChannelPrograms;
-use super::value::Given;
 use crate::diagnostic::{Code, Diagnostic};
 
 /// A list that the start-up list names.

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::axis::{Axis, Parameterisation};
-use super::value_list::ValueList;
+use super::axis::{Axis, Parameterisation, ValueList};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::drive_interface::{Evidence, ListedDrive, TorqueScale, check_drive};

@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::assemble::{AxisReport, on_spindle};
-use super::axis::Parameterisation;
+use super::axis::{Parameterisation, ValueList};
 use super::configuration::Configuration;
-use super::described::{describe, has_nothing};
 use super::description::Machine;
 use super::embedded::EmbeddedLists;
-use super::files::ListFiles;
-use super::value_list::ValueList;
+use super::files::{ListFiles, describe, has_nothing};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::drive_interface::{DriveSettings, Evidence, check_drive};

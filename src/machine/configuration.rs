@@ -3,13 +3,11 @@
 use std::sync::Arc;
 
 use super::assemble::{AxisDraft, AxisReport};
-use super::described::describe;
-use super::description::{AxisSet, GantrySlave, Machine, Parameters};
+use super::axis::compare_gantry;
+use super::description::{AxisSet, GantrySlave, Machine, Parameters, Setting};
 use super::embedded::EmbeddedLists;
-use super::files::ListFiles;
-use super::gantry;
+use super::files::{ListFiles, describe};
 use super::loader::Loader;
-use super::setting::Setting;
 use crate::diagnostic::{Code, Diagnostic, Levels};
 use crate::lists::{ChannelSwitch, Conditions, Entries, ListKind, NoProject, Parameter, is_xml};
 use crate::text::{SourceFile, Span};
@@ -148,7 +146,7 @@ impl Configuration {
         let master = masters.find(|axis| axis.number.is_some() && axis.number == number);
         if let (Some(master), Some(link)) = (master, &link) {
             self.diagnostics
-                .extend(gantry::compare(master, &slave, link));
+                .extend(compare_gantry(master, &slave, link));
         }
         self.machine.gantry_slaves.push(GantrySlave {
             master: master.map(|axis| axis.name.clone()),

@@ -1,4 +1,8 @@
-//! A machine as NC programs see it.
+//! A machine as NC programs see it, also where nobody described it (R9.73).
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
 
 use super::axis::Axis;
 use super::harmless::HarmlessWords;
@@ -7,7 +11,7 @@ use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation, KindSet};
 use crate::diagnostic::NamedFix;
 use crate::lists::{ChannelSettings, Origin};
 use crate::readings::{Question, Readings};
-use crate::syntax::SkipLevels;
+use crate::syntax::{AxisUse, SkipLevels, axis_uses};
 
 /// Origin of the axes of a machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -183,5 +187,88 @@ impl Machine {
     /// Returns an axis by its position.
     pub fn axis(&self, index: AxisIndex) -> &Axis {
         &self.axes[index.get()]
+    }
+}
+
+/// The user's value of a variable that only the machine knows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum Setting {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(String),
+}
+
+impl Setting {
+    /// Whether a name is that of a variable or a parameter, which can have a value (R2.33, R2.34).
+    pub fn is_for(name: &str) -> bool {
+        let number = name.strip_prefix('@').unwrap_or(name);
+        let number = number.strip_prefix(['P', 'p']);
+        if let Some(number) = number {
+            return number.starts_with(|it: char| it.is_ascii_digit());
+        }
+        name.strip_prefix("V.")
+            .or_else(|| name.strip_prefix("v."))
+            .is_some_and(|rest| rest.starts_with(|it: char| it.is_ascii_alphabetic()))
+    }
+}
+
+/// Knowledge about a machine that is not described.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum Outline {
+    /// The path of its start-up list, as a configuration would write it.
+    Startup(String),
+    /// The path of the TwinCAT project that holds its lists.
+    Project(String),
+    /// Use of axes by its programs.
+    Programs(BTreeMap<String, AxisUse>),
+}
+
+impl Outline {
+    /// Collects the axes that programs use, executed or not.
+    pub fn of_programs(texts: impl IntoIterator<Item = String>) -> Self {
+        let mut uses: BTreeMap<String, AxisUse> = BTreeMap::new();
+        for (name, how) in texts.into_iter().flat_map(|text| axis_uses(&text)) {
+            let known = uses.entry(name).or_insert(how);
+            *known = how.max(*known);
+        }
+        Self::Programs(uses)
+    }
+
+    /// Returns the axes in the usual order, longer names last; none if a start-up list names them.
+    pub fn axes(&self) -> Vec<(&str, AxisUse)> {
+        const USUAL: &str = "XYZABCUVW";
+        let Self::Programs(uses) = self else {
+            return Vec::new();
+        };
+        let mut axes: Vec<_> = uses
+            .iter()
+            .map(|(name, how)| (name.as_str(), *how))
+            .collect();
+        axes.sort_by_key(|(name, _)| (name.len() > 1, USUAL.find(name)));
+        axes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_come_in_the_usual_order() {
+        // R9.73
+        let texts = ["G0 C1 Z2 X2=3", "X[COMP OFF FRICT]\nX1 M30"].map(str::to_owned);
+        let outline = Outline::of_programs(texts);
+        let expected = [
+            ("X", AxisUse::Switched),
+            ("Z", AxisUse::Named),
+            ("C", AxisUse::Named),
+            ("X2", AxisUse::Named),
+        ];
+        assert_eq!(outline.axes(), expected);
+        assert!(Outline::Startup("h.lis".to_owned()).axes().is_empty());
     }
 }

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use super::assemble::{AxisDraft, ConfiguredDynamics};
 use super::configuration::Configuration;
-use super::description::{Machine, Parameters};
+use super::description::{Machine, Parameters, Setting};
 use super::files::{ListFiles, NoLists};
 use super::loader::Loader;
 use super::programs::canonical_word;
-use super::setting::Setting;
 use super::startup::MAX_AXES;
 use crate::config::{AxisTable, ConfigError, ConfigFile, ConfiguredVariable, MachineTable};
 use crate::lists::{AxisValues, Given, Parameter};

@@ -5,8 +5,6 @@
 
 mod facts;
 mod question;
-mod selected;
 
 pub use facts::{QuestionFacts, Way};
-pub use question::{Alternative, Question, QuestionSet};
-pub use selected::{Basis, Confirmation, Readings};
+pub use question::{Alternative, Basis, Confirmation, Question, QuestionSet, Readings};

@@ -1,11 +1,13 @@
-//! Every diagnostic of a program, each once, in the order of the text.
+//! Every diagnostic of a program, each once, in the order of the text; the comment that allows it there (R9.24, R12.5), and
+//! the fixes that may be made without a review (R9.82).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::text::Position;
+use crate::diagnostic::{Code, Diagnostic, Fix, Safety, Severity};
+use crate::syntax::{MAX_LINE, allow, goes_on};
+use crate::text::{Position, SourceFile, Span};
 use crate::timeline::{Record, Repeat, Sink};
 
 /// Key that is equal for equal diagnostics.
@@ -96,6 +98,121 @@ impl Sink for Findings {
             Record::Session { .. } | Record::Join(_) | Record::Summary(_) => {}
         }
         ControlFlow::Continue(())
+    }
+}
+
+/// The change of a program that silences a message of it: a comment in its block, or above a block
+/// of several lines or one that would have more than 4000 characters. `None` for what cannot be silenced, the numbers of the control, budgets,
+/// messages about such comments, about `%` lines, about files as a whole and about comments that hide what follows them,
+/// and for a message whose lines are not those of the file.
+pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
+    let is_comment = matches!(said.code, Code::Fc414 | Code::Fc490 | Code::Fc491);
+    let is_of_file = matches!(said.code, Code::Fc103 | Code::Fc104 | Code::Fc105);
+    if said.code.is_controller() || said.code.is_budget() || is_comment || is_of_file {
+        return None;
+    }
+    let (text, lines) = (program.text(), program.lines());
+    let meant = program.find(&said.place)?;
+    let of = |line: u32| lines.line_span(text, line);
+    let goes_on = |line: u32| goes_on(of(line).of(text));
+    let last = lines
+        .first()
+        .saturating_add(u32::try_from(lines.lines()).ok()?)
+        - 1;
+    let (mut first, mut end) = (lines.line(meant.start), lines.line(meant.end));
+    while first > lines.first() && goes_on(first - 1) {
+        first -= 1;
+    }
+    while end < last && goes_on(end) {
+        end += 1;
+    }
+    if of(first).of(text).trim_start().starts_with('%') {
+        return None;
+    }
+    let block = of(first).of(text);
+    let inside = (first == end).then(|| allow::insertion(block, said.code));
+    let inside = inside.filter(|(_, comment)| block.len() + comment.len() <= MAX_LINE);
+    let (offset, comment) = inside.unwrap_or_else(|| (0, allow::line_above(said.code)));
+    let at = of(first).start as usize + offset;
+    Some(Fix::safe(program.place(Span::new(at, at)), comment))
+}
+
+/// The safe changes that one run proposes, and the files that it saw: a sink.
+#[derive(Debug, Clone, Default)]
+pub struct ProposedFixes {
+    files: BTreeSet<Arc<str>>,
+    /// The file of the last block.
+    last: Option<Arc<str>>,
+    fixes: HashMap<Fix, Code>,
+}
+
+impl ProposedFixes {
+    fn see(&mut self, file: &str) {
+        if self.last.as_deref() != Some(file) {
+            let file: Arc<str> = file.into();
+            self.files.insert(Arc::clone(&file));
+            self.last = Some(file);
+        }
+    }
+
+    /// Takes the first safe change of a message; the others would do the same in another way.
+    fn take(&mut self, said: &Diagnostic) {
+        let mut safe = said.fixes.iter().filter(|it| it.safety == Safety::Safe);
+        if let Some(fix) = safe.next() {
+            self.files.insert(Arc::clone(&fix.place.file));
+            self.fixes.insert(fix.clone(), said.code);
+        }
+    }
+}
+
+impl Sink for ProposedFixes {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Record::Block(row) = record {
+            self.see(row.file);
+        }
+        for said in record.diagnostics() {
+            self.take(said.diagnostic());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// The safe changes that apply to all runs of some programs, file by file.
+#[derive(Debug, Clone, Default)]
+pub struct SafeFixes {
+    files: BTreeMap<Arc<str>, FileFixes>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct FileFixes {
+    /// Number of runs that executed the file.
+    runs: usize,
+    /// Each change, its code, and how many runs propose it.
+    proposed: HashMap<Fix, (Code, usize)>,
+}
+
+impl SafeFixes {
+    /// Adds the changes that one run proposes.
+    pub fn add(&mut self, run: ProposedFixes) {
+        for file in run.files {
+            self.files.entry(file).or_default().runs += 1;
+        }
+        for (fix, code) in run.fixes {
+            let file = self.files.entry(Arc::clone(&fix.place.file)).or_default();
+            file.proposed.entry(fix).or_insert((code, 0)).1 += 1;
+        }
+    }
+
+    /// The changes of each file. A comment that silences nothing in one run may be needed in
+    /// another one that calls the same program: it goes only if no run needs it.
+    pub fn of_files(self) -> impl Iterator<Item = (Arc<str>, Vec<Fix>)> {
+        let files = self.files.into_iter().map(|(name, file)| {
+            let holds = |(code, runs): (Code, usize)| code != Code::Fc490 || runs == file.runs;
+            let proposed = file.proposed.into_iter();
+            let fixes = proposed.filter_map(|(fix, by)| holds(by).then_some(fix));
+            (name, fixes.collect::<Vec<_>>())
+        });
+        files.filter(|(_, fixes)| !fixes.is_empty())
     }
 }
 

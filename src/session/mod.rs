@@ -2,28 +2,22 @@
 //!
 //! Each program starts with the state that the one before it leaves.
 
-mod allow;
 mod causes;
-mod feed_moves;
 mod findings;
-mod foreign;
 mod message_dedup;
 mod recorder;
-mod safe_fixes;
+mod remarks;
 mod saved;
 mod totals;
-mod undescribed;
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-pub use allow::allow_here;
 pub use causes::Causes;
-pub use findings::Findings;
-pub use safe_fixes::{ProposedFixes, SafeFixes};
+pub use findings::{Findings, ProposedFixes, SafeFixes, allow_here};
+pub use remarks::undescribed;
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
-pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
 use crate::diagnostic::{Diagnostic, Levels, MAX_MESSAGES, Severity, Wording};
@@ -325,8 +319,8 @@ impl Session {
         sink: &mut dyn Sink,
     ) -> ControlFlow<(), EndedBy> {
         self.programs += 1;
-        let foreign = foreign::look(file, program.head());
-        let most = foreign.as_ref().map_or(MAX_MESSAGES, |_| foreign::MAX_SAID);
+        let foreign = remarks::look(file, program.head());
+        let most = foreign.as_ref().map_or(MAX_MESSAGES, |_| remarks::MAX_SAID);
         let machine = Arc::clone(&self.machine);
         let mut recorder = Recorder {
             machine: &machine,

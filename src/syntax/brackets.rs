@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::fault::Fault;
-use super::texts::Texts;
+use super::pieces::Texts;
 use crate::diagnostic::Code;
 use crate::text::Span;
 

@@ -267,7 +267,9 @@ impl ExpressionLowering<'_> {
 
     /// Text that has the form of a value, but no known meaning.
     fn unread(&mut self, text: &str, span: Span) {
-        self.block.faults.push(super::unread::not_known(text, span));
+        self.block
+            .faults
+            .push(super::keywords::not_known(text, span));
         self.push(Node::Unread, span);
     }
 
@@ -348,7 +350,7 @@ impl ExpressionLowering<'_> {
     fn variable(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let parts = pair.clone().into_inner();
         let names = parts.filter(|part| part.as_rule() == Rule::variable_part);
-        if !super::unread::is_variable(names.map(|part| part.as_str())) {
+        if !super::keywords::is_variable(names.map(|part| part.as_str())) {
             self.unread(pair.as_str(), span);
             return;
         }

@@ -4,7 +4,10 @@
 //! PM/n is page n of the TF5200 programming manual.
 
 use super::ast::{Address, Block, Item, Operand, Word};
+use super::fault::Fault;
+use crate::diagnostic::Code;
 use crate::language::AxisCommand;
+use crate::text::Span;
 
 /// The `$` statements.
 pub(super) const FLOW_WORDS: [&str; 19] = [
@@ -107,4 +110,28 @@ pub(crate) fn is_statement(text: &str) -> bool {
 fn numbered(upper: &str, letters: &[char]) -> bool {
     let number = upper.strip_prefix(letters);
     number.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// FC210 for a text.
+pub(crate) fn not_known(text: &str, span: Span) -> Fault {
+    let shown: String = text.trim().chars().take(40).collect();
+    Fault::new(
+        Code::Fc210,
+        span,
+        format!(
+            "`{shown}` is not known to frictcomp; whatever it could change is unknown from here on"
+        ),
+    )
+    .with_help("if the control knows it, check yourself what it does to compensation")
+}
+
+/// Whether the parts of a name, `V` left out, make a variable: a sign begins only the name of a
+/// software limit, `V.A.+SWE.X`, an `@` only what a call gave, `V.G.@P[1].VALID`.
+pub(super) fn is_variable<'a>(mut parts: impl Iterator<Item = &'a str>) -> bool {
+    let plain = |part: &str| !part.starts_with(['+', '-', '@']);
+    let family = parts.next().unwrap_or_default();
+    let name = parts.next().unwrap_or_default();
+    let is_limit = family.eq_ignore_ascii_case("A") && !name.starts_with('@');
+    let is_given = family.eq_ignore_ascii_case("G") && name.starts_with('@');
+    plain(family) && (plain(name) || is_limit || is_given) && parts.all(plain)
 }

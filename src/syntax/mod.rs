@@ -11,7 +11,6 @@ pub(crate) mod allow;
 pub mod ast;
 #[cfg(not(feature = "unstable"))]
 pub(crate) mod ast;
-mod axes;
 mod brackets;
 mod comp;
 mod control_block;
@@ -36,13 +35,9 @@ mod pieces;
 mod raw;
 mod scan;
 mod skip_levels;
-mod texts;
-mod unread;
 mod upper_case;
 mod variable_name;
 
-pub use axes::{AxisUse, axis_uses};
-pub(crate) use axes::{MAX_MACROS, is_axis_name, with_macros};
 pub use brackets::MAX_BRACKETS;
 #[cfg(not(feature = "unstable"))]
 pub(crate) use control_block::{ControlBlock, Part, control_part};
@@ -54,12 +49,14 @@ pub(crate) use fault::repeated_word;
 pub use flow_scan::FlowScan;
 pub use grammar::bound_reading;
 pub(crate) use hash_words::hash_name;
-pub(crate) use keywords::{is_letter, is_program_number, is_statement};
+pub(crate) use keywords::{is_letter, is_program_number, is_statement, not_known};
 #[cfg(feature = "unstable")]
 pub use lines::BlockReader;
 #[cfg(not(feature = "unstable"))]
 pub(crate) use lines::BlockReader;
 pub use lines::FastPath;
+pub use names::{AxisUse, axis_uses};
+pub(crate) use names::{MAX_MACROS, is_axis_name, with_macros};
 pub use parse::parse_comp;
 #[cfg(not(feature = "unstable"))]
 pub(crate) use parse::{is_lone_end, parse_block, parse_expression};
@@ -90,11 +87,9 @@ pub(crate) use scan::may_call_file;
 #[cfg(feature = "unstable")]
 pub use scan::{NamedAxes, Scan, ScanQuestion, SwitchedAxes};
 pub use skip_levels::{NoSkipLevels, SkipLevels};
-pub(crate) use unread::not_known;
 pub(crate) use variable_name::{
     AxisOfVariable, Subscript, Subscripts, VariableFamily, VariableName, compact,
 };
 
 #[cfg(test)]
 mod reference;
-mod remarks;

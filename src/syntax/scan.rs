@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 
 use super::ast::{Block, CallScope, Item};
-use super::axes::{AxisUse, MAX_MACROS, own_uses, uses_of, with_macros};
 use super::hash_words::opening_command;
 use super::mask::mask;
+use super::names::{AxisUse, MAX_MACROS, own_uses, uses_of, with_macros};
 use super::parse::parse_block;
 use crate::language::HashAction;
 

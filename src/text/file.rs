@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use super::index::LineIndex;
-use super::lines::{BYTE_ORDER_MARK, LineSource, PhysicalLine, TextLines};
-use super::place::Place;
-use super::span::Span;
+use super::lines::{BYTE_ORDER_MARK, LineIndex, LineSource, PhysicalLine, TextLines};
+use super::place::{Place, Span};
 
 /// A named text in memory with its line index.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-use super::span::Span;
+use super::place::Span;
 
 /// Whether a character is a control character, changes how its neighbours are read, or is
 /// invisible: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,

@@ -6,22 +6,14 @@
 
 mod file;
 mod hidden;
-mod index;
 mod lines;
 mod numbering;
 mod place;
-mod shown_path;
-mod span;
 
 pub use file::SourceFile;
-pub use hidden::shown_json;
-pub use hidden::{changed_direction, is_hidden};
-pub use index::{LineIndex, Utf16Position};
-pub use lines::line_end;
+pub use hidden::{changed_direction, is_hidden, shown_json};
 pub(crate) use lines::lines_of;
-pub use lines::{LineSource, PhysicalLine, TextLines};
+pub use lines::{LineIndex, LineSource, PhysicalLine, TextLines, Utf16Position, line_end};
 pub(crate) use numbering::Numbering;
-pub use place::Place;
 pub(crate) use place::{MAX_WHOLE, StartsInOrder};
-pub use shown_path::shown_path;
-pub use span::{Position, Span};
+pub use place::{Place, Position, Span, shown_path};

@@ -1,11 +1,11 @@
-//! A place in a file that shows itself.
+//! A range of bytes, the line and column that people read, and a place in a file that shows itself.
 
 use std::cmp::Ordering;
+use std::fmt;
+use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-
-use super::span::{Position, Span};
 
 /// A place in a file, together with the lines that show it.
 ///
@@ -125,6 +125,106 @@ impl StartsInOrder {
     }
 }
 
+/// The name of a file in messages and records: on every system with `/` between its parts, as git
+/// writes them, so that a report or an agreed result does not depend on where it was made.
+pub fn shown_path(path: &Path) -> String {
+    let written = path.to_string_lossy();
+    if cfg!(windows) {
+        slashed(&written)
+    } else {
+        written.into_owned()
+    }
+}
+
+/// A path of Windows with `/` between its parts and without `\\?\`, which lifts limits of the system and
+/// was not written by the user.
+fn slashed(path: &str) -> String {
+    let plain = match path.strip_prefix(r"\\?\UNC\") {
+        Some(share) => format!("//{share}"),
+        None => path.strip_prefix(r"\\?\").unwrap_or(path).to_owned(),
+    };
+    plain.replace('\\', "/")
+}
+
+/// A range of bytes in a text, `start..end`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Span {
+    /// Offset of the first byte.
+    pub start: u32,
+    /// Offset after the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// A span from byte offsets. Offsets beyond 4 GiB are clamped, no text of that size is kept.
+    #[inline]
+    pub fn new(start: usize, end: usize) -> Self {
+        let clamp = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
+        Self {
+            start: clamp(start),
+            end: clamp(end.max(start)),
+        }
+    }
+
+    /// The part of `text` that the span covers, empty when it lies outside.
+    pub fn of(self, text: &str) -> &str {
+        text.get(self.range()).unwrap_or_default()
+    }
+
+    /// The span as a range of indices.
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
+    /// The smallest span that covers both.
+    pub fn to(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+
+    /// The span moved towards the end of the text by `offset` bytes.
+    pub fn shifted(self, offset: u32) -> Self {
+        Self {
+            start: self.start.saturating_add(offset),
+            end: self.end.saturating_add(offset),
+        }
+    }
+}
+
+/// A line and a column for people: both count from 1, columns count characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Position {
+    /// Line, from 1.
+    pub line: u32,
+    /// Column in characters, from 1.
+    pub column: u32,
+}
+
+impl Position {
+    /// Returns the position after a text that begins here.
+    pub(super) fn after(self, text: &str) -> Self {
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        // Many messages are about one long block.
+        let breaks = count(memchr::memchr_iter(b'\n', text.as_bytes()).count());
+        let line = memchr::memrchr(b'\n', text.as_bytes()).map_or(text, |at| &text[at + 1..]);
+        let before = if breaks == 0 { self.column } else { 1 };
+        Self {
+            line: self.line.saturating_add(breaks),
+            column: before.saturating_add(count(line.chars().count())),
+        }
+    }
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.line, self.column)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,5 +265,27 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn paths_of_windows_have_one_kind_of_slash() {
+        // R13.1
+        for (path, shown) in [
+            (r"programs\mill/a.nc", "programs/mill/a.nc"),
+            (r"C:\CNC\a.nc", "C:/CNC/a.nc"),
+            (r"\\server\share\a.nc", "//server/share/a.nc"),
+            (r"\\?\C:\CNC\a.nc", "C:/CNC/a.nc"),
+            (r"\\?\UNC\server\share\a.nc", "//server/share/a.nc"),
+            ("a.nc", "a.nc"),
+        ] {
+            assert_eq!(slashed(path), shown);
+        }
+    }
+
+    #[test]
+    fn a_backslash_is_a_letter_where_it_does_not_part() {
+        // R13.1
+        let shown = if cfg!(windows) { "a/b.nc" } else { r"a\b.nc" };
+        assert_eq!(shown_path(Path::new(r"a\b.nc")), shown);
     }
 }

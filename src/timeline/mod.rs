@@ -7,18 +7,14 @@
 //! Records are [`Serialize`](serde::Serialize): the objects are the lines of the NDJSON timeline. There, a message
 //! about a block or an end is a separate record, see [`Record::diagnostics`].
 
-mod feed_moves;
 mod in_force;
-mod possible;
 mod record;
 mod serial;
 
 pub use crate::lint::EndNote;
-pub use feed_moves::FeedMoves;
 pub use in_force::{ReadingInForce, ReadingsInForce};
-pub use possible::Possible;
 pub use record::{
-    AxisSummary, ChangedBy, DiagnosticRecord, End, Join, Record, Repeat, Row, SCHEMA, Sink,
-    StateView, Summary, TOOL,
+    AxisSummary, ChangedBy, DiagnosticRecord, End, FeedMoves, Join, Record, Repeat, Row, SCHEMA,
+    Sink, StateView, Summary, TOOL,
 };
-pub use serial::States;
+pub use serial::{Possible, States};

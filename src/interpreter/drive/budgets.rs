@@ -9,14 +9,14 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic, Severity};
-use crate::interpreter::block::BlockContext;
+use crate::interpreter::block::{BlockContext, LastBlock};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::programs::calls::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::others::OtherPaths;
-use crate::interpreter::ways::path::{Last, Path};
+use crate::interpreter::ways::path::Path;
 use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::words::questions::MAX_OPEN;
 use crate::syntax::Fault;
@@ -282,7 +282,7 @@ impl Executor {
         let main = self.state.control.frames.main();
         let index = main.map(|frame| self.programs.index(frame.unit));
         let index = index.filter(|index| !index.entries.is_empty());
-        let last = || self.state.last.as_ref().map(Last::place);
+        let last = || self.state.last.as_ref().map(LastBlock::place);
         let place = index.map(|index| index.block_place(passed.start));
         let place = place.or_else(last)?;
         let to = index.and_then(|index| index.entries.get(passed.end.checked_sub(1)? as usize));

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::block::OwnEnd;
+use crate::interpreter::block::{LastBlock, OwnEnd};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::drive::loops::watches;
 use crate::interpreter::events::{EndedBy, ProgramEnd, StoppedState};
@@ -20,7 +20,7 @@ use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::others::OtherPaths;
-use crate::interpreter::ways::path::{BranchSide, EndedPath, Last, Meeting, Path};
+use crate::interpreter::ways::path::{BranchSide, EndedPath, Meeting, Path};
 use crate::interpreter::ways::possible_state::{change_since, shown, ways_of};
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
@@ -380,7 +380,7 @@ impl RunState {
         let mut ends: Vec<ProgramEnd> = Vec::new();
         for end in ended {
             let place = end.at.as_ref().map(|at| at.place.clone());
-            let Some(place) = place.or_else(|| end.last.as_ref().map(Last::place)) else {
+            let Some(place) = place.or_else(|| end.last.as_ref().map(LastBlock::place)) else {
                 continue;
             };
             let mut compensation = end.path.control.compensation.clone();

@@ -10,7 +10,7 @@ use crate::comp::KindSet;
 use crate::diagnostic::{Code, Collected, Diagnostic};
 use crate::interpreter::axes::ChannelAxes;
 use crate::interpreter::block::{
-    AfterError, BlockContext, OwnEnd, ShownBlockLines, ended_by, is_harmless, one,
+    AfterError, BlockContext, LastBlock, OwnEnd, ShownBlockLines, ended_by, is_harmless, one,
 };
 use crate::interpreter::control::{ControlState, ModalCycles, OptionalSection};
 use crate::interpreter::drive::host::Interpreter;
@@ -25,7 +25,7 @@ use crate::interpreter::programs::store::{Caller, ProgramStore, SourceUnit};
 use crate::interpreter::stack::{ControlStep, Request};
 use crate::interpreter::values::location::MissingProgram;
 use crate::interpreter::ways::others::OtherPaths;
-use crate::interpreter::ways::path::{Last, RunTrack};
+use crate::interpreter::ways::path::RunTrack;
 use crate::interpreter::ways::set::WaySet;
 use crate::lists::{ChannelSettings, ChannelSwitch};
 use crate::machine::Machine;
@@ -369,7 +369,7 @@ impl Executor {
 
     /// The end of the program where all ways reach one.
     fn own_end(&self, by: EndedBy, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
-        let last = self.state.last.as_ref().map(Last::place);
+        let last = self.state.last.as_ref().map(LastBlock::place);
         let place = at.map(|end| end.place.clone()).or(last);
         let reached = place.map(|place| {
             let mut compensation = self.state.control.compensation.clone();

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::comp::{KindSet, State as CompState};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::{
-    AfterError, BlockContext, BlockOutcome, OwnEnd, ShownBlockLines, ended_by, stops,
+    AfterError, BlockContext, BlockOutcome, LastBlock, OwnEnd, ShownBlockLines, ended_by, stops,
 };
 use crate::interpreter::control::OptionalSection;
 use crate::interpreter::drive::host::Interpreter;
@@ -18,7 +18,7 @@ use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::stack::{ControlStep, Destination, NextBlock, Request};
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::history::{BlockSite, KindEffect};
-use crate::interpreter::ways::path::{Last, RunTrack};
+use crate::interpreter::ways::path::RunTrack;
 use crate::interpreter::ways::words::limit_to;
 use crate::interpreter::words::questions::MAX_OPEN;
 use crate::syntax::Fault;
@@ -291,11 +291,12 @@ impl Interpreter {
     ) -> ControlFlow<NextBlock> {
         let first = self.begin_block(at);
         let number = self.here.block_number(at);
-        let mut outcome = self.here.read(at);
+        let mut outcome = BlockOutcome::default();
+        self.here.read(at, &mut outcome);
         let calls = self.pass_over_and_call(&mut outcome, at, finder);
         let stopped = self.here.judge(&outcome, at);
         let is_over = self.here.account(at);
-        let step = self.next_step((outcome, calls), (is_over, stopped), at, finder);
+        let step = self.next_step((&mut outcome, calls), (is_over, stopped), at, finder);
         self.here.limit_messages(first);
         self.here.note_doubts(at);
         let flow = if self.here.state.track.is_shadow() {
@@ -377,7 +378,7 @@ impl Interpreter {
     #[inline]
     fn next_step(
         &mut self,
-        (outcome, calls): (BlockOutcome, Vec<Request>),
+        (outcome, calls): (&mut BlockOutcome, Vec<Request>),
         (is_over, stopped): (bool, bool),
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
@@ -470,17 +471,15 @@ fn is_still(item: &Item) -> bool {
 impl Executor {
     /// Executes the words of a block and looks at its motion.
     #[inline]
-    fn read(&mut self, at: &BlockContext<'_>) -> BlockOutcome {
-        let mut outcome = BlockOutcome::default();
+    fn read(&mut self, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
         if let Some(level) = self.undecided_level(at.block) {
             let whole = Span::new(0, at.text.trim_end().len());
             self.pass_over_part(Unknown::SkipLevel(level), whole, at);
         } else if !self.is_halted() {
-            self.remembered_items(at, &mut outcome);
+            self.remembered_items(at, outcome);
         }
-        self.look_at_motion(&outcome, at);
+        self.look_at_motion(outcome, at);
         self.outdate_readings(at);
-        outcome
     }
 
     /// Whether an error of the control stops the run at the block; else its axes move.
@@ -551,14 +550,16 @@ impl Executor {
 
     /// Informs the observer of a block.
     fn raise(
-        &self,
+        &mut self,
         number: Option<i64>,
         stopped: bool,
         at: &BlockContext<'_>,
         observer: &mut dyn Observer,
     ) -> ControlFlow<()> {
+        let (scratch, state) = (&mut self.scratch, &self.state);
+        let moves = &scratch.moves;
         observer.event(Event::Executed(Executed {
-            seq: self.state.seq,
+            seq: state.seq,
             file: at.file,
             line: at.line,
             text: at.text,
@@ -567,34 +568,26 @@ impl Executor {
             number,
             level: (at.level > 0).then_some(at.level),
             block: at.block,
-            outcomes: &self.scratch.outcomes,
-            changes: &self.scratch.changes,
-            doubted: &self.scratch.doubted,
-            moved: if stopped {
-                &[]
-            } else {
-                self.scratch.moves.words()
-            },
-            moves: &self.scratch.moves,
-            aside: &self.scratch.aside,
-            also_moved: if stopped {
-                &[]
-            } else {
-                self.scratch.moves.also_moved()
-            },
-            word_motion: self.scratch.moves.row().map(|row| row.kind),
-            motion: self.scratch.moves.motion(),
-            notes: &self.scratch.read.notes.borrow(),
-            diagnostics: &self.scratch.messages.diagnostics,
+            outcomes: &scratch.outcomes,
+            changes: &scratch.changes,
+            doubted: &scratch.doubted,
+            moved: if stopped { &[] } else { moves.words() },
+            moves,
+            aside: &scratch.aside,
+            also_moved: if stopped { &[] } else { moves.also_moved() },
+            word_motion: moves.row().map(|row| row.kind),
+            motion: moves.motion(),
+            notes: scratch.read.notes.get_mut(),
+            diagnostics: &scratch.messages.diagnostics,
             stopped,
-            passed: self.is_searching(),
-            compensation: &self.state.control.compensation,
+            passed: state.track.searching.is_some(),
+            compensation: &state.control.compensation,
             possible: &self.shown.possible,
-            found: self.state.found_states(),
-            failed: self.state.track.failed.as_deref(),
+            found: state.found_states(),
+            failed: state.track.failed.as_deref(),
             branch: self.shown.branch.as_deref(),
-            modal: &self.state.control.modal,
-            occurred: &self.state.occurred,
+            modal: &state.control.modal,
+            occurred: &state.occurred,
             version: self.version,
         }))
     }
@@ -684,7 +677,7 @@ impl Executor {
     #[inline(never)]
     fn step(
         &mut self,
-        mut outcome: BlockOutcome,
+        outcome: &mut BlockOutcome,
         calls: Vec<Request>,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
@@ -789,7 +782,7 @@ impl RunState {
                 last.line = at.line;
             }
             None => {
-                self.last = Some(Last {
+                self.last = Some(LastBlock {
                     file: at.file.clone(),
                     line: at.line,
                     text: at.text.to_owned(),

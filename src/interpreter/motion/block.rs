@@ -311,14 +311,9 @@ fn bit_of(axis: AxisIndex) -> u64 {
 
 /// Axes that move with others.
 impl BlockMotion {
-    /// Notes the axes that move along with those that the block moves.
+    /// Notes the axes that the operator moves, and those of a rotated or transformed frame.
     #[inline(never)]
-    pub(crate) fn carry(
-        &mut self,
-        words: AxisWords,
-        setting: MotionSetting<'_>,
-        links: &[CouplingLink],
-    ) {
+    pub(crate) fn move_others(&mut self, words: AxisWords, setting: MotionSetting<'_>) {
         if let Some(row) = self.row
             && row.certainty == Certainty::Possible
         {
@@ -327,9 +322,11 @@ impl BlockMotion {
         if matches!(words, AxisWords::Motion | AxisWords::Measuring) {
             self.move_in_frame(setting);
         }
-        if !links.is_empty() {
-            self.move_followers(words, links);
-        }
+    }
+
+    /// Whether other axes may follow what the block moves.
+    pub(crate) fn leads(&self, words: AxisWords) -> bool {
+        !self.also.is_empty() || !self.words.is_empty() && words.move_axes()
     }
 
     /// In manual mode the operator moves axes.
@@ -390,23 +387,19 @@ impl BlockMotion {
         self.also.extend(found);
     }
 
-    /// Axes that follow what the block moves.
-    fn move_followers(&mut self, words: AxisWords, links: &[CouplingLink]) {
-        let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
+    /// Notes the axes that follow what the block moves.
+    pub(crate) fn move_followers(&mut self, words: AxisWords, links: &[CouplingLink]) {
         let kind = match words {
             AxisWords::Homing => MotionKind::Homing,
             _ => MotionKind::Coupled,
         };
-        let of_words = self.words.iter().filter(|_| moves);
+        let of_words = self.words.iter().filter(|_| words.move_axes());
         let of_words = of_words.map(|word| MovedAxis::of_word(word, kind));
         let in_motion = of_words.chain(self.also.iter().copied());
         let mut moving: BTreeMap<AxisIndex, MovedAxis> = BTreeMap::new();
         for moved in in_motion {
             let known = moving.entry(moved.axis).or_insert(moved);
             known.certainty = known.certainty.min(moved.certainty);
-        }
-        if moving.is_empty() {
-            return;
         }
         let own = moving.clone();
         // Each round makes the motion of an axis certain, or possible, or is the last.

@@ -39,9 +39,13 @@ pub(crate) struct OtherPaths {
 
 impl OtherPaths {
     /// The paths on which the run goes on elsewhere than after a block that it passes over wait there.
+    #[inline]
     pub(crate) fn let_leave(&mut self, here: &mut Executor) {
-        for path in here.scratch.left.drain(..) {
-            self.waiting.push(path);
+        if !here.scratch.left.is_empty() {
+            here.scratch
+                .left
+                .drain(..)
+                .for_each(|path| self.waiting.push(path));
         }
     }
 

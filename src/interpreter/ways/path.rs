@@ -5,14 +5,12 @@
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
-use std::str::FromStr;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{AxisIndex, Compensation, Kind, Membership};
-use crate::interpreter::block::{BlockContext, FailedAt, OwnEnd};
+use crate::interpreter::block::{FailedAt, LastBlock, OwnEnd};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::RunState;
@@ -29,8 +27,7 @@ use crate::interpreter::ways::others::Arrival;
 use crate::interpreter::ways::question::RememberedConditions;
 use crate::interpreter::ways::set::WaySet;
 use crate::syntax::VariableName;
-use crate::syntax::ast::{Operand, Owner};
-use crate::text::{Place, Span};
+use crate::syntax::ast::Owner;
 
 /// The way of the run to its current block.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -405,7 +402,7 @@ pub(crate) struct EndedPath {
     pub(crate) path: Path,
     pub(crate) by: EndedBy,
     pub(crate) at: Option<OwnEnd>,
-    pub(crate) last: Option<Last>,
+    pub(crate) last: Option<LastBlock>,
 }
 
 /// Target of one answer of the machine.
@@ -542,82 +539,6 @@ pub(crate) struct Mark {
 
 /// The pass after which a loop is first examined, then at each doubling.
 const FIRST_LOOK: u64 = 32;
-
-/// The last executed block, in case the program ends without M30.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Last {
-    pub(crate) file: Arc<str>,
-    pub(crate) line: u32,
-    pub(crate) text: String,
-}
-
-impl Last {
-    /// The whole block.
-    pub(crate) fn place(&self) -> Place {
-        Place {
-            file: self.file.clone(),
-            text: self.text.as_str().into(),
-            first_line: self.line,
-            span: Span::new(0, self.text.len()),
-        }
-    }
-}
-
-/// The block of the main program at which a block search ends (R2.96).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SearchedBlock {
-    /// The first executed block with this block number.
-    Number(u64),
-    /// The first executed block that begins in this line, from 1.
-    Line(u32),
-}
-
-/// A text that names no block.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is neither a block number such as `N100` nor a line such as `12`")]
-pub struct NoSearchedBlock(pub String);
-
-impl FromStr for SearchedBlock {
-    type Err = NoSearchedBlock;
-
-    /// Reads `N100` or `12`.
-    fn from_str(text: &str) -> Result<Self, NoSearchedBlock> {
-        let block = match text.strip_prefix(['N', 'n']) {
-            Some(number) => number.parse().ok().map(Self::Number),
-            None => text.parse().ok().filter(|line| *line > 0).map(Self::Line),
-        };
-        block.ok_or_else(|| NoSearchedBlock(text.to_owned()))
-    }
-}
-
-impl fmt::Display for SearchedBlock {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Number(number) => write!(f, "N{number}"),
-            Self::Line(line) => write!(f, "line {line}"),
-        }
-    }
-}
-
-impl SearchedBlock {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "block numbers are far below 2^53"
-    )]
-    /// Returns whether a block is the searched one.
-    pub(crate) fn is(self, at: &BlockContext<'_>) -> bool {
-        if at.level > 0 {
-            return false;
-        }
-        match self {
-            Self::Line(line) => at.line == line,
-            Self::Number(wanted) => at.block.number.as_ref().is_some_and(
-                |number| matches!(number.value, Operand::Number(it) if it.total_cmp(&(wanted as f64)).is_eq()),
-            ),
-        }
-    }
-}
 
 /// The states at an earlier block, which apply where the machine did not execute what follows it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

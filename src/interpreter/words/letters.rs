@@ -158,8 +158,7 @@ impl Executor {
     /// FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
     pub(crate) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         for (name, span) in self.scratch.moves.take_lacking() {
-            let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
-            if !moves || !self.state.is_new_word(&name) {
+            if !words.move_axes() || !self.state.is_new_word(&name) {
                 continue;
             }
             let message = format!(
@@ -474,7 +473,7 @@ impl Executor {
         if start.is_some() || self.scratch.moves.has_geometry() {
             self.take_motion(start, outcome.axis_words);
         }
-        if matches!(outcome.axis_words, AxisWords::Reference | AxisWords::Other) {
+        if !outcome.axis_words.move_axes() {
             self.scratch.moves.drop_words();
         }
     }

@@ -92,11 +92,20 @@ impl Executor {
             || !control.modal.transformed.is_empty()
             || self.scratch.moves.row().is_some();
         if carries && control.described.is_none() {
-            let links = control.couplings.links();
+            self.carry(words);
+        }
+    }
+
+    #[inline(never)]
+    fn carry(&mut self, words: AxisWords) {
+        let (moves, setting) = self.moves();
+        moves.move_others(words, setting);
+        let couplings = &self.state.control.couplings;
+        if couplings.carry() && self.scratch.moves.leads(words) {
+            let links = couplings.links();
             // R2.60: groups may be many.
             self.state.work.charge(ITEM * links.len());
-            let (moves, setting) = self.moves();
-            moves.carry(words, setting, &links);
+            self.scratch.moves.move_followers(words, &links);
         }
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet, Membership, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::block::BlockContext;
+use crate::interpreter::block::{BlockContext, LastBlock};
 use crate::interpreter::executor::{Executor, RunState};
 use crate::interpreter::options::Branches;
 use crate::interpreter::programs::index::EntryIndex;
@@ -14,7 +14,7 @@ use crate::interpreter::values::location::{Location, Unknown};
 use crate::interpreter::values::plain::{Asking, ConditionMeaning, Writer};
 use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::history::HistorySide;
-use crate::interpreter::ways::path::{AskedCondition, BranchSide, EarlierStates, Last};
+use crate::interpreter::ways::path::{AskedCondition, BranchSide, EarlierStates};
 use crate::interpreter::ways::possible_state::ways_of;
 use crate::interpreter::ways::question::{
     Condition, ConditionKind, ImpliedValues, KeptAnswer, MAX_ANSWERS, RememberedCondition,
@@ -436,7 +436,7 @@ impl Executor {
             let main = self.programs.units().first()?;
             Some(main.index.source.place(Span::new(0, 0)))
         };
-        let last = self.state.last.as_ref().map(Last::place);
+        let last = self.state.last.as_ref().map(LastBlock::place);
         let place = last.or_else(start)?;
         let message = format!(
             "the program ends here without reaching {wanted}, at which it is to be started"

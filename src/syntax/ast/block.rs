@@ -3,9 +3,8 @@
 use std::borrow::Cow;
 
 use super::arguments::BracketArguments;
-use super::call::{Call, GCall, Return, SequenceCall};
+use super::call::{Call, Flow, GCall, Return, SequenceCall};
 use super::expression::{Node, Operand, Target};
-use super::flow::Flow;
 use crate::comp::CompCommand;
 use crate::language::{AxisCommand, BlockSharing, HashWords};
 use crate::readings::Question;

@@ -7,7 +7,6 @@ mod arguments;
 mod block;
 mod call;
 mod expression;
-mod flow;
 
 #[cfg_attr(not(feature = "unstable"), allow(unused_imports))]
 pub use crate::language::AxisCommand;
@@ -17,7 +16,7 @@ pub use block::{
     Address, Assignment, Block, BlockNumber, Declaration, Effect, Hash, Item, SpindleWord, Word,
 };
 pub use call::{
-    Call, CallForm, CallName, CallScope, GCall, Repetition, Return, ReturnLevels, SequenceCall,
+    BlockReference, Call, CallForm, CallName, CallScope, Flow, GCall, Repetition, Return,
+    ReturnLevels, SequenceCall,
 };
 pub use expression::{BinaryOperator, Expression, Function, Node, Operand, Owner, Target};
-pub use flow::{BlockReference, Flow};

@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::lowering::{BlockLowering, not_closed, not_understood, span_of, trimmed};
+use super::block::{BlockLowering, not_closed, not_understood, span_of, trimmed};
 use crate::diagnostic::{Code, nearest};
 use crate::syntax::ast::{BlockReference, Effect, Expression, Flow, Item, Operand, Target};
 use crate::syntax::keywords::FLOW_WORDS;

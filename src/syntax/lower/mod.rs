@@ -1,14 +1,10 @@
 //! pest pairs to blocks.
 
-mod arguments;
 mod block;
 mod bracket;
 mod call;
-mod declaration;
 mod flow;
 mod hash;
-mod lowering;
-mod part;
 mod word;
 
 pub(super) use block::block;

@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::lowering::{BlockLowering, span_of};
+use super::block::{BlockLowering, span_of};
 use crate::diagnostic::Code;
 use crate::syntax::ast::{Address, BlockNumber, Effect, GCall, Item, Operand, Word};
 use crate::syntax::fault::{Fault, repeated_word};

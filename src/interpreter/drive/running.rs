@@ -508,7 +508,9 @@ impl Executor {
         if self.scratch.moves.has_repeated() {
             self.refuse_repeated_axes(words, at);
         }
-        self.say_lacking(words, at);
+        if self.scratch.moves.lacks_axes() {
+            self.say_lacking(words, at);
+        }
         self.move_around(words);
         self.check_feed(outcome, at);
         self.carry_along(words);

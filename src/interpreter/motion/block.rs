@@ -203,7 +203,12 @@ impl BlockMotion {
         words.chain(self.also.iter().map(|moved| moved.axis))
     }
 
-    /// The words of axes that the machine does not have.
+    /// Whether it has words of axes that the machine does not have.
+    #[inline]
+    pub(crate) fn lacks_axes(&self) -> bool {
+        !self.lacking.is_empty()
+    }
+
     pub(crate) fn take_lacking(&mut self) -> Vec<(String, Span)> {
         std::mem::take(&mut self.lacking)
     }

@@ -156,6 +156,7 @@ impl Executor {
     }
 
     /// FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
+    #[cold]
     pub(crate) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         for (name, span) in self.scratch.moves.take_lacking() {
             if !words.move_axes() || !self.state.is_new_word(&name) {

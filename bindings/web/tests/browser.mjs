@@ -556,6 +556,9 @@ const tests = {
         const wider = await page.evaluate(() =>
           document.documentElement.scrollWidth - document.documentElement.clientWidth);
         assert.ok(wider <= 0, `${name} ${tab}: ${wider} px too wide`);
+        const cut = await page.locator(`#panel-${tab} .wide`).evaluateAll((all) =>
+          all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.ariaLabel));
+        assert.deepEqual(cut, [], `${name} ${tab}: tables that are cut`);
       }
       await page.locator("#tab-timeline").click();
       if (name === "dark") {

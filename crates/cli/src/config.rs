@@ -17,7 +17,7 @@ use frictcomp::machine::{AxisSet, Machine, Parameterisation};
 use frictcomp_host::{CONFIG_NAME, FileRegistry, LoadedMachine};
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::schema::{config_schema, plant_schema};
-use frictcomp_report::{Table, visible_line};
+use frictcomp_report::{Table, counted, visible_line};
 
 /// Show the configuration in effect, or its schema
 #[derive(Debug, Subcommand)]
@@ -177,7 +177,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
                 format!("{} rejected, {code}", visible_line(file))
             }
             Parameterisation::Assumed => "assumed".to_owned(),
-            Parameterisation::Accepted(list) => format!("{} points", list.table.len()),
+            Parameterisation::Accepted(list) => counted(list.table.len(), "point"),
         };
         table.row(&[
             &axis.name,

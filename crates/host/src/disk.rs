@@ -99,10 +99,13 @@ impl Disk {
         Kind::Revision(Arc::new(revised)).into()
     }
 
-    /// Returns a path of the system relative to the current folder.
+    /// Returns a path of the system relative to the current folder, which itself is `.`.
     pub fn named(path: &Path) -> PathBuf {
         let here = Self::place(Path::new("."));
-        relative(&Self::place(path), &here)
+        match Self::place(path) {
+            path if path == here => ".".into(),
+            path => relative(&path, &here),
+        }
     }
 
     /// Whether a file of the system is missing in a revision.

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::of_axes::json_of_axes;
 use super::pictures::{friction_curve, residuals_over_position, segments_on_trace};
+use super::strings::counted;
 use super::visible::visible_line;
 use crate::document::{Document, Headline, Standing, Table};
 use frictcomp::diagnostic::{Rounded, Severity};
@@ -136,8 +137,8 @@ pub(super) fn push_identified(out: &mut Document<'_>, report: &IdentifyReport) {
     }
     let _ = write!(
         out,
-        "\nvalue list: {} points, straight lines at most {:.3} from the curve\n\n",
-        found.points.len(),
+        "\nvalue list: {}, straight lines at most {:.3} from the curve\n\n",
+        counted(found.points.len(), "point"),
         found.point_error,
     );
     out.table(table);

@@ -461,7 +461,7 @@ fn stiction_compensation_is_reported_in_place_of_a_list() {
     fs::write(path("v.lis"), list).expect("written");
     let listed = said(call("circle", &["-v", "--value-list", &path("v.lis")]));
     assert!(
-        listed.contains("v.lis, 1 points") && !listed.contains("MP1511"),
+        listed.contains("v.lis, 1 point\n") && !listed.contains("MP1511"),
         "{listed}"
     );
     let text = said(call("tune", &["-v"]));

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use crate::folder::{Bench, json, succeeded};
-use crate::workspace::root;
+use crate::workspace::{agree, root};
 use serde_json::Value;
 
 /// Two axes whose lists are the friction curves of the plant, as in the circular test.
@@ -414,15 +414,7 @@ fn the_picture_of_the_documents_is_what_the_tool_draws() {
     let picture = drawn.to_str().expect("a name in UTF-8");
     succeeded(root(), &[&program[..], &[picture]].concat());
     let drawn = std::fs::read_to_string(drawn).expect("a picture");
-    let kept = root().join("docs/assets/contour.svg");
-    if std::env::var_os("UPDATE_DOCS").is_some() {
-        std::fs::write(&kept, &drawn).expect("written");
-    }
-    let kept = std::fs::read_to_string(kept).expect("a picture");
-    assert!(
-        kept == drawn,
-        "docs/assets/contour.svg is no longer what the tool draws"
-    );
+    agree(&root().join("docs/assets/contour.svg"), &drawn);
 }
 
 #[test]

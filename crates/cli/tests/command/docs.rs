@@ -5,13 +5,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::folder::{call, stderr, stdout};
-use crate::workspace::{files, root};
+use crate::console::{Stage, replayed};
+use crate::workspace::{agree, files, root};
 use frictcomp::documents::RULES;
 use frictcomp_report::assumptions::{Chapter, chapters};
-
-/// Set to write the output of the commands into the documents.
-const UPDATE: &str = "UPDATE_DOCS";
 
 /// The sources of all packages, with the tests of those in `crates`.
 fn sources() -> Vec<PathBuf> {
@@ -57,51 +54,22 @@ fn copied(demo: &str) -> tempfile::TempDir {
     copy
 }
 
-/// What a command prints: stdout, stderr, and `? 1` for an exit status other than 0.
-fn play(command: &str, project: &Path) -> String {
-    let mut words = command.split_whitespace();
-    assert_eq!(
-        words.next(),
-        Some("frictcomp"),
-        "`{command}` is no call of the tool"
-    );
-    let copy = command.contains(RECORDED).then(|| copied(RECORDED));
-    let folder = copy.as_ref().map_or(root(), |it| it.path());
-    let folder = if command.contains(PROJECT) {
-        project
-    } else {
-        folder
-    };
-    let output = call(folder, &words.collect::<Vec<_>>());
-    let mut text = [stdout(&output), stderr(&output)].concat();
-    match output.status.code() {
-        Some(0) => {}
-        Some(status) => writeln!(text, "? {status}").expect("text"),
-        None => panic!("`{command}` was killed"),
-    }
-    text
+/// The tree, or a copy of the demo that a command changes.
+struct Documents {
+    project: tempfile::TempDir,
+    recorded: Option<tempfile::TempDir>,
 }
 
-/// The document with the current output below each command.
-fn replayed(text: &str) -> String {
-    let mut fresh = String::new();
-    let mut in_console = false;
-    let project = copied(PROJECT);
-    for line in text.split_inclusive('\n') {
-        let is_fence = line.starts_with("```");
-        if in_console && !is_fence {
-            if let Some(command) = line.strip_prefix("$ ") {
-                fresh.push_str(line);
-                fresh.push_str(&play(command.trim_end(), project.path()));
-            }
-            continue;
+impl Stage for Documents {
+    fn folder(&mut self, command: &str) -> PathBuf {
+        if command.contains(PROJECT) {
+            return self.project.path().to_owned();
         }
-        if is_fence {
-            in_console = !in_console && line.trim_end() == "```console";
+        if command.contains(RECORDED) {
+            return self.recorded.insert(copied(RECORDED)).path().to_owned();
         }
-        fresh.push_str(line);
+        root().to_owned()
     }
-    fresh
 }
 
 /// The rules of a text, in the form `R1.24`.
@@ -134,7 +102,8 @@ fn tests() -> BTreeMap<String, String> {
     for path in files("tests", &["rs"]) {
         parts.insert(path.display().to_string(), read(&path));
     }
-    for path in files("tests/rules", &["md"]) {
+    let cases = ["tests/rules", "crates/cli/tests/cases"];
+    for path in cases.into_iter().flat_map(|it| files(it, &["md"])) {
         let text = read(&path).replace("\n## ", "\n// ");
         parts.insert(path.display().to_string(), text);
     }
@@ -209,17 +178,11 @@ fn the_architecture_names_rooms_and_files_that_exist() {
 #[test]
 fn console_blocks_show_what_the_tool_prints() {
     for path in documents() {
-        let text = read(&path);
-        let fresh = replayed(&text);
-        if std::env::var_os(UPDATE).is_some() && fresh != text {
-            fs::write(&path, &fresh).expect("written");
-        } else {
-            let name = path.display();
-            assert!(
-                fresh == text,
-                "{name} is old, see CONTRIBUTING.md:\n{fresh}"
-            );
-        }
+        let mut stage = Documents {
+            project: copied(PROJECT),
+            recorded: None,
+        };
+        agree(&path, &replayed(&read(&path), &mut stage));
     }
 }
 
@@ -247,16 +210,7 @@ fn assumptions(text: &str) -> String {
 #[test]
 fn the_list_of_assumptions_is_that_of_the_code() {
     let path = root().join("docs/assumptions.md");
-    let text = read(&path);
-    let fresh = assumptions(&text);
-    if std::env::var_os(UPDATE).is_some() {
-        fs::write(&path, &fresh).expect("written");
-    } else {
-        assert!(
-            fresh == text,
-            "docs/assumptions.md is old, see CONTRIBUTING.md:\n{fresh}"
-        );
-    }
+    agree(&path, &assumptions(&read(&path)));
 }
 
 #[test]

@@ -438,14 +438,12 @@ fn a_circular_test_has_a_report() {
     assert!(part(&report, "conditions").contains("reading: standstill=hold"));
 }
 
-#[test]
-fn each_result_has_a_page() {
-    // R9.50, R18.20
+/// Calls of commands that have a page, with words of it.
+fn calls_with_pages(bench: &Bench) -> Vec<(Vec<String>, &'static str)> {
     let demo = root().join("programs/demo");
     let file = |name: &str| demo.join(name).to_string_lossy().into_owned();
     let (recording, trend) = (file("recordings/friction_x.csv"), file("recorded/trend"));
     let channels = ["--velocity", "SetVelo", "--torque", "ActTorque"];
-    let bench = Bench::new(&[]);
     let identified = ["identify", &recording, "--write-list", "x.lis"];
     bench.stdout(&[&identified[..], &channels].concat());
     let state = format!("warm={recording}");
@@ -483,16 +481,35 @@ fn each_result_has_a_page() {
             "What the shapes suggest",
         ),
     ];
-    for (command, more, wanted) in commands {
-        let arguments = [command, more, &["--html", "page.html"]].concat();
-        let shown = bench.call(&arguments);
-        let said = String::from_utf8_lossy(&shown.stderr);
-        assert_ne!(shown.status.code(), Some(2), "{command:?}: {said}");
-        let page = bench.read("page.html");
+    let calls = commands.into_iter().map(|(command, more, wanted)| {
+        let arguments = command.iter().chain(more).map(|&it| it.to_owned());
+        (arguments.collect(), wanted)
+    });
+    calls.collect()
+}
+
+/// Makes the page of a call; returns it with the output of the call.
+fn page_of(bench: &Bench, arguments: &[String]) -> (String, String) {
+    let mut all: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    all.extend(["--html", "page.html"]);
+    let shown = bench.call(&all);
+    let said = String::from_utf8_lossy(&shown.stderr);
+    assert_ne!(shown.status.code(), Some(2), "{arguments:?}: {said}");
+    let page = bench.read("page.html");
+    fs::remove_file(bench.folder().join("page.html")).expect("removed");
+    let text = String::from_utf8_lossy(&shown.stdout).into_owned();
+    (page, text)
+}
+
+#[test]
+fn each_result_has_a_page() {
+    // R9.50, R18.20
+    let bench = Bench::new(&[]);
+    for (command, wanted) in calls_with_pages(&bench) {
+        let (page, text) = page_of(&bench, &command);
         assert_sound(&page);
         assert!(page.contains(wanted), "{command:?}: {wanted}");
         // The page opens with the verdict of the terminal.
-        let text = String::from_utf8_lossy(&shown.stdout).into_owned();
         let verdict = text.lines().next().unwrap_or_default();
         let words = verdict.split_whitespace().last().unwrap_or_default();
         let words = words.trim_matches('`');
@@ -503,7 +520,89 @@ fn each_result_has_a_page() {
         });
         let lead = text_of(lead.expect("a verdict"));
         assert!(lead.contains(words), "{command:?}: {verdict}: {lead}");
-        fs::remove_file(bench.folder().join("page.html")).expect("removed");
+    }
+}
+
+/// The script that measures a page in a frame: what is wider than the window, literal backticks, texts of pictures that
+/// are cut or printed over others.
+const MEASURE: &str = "<script>
+const wrong = [];
+if (document.documentElement.scrollWidth > innerWidth) wrong.push('wider than the window');
+for (const part of document.querySelectorAll('.wide'))
+  if (part.scrollWidth > part.clientWidth) wrong.push('a table is cut: ' + part.ariaLabel);
+if (document.body.innerText.includes('`')) wrong.push('a literal backtick');
+for (const picture of document.querySelectorAll('svg')) {
+  const room = picture.getBoundingClientRect();
+  const texts = [...picture.querySelectorAll('text')].map(text => [text.textContent, text.getBoundingClientRect()]);
+  texts.forEach(([words, box], at) => {
+    if (box.left < room.left - 1 || box.right > room.right + 1) wrong.push('cut: ' + words);
+    for (const [others, other] of texts.slice(at + 1)) {
+      const across = Math.min(box.right, other.right) - Math.max(box.left, other.left);
+      const along = Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top);
+      if (across > 1.5 && along > box.height / 3) wrong.push(words + ' is printed over ' + others);
+    }
+  });
+}
+parent.postMessage(wrong, '*');
+</script>";
+
+#[test]
+fn pages_fit_narrow_and_wide_windows() {
+    // R18.25
+    let Some(browser) = browser() else {
+        return;
+    };
+    let bench = Bench::new(&[("a.nc", FRICTION), ("b.nc", "N10 G01 X1 F100\nN20 M30\n")]);
+    let mut calls: Vec<Vec<String>> = calls_with_pages(&bench)
+        .into_iter()
+        .map(|it| it.0)
+        .collect();
+    let programs = root().join("programs/demo");
+    let programs = programs.to_str().expect("text");
+    for call in [
+        "run a.nc b.nc",
+        "run --kinds all @/five_axis/milling.nc",
+        "audit .",
+        "diff a.nc b.nc",
+        "contour @/contour/plate.nc --start X0,Y0,Z10",
+        "current @/friction.nc --axis X,Y --start X0,Y0,Z0",
+        "replay @/replay/states.csv @/replay/pocket.nc",
+        "commission learn @/learning --plant mid",
+    ] {
+        calls.push(
+            call.split(' ')
+                .map(|it| it.replace('@', programs))
+                .collect(),
+        );
+    }
+    let mut frames = String::from(
+        "<!doctype html><meta charset=utf-8><body><script>onmessage = event => \
+         document.body.setAttribute('data-frame' + Array.from(frames).indexOf(event.source), event.data.join('; '))</script>",
+    );
+    let mut names = Vec::new();
+    for (number, call) in calls.iter().enumerate() {
+        let (page, _) = page_of(&bench, call);
+        let measured = page
+            .replace(
+                "default-src 'none'",
+                "default-src 'none'; script-src 'unsafe-inline'",
+            )
+            .replace("</body>", &format!("{MEASURE}</body>"));
+        bench.write(&format!("page-{number}.html"), &measured);
+        for width in [480, 1400, 2200] {
+            let _ = write!(
+                frames,
+                "<iframe width={width} height=1000 src=page-{number}.html></iframe>"
+            );
+            names.push(format!("{} at {width} px", call.join(" ")));
+        }
+    }
+    bench.write("frames.html", &frames);
+    let (dom, log) = load(&browser, &bench.folder().join("frames.html"));
+    let body = body_tag(&dom);
+    for (at, name) in names.iter().enumerate() {
+        let fits = body.contains(&format!(" data-frame{at}=\"\""));
+        assert!(fits, "{name}: {body}: {log}");
     }
 }
 

@@ -16,12 +16,14 @@
 mod archives;
 mod arriving;
 mod block_search;
+mod cases;
 mod causes;
 mod circle;
 mod cli;
 mod commission;
 mod commission_machines;
 mod commission_run;
+mod console;
 mod contour;
 mod docs;
 mod explain;

@@ -50,7 +50,8 @@ impl Watching {
     fn settle(&self) {
         loop {
             let line = self.said.recv_timeout(PATIENCE).expect("it goes on");
-            if line.starts_with("watching `") {
+            // R18.27
+            if line == "watching `.`; Ctrl-C ends" {
                 return;
             }
         }

@@ -1,5 +1,6 @@
-//! The programs and documents that tests read.
+//! The programs and documents that tests read, and those that they make.
 
+use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -26,4 +27,30 @@ pub(crate) fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
     }
     found.sort();
     found
+}
+
+/// Compares a file with a fresh text, or writes that with `UPDATE_DOCS=1`.
+pub(crate) fn agree(path: &Path, fresh: &str) {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    if text == fresh {
+        return;
+    }
+    if env::var_os("UPDATE_DOCS").is_some() {
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, fresh).expect("written");
+        return;
+    }
+    let same = text.lines().zip(fresh.lines());
+    let same = same.take_while(|(old, new)| old == new).count();
+    let part = |text: &str, mark: &str| -> String {
+        let lines = text.lines().skip(same).take(5);
+        lines.map(|line| format!("{mark} {line}\n")).collect()
+    };
+    panic!(
+        "{} is old, see CONTRIBUTING.md: line {}\n{}{}",
+        path.display(),
+        same + 1,
+        part(&text, "-"),
+        part(fresh, "+")
+    );
 }

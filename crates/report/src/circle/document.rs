@@ -6,6 +6,7 @@ use super::picture::{picture, title};
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::document::{Document, Table};
 use crate::pictures::value_curve;
+use crate::strings::counted;
 use frictcomp::diagnostic::{ReadableNumber, Rounded};
 use frictcomp::lists::{AxisType, FrictionList};
 use frictcomp::machine::AcceptedList;
@@ -240,7 +241,10 @@ fn list_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String> {
         ListOrigin::Plant => "the plant's own friction curve".to_owned(),
         ListOrigin::File(_) | ListOrigin::EachAxis(_) => origin.name(),
     };
-    let mut lines = vec![format!("value list: {list}, {} points", x.table.len())];
+    let mut lines = vec![format!(
+        "value list: {list}, {}",
+        counted(x.table.len(), "point")
+    )];
     let each = if x == y {
         vec![("", x)]
     } else {

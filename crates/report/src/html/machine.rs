@@ -7,6 +7,7 @@ use super::given::RunInputs;
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::lists::cells;
 use crate::pictures::value_curve;
+use crate::strings::counted;
 use crate::svg::Frame;
 use frictcomp::lists::{AxisType, Parameter};
 use frictcomp::machine::{AxisSet, Parameterisation};
@@ -119,6 +120,8 @@ fn value_list(axis: &AxisDigest) -> String {
             format!("assumed by {ENABLED}, its values are not known")
         }
         Parameterisation::Assumed => "assumed by --enable, its values are not known".to_owned(),
-        Parameterisation::Accepted(list) => format!("accepted, {} points", list.table.len()),
+        Parameterisation::Accepted(list) => {
+            format!("accepted, {}", counted(list.table.len(), "point"))
+        }
     }
 }

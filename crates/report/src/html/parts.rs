@@ -22,7 +22,7 @@ pub(super) enum Headings {
 }
 
 /// Columns of a table that fit on a narrow screen.
-const MOST_COLUMNS: usize = 8;
+const MOST_COLUMNS: usize = 7;
 
 /// Caption of a table.
 #[derive(Debug, Clone, Copy)]
@@ -104,6 +104,7 @@ impl HtmlTable<'_> {
         };
         html! {
             @let is_wide = self.columns.len() > MOST_COLUMNS;
+            @let leading = self.columns[0];
             div.wide tabindex="0" role="region" aria-label=(caption) {
                 table.stacked[is_wide] {
                     caption class=[class] { (caption) }
@@ -118,7 +119,9 @@ impl HtmlTable<'_> {
                     tbody {
                         @for row in rows {
                             tr {
-                                th class=[self.columns[0].class()] scope="row" { (row.heading) }
+                                th class=[leading.class()] scope="row" data-head=[is_wide.then_some(leading.name())] {
+                                    (row.heading)
+                                }
                                 @for (cell, column) in row.cells.iter().zip(&self.columns[1..]) {
                                     td class=[column.class()] data-head=[is_wide.then_some(column.name())] {
                                         (cell)

@@ -124,8 +124,12 @@ impl AxisPlot {
             } else {
                 label.to_owned()
             };
+            let y = ChartAxis::linear(&label);
             Panel {
-                y: ChartAxis::linear(&label),
+                y: match drawn {
+                    Drawn::Notches => y.from_zero(),
+                    _ => y,
+                },
                 series: vec![Series {
                     name: label,
                     points: curve.points(),

@@ -45,13 +45,16 @@ pub fn friction_states(report: &StatesReport) -> LineChart {
 pub fn friction_trend(report: &TrendReport) -> LineChart {
     let first = report.dates.first();
     let (day, date) = first.map_or((0.0, ""), |it| (it.day, &it.date));
-    let panel = |parameters: &[FrictionParameter], label: String| Panel {
-        y: ChartAxis::linear(label),
-        series: parameters
+    let panel = |parameters: &[FrictionParameter], unit: &str| {
+        let names: Vec<&str> = parameters.iter().map(|it| it.as_str()).collect();
+        let series = parameters
             .iter()
-            .flat_map(|&parameter| series(report, parameter, day))
-            .collect(),
-        ..Panel::default()
+            .flat_map(|&parameter| series(report, parameter, day));
+        Panel {
+            y: ChartAxis::linear(format!("{} in {unit}", names.join(" and "))),
+            series: series.collect(),
+            ..Panel::default()
+        }
     };
     let unit = &report.unit;
     LineChart {
@@ -69,10 +72,10 @@ pub fn friction_trend(report: &TrendReport) -> LineChart {
         panels: vec![
             panel(
                 &[FrictionParameter::Coulomb, FrictionParameter::Breakaway],
-                unit.clone(),
+                unit,
             ),
-            panel(&[FrictionParameter::Viscous], format!("{unit} per mm/s")),
-            panel(&[FrictionParameter::Offset], unit.clone()),
+            panel(&[FrictionParameter::Viscous], &format!("{unit} per mm/s")),
+            panel(&[FrictionParameter::Offset], unit),
         ],
         ..LineChart::default()
     }

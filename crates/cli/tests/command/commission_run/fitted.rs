@@ -13,6 +13,7 @@ use super::{
     Driven, Recorder, circles_of, constant_speeds, deviations_of, planned_with, put, run, torque,
 };
 use crate::folder::{document, succeeded};
+use crate::workspace::{agree, root};
 
 /// Circles of a plan.
 #[derive(Clone, Copy)]
@@ -263,16 +264,8 @@ fn check_pictures(folder: &Path) {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" {head}</desc>\n<style>\n{}</style>\n{body}</svg>\n",
             style()
         );
-        let kept = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join(format!("../../docs/assets/commissioning-{file}.svg"));
-        if std::env::var_os("UPDATE_DOCS").is_some() {
-            std::fs::write(&kept, &drawn).expect("written");
-        }
-        let kept = std::fs::read_to_string(kept).expect("a picture");
-        assert!(
-            kept == drawn,
-            "docs/commissioning-{file}.svg is no longer what the report draws"
-        );
+        let kept = root().join(format!("docs/assets/commissioning-{file}.svg"));
+        agree(&kept, &drawn);
     }
 }
 

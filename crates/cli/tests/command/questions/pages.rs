@@ -1,24 +1,12 @@
 //! The pages of docs that are made from questions, conformance cases and the table of differences.
 
 use std::fmt::Write as _;
-use std::fs;
 
 use frictcomp::readings::Question;
 use frictcomp_report::assumptions::differences;
 
 use super::cases;
-use crate::workspace::root;
-
-/// Compares a generated page with its file, or writes it with `UPDATE_DOCS=1`.
-fn agrees(name: &str, fresh: &str) {
-    let path = root().join(name);
-    if std::env::var_os("UPDATE_DOCS").is_some() {
-        fs::write(&path, fresh).expect("written");
-        return;
-    }
-    let old = fs::read_to_string(&path).unwrap_or_default();
-    assert!(old == fresh, "{name} is old, see CONTRIBUTING.md:\n{fresh}");
-}
+use crate::workspace::{agree, root};
 
 /// R15.10: the list of cases is that of the files.
 #[test]
@@ -52,7 +40,7 @@ fn the_list_of_cases_is_that_of_the_files() {
         )
         .expect("text");
     }
-    agrees("docs/conformance-cases.md", &text);
+    agree(&root().join("docs/conformance-cases.md"), &text);
 }
 
 /// R15.12: one row per difference from the control, made from the questions, the cases and the table of
@@ -126,5 +114,5 @@ fn the_page_of_differences_is_that_of_the_data() {
     text.push_str(
         "\n[assumptions.md](assumptions.md) lists every assumption that can change a result.\n",
     );
-    agrees("docs/compatibility.md", &text);
+    agree(&root().join("docs/compatibility.md"), &text);
 }

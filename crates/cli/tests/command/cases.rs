@@ -1,0 +1,72 @@
+//! The cases of `crates/cli/tests/cases`: what commands print in a folder with a few files.
+
+use std::fs;
+use std::path::PathBuf;
+use std::thread;
+
+use crate::console::{Stage, replayed};
+use crate::folder::{Bench, MACHINE};
+use crate::workspace::{agree, files};
+
+/// The folder of a case.
+struct Case {
+    /// The machine of the document.
+    machine: String,
+    /// The folder, since the first heading.
+    bench: Option<Bench>,
+}
+
+impl Case {
+    fn describe(bench: &Bench, machine: &str) {
+        if machine.is_empty() {
+            fs::remove_file(bench.folder().join("frictcomp.toml")).expect("removed");
+        } else {
+            bench.write("frictcomp.toml", machine);
+        }
+    }
+}
+
+impl Stage for Case {
+    fn begin(&mut self) {
+        let bench = Bench::new(&[]);
+        Self::describe(&bench, &self.machine);
+        self.bench = Some(bench);
+    }
+
+    fn take(&mut self, kind: &str, text: &str) {
+        match (kind.split_once(' '), &self.bench) {
+            (None, Some(bench)) if kind == "toml" => Self::describe(bench, text),
+            (None, None) if kind == "toml" => text.clone_into(&mut self.machine),
+            (Some(("file", name)), Some(bench)) => {
+                let path = bench.folder().join(name);
+                fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+                bench.write(name, text);
+            }
+            _ => panic!("a block of `{kind}` is not known here"),
+        }
+    }
+
+    fn folder(&mut self, command: &str) -> PathBuf {
+        let bench = self.bench.as_ref();
+        bench
+            .unwrap_or_else(|| panic!("`{command}` is before the first heading"))
+            .folder()
+            .to_owned()
+    }
+}
+
+#[test]
+fn every_case_shows_what_is_written_below_it() {
+    thread::scope(|scope| {
+        for path in files("crates/cli/tests/cases", &["md"]) {
+            scope.spawn(move || {
+                let text = fs::read_to_string(&path).expect("a document");
+                let mut case = Case {
+                    machine: MACHINE.to_owned(),
+                    bench: None,
+                };
+                agree(&path, &replayed(&text, &mut case));
+            });
+        }
+    });
+}

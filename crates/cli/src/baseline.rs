@@ -1,6 +1,6 @@
 //! The findings of an earlier run, so that only new ones are shown (R17.3).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -11,7 +11,8 @@ use super::console::Console;
 use super::failure::{Failure, shown};
 use super::outputs::{Outputs, write_text};
 use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp_host::{FileRegistry, OutputFile, read_text};
+use frictcomp::text::shown_path;
+use frictcomp_host::{Disk, FileRegistry, OutputFile, read_text};
 
 /// The version of the file.
 const SCHEMA: u64 = 1;
@@ -31,6 +32,7 @@ pub(super) struct BaselineArgs {
 /// Key that identifies a finding, wherever its block is in its file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 struct BaselineKey {
+    /// Relative to the folder of the baseline.
     file: String,
     code: String,
     severity: String,
@@ -65,6 +67,10 @@ pub(super) struct Baseline {
     findings: BTreeMap<BaselineKey, u64>,
     unlisted: BTreeMap<String, u64>,
     purpose: Purpose,
+    /// The folder of the file.
+    folder: PathBuf,
+    /// The names of files relative to it, by their names in messages.
+    names: BTreeMap<String, String>,
     /// Number of known findings, and of errors among them.
     known: u64,
     errors: u64,
@@ -92,6 +98,7 @@ impl BaselineArgs {
         if let Some(path) = &self.write_baseline {
             return Ok(Baseline {
                 purpose: Purpose::Write(outputs.file("--write-baseline", path)?),
+                folder: folder_of(path),
                 ..Baseline::default()
             });
         }
@@ -144,23 +151,39 @@ fn read(path: &Path) -> Result<Baseline, Failure> {
         findings,
         unlisted: file.unlisted,
         purpose: Purpose::Compare,
+        folder: folder_of(path),
         ..Baseline::default()
     })
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    let place = Disk::place(path);
+    place.parent().map_or_else(PathBuf::new, Path::to_owned)
 }
 
 impl Baseline {
     /// Takes a finding, and returns whether it is listed.
     pub(super) fn lists(&mut self, said: &Diagnostic) -> bool {
+        if matches!(self.purpose, Purpose::None) {
+            return true;
+        }
+        let key = BaselineKey::of(said, self.name(&said.place.file));
         match self.purpose {
-            Purpose::None => return true,
-            Purpose::Write(_) => *self.findings.entry(BaselineKey::of(said)).or_default() += 1,
-            Purpose::Compare => match self.findings.get_mut(&BaselineKey::of(said)) {
+            Purpose::None | Purpose::Write(_) => *self.findings.entry(key).or_default() += 1,
+            Purpose::Compare => match self.findings.get_mut(&key) {
                 Some(left) if *left > 0 => *left -= 1,
                 _ => return true,
             },
         }
         self.count(said.severity, 1);
         false
+    }
+
+    /// The name of a file relative to the baseline.
+    fn name(&mut self, file: &str) -> String {
+        let Self { names, folder, .. } = self;
+        let name = || shown_path(&Disk::named_from(Path::new(file), folder));
+        names.entry(file.to_owned()).or_insert_with(name).clone()
     }
 
     /// Takes findings that are too many to be listed, and returns how many of them are not known.
@@ -190,12 +213,18 @@ impl Baseline {
         }
     }
 
-    /// Writes the file, or reports what was known. `is_checked` is whether a file was read.
+    /// Writes the file, or reports what was known, and what is gone from the files that were read or removed.
     pub(super) fn finish(
-        self,
+        mut self,
         console: Console,
-        is_checked: impl Fn(&str) -> bool,
+        registry: &FileRegistry,
     ) -> Result<Option<Value>, Failure> {
+        let files = registry.files();
+        let read: BTreeSet<String> = match self.purpose {
+            Purpose::Compare => files.iter().map(|it| self.name(&shown_path(it))).collect(),
+            Purpose::None | Purpose::Write(_) => BTreeSet::new(),
+        };
+        let is_checked = |file: &String| read.contains(file) || !self.folder.join(file).exists();
         let errors = match self.errors {
             0 => String::new(),
             1 => " (1 error of the control)".to_owned(),
@@ -256,9 +285,9 @@ fn text(findings: &BTreeMap<BaselineKey, u64>, unlisted: &BTreeMap<String, u64>)
 }
 
 impl BaselineKey {
-    fn of(said: &Diagnostic) -> Self {
+    fn of(said: &Diagnostic, file: String) -> Self {
         Self {
-            file: said.place.file.replace('\\', "/"),
+            file,
             code: said.code.as_str().to_owned(),
             severity: said.severity.as_str().to_owned(),
             axis: said.axis.clone(),
@@ -300,12 +329,13 @@ mod tests {
     fn a_finding_is_the_same_on_another_line() {
         // R17.3
         let above = "(new)\nN1 X\n";
-        let before = BaselineKey::of(&said("N1 X\n", 0, "left if V.E.A (line 12), else off"));
-        let after = BaselineKey::of(&said(above, 6, "left if V.E.A (line 13), else off"));
+        let key = |said: &Diagnostic| BaselineKey::of(said, "a.nc".to_owned());
+        let before = key(&said("N1 X\n", 0, "left if V.E.A (line 12), else off"));
+        let after = key(&said(above, 6, "left if V.E.A (line 13), else off"));
         assert_eq!(before, after);
-        let other = BaselineKey::of(&said("N1 X\n", 0, "left if V.E.B (line 12), else off"));
+        let other = key(&said("N1 X\n", 0, "left if V.E.B (line 12), else off"));
         assert_ne!(before, other);
-        let other = BaselineKey::of(&said("N1 Y\n", 0, "left if V.E.A (line 12), else off"));
+        let other = key(&said("N1 Y\n", 0, "left if V.E.A (line 12), else off"));
         assert_ne!(before, other);
     }
 
@@ -314,7 +344,7 @@ mod tests {
         // R17.3
         let finding = said("N1 X\n", 0, "left");
         let mut baseline = Baseline {
-            findings: BTreeMap::from([(BaselineKey::of(&finding), 2)]),
+            findings: BTreeMap::from([(BaselineKey::of(&finding, "a.nc".to_owned()), 2)]),
             unlisted: BTreeMap::from([("error".to_owned(), 5)]),
             purpose: Purpose::Compare,
             ..Baseline::default()

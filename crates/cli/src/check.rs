@@ -24,7 +24,6 @@ use super::outputs::Outputs;
 use super::watch::FileWatch;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::session::{Causes, Findings};
-use frictcomp::text::shown_path;
 use frictcomp::timeline::{ReadingsInForce, Record, Sink};
 use frictcomp_host::{
     Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, FileRegistry, HostError, Input,
@@ -168,9 +167,7 @@ fn check(
     found.left_out.forget_read(&registry);
     let missed = found.left_out.diagnostics(&mut machines);
     list_missed(missed, &mut listing, &mut baseline);
-    let read: BTreeSet<String> = registry.files().iter().map(|it| shown_path(it)).collect();
-    let is_checked = |file: &str| read.contains(file) || !Path::new(file).exists();
-    let known = baseline.finish(console, is_checked)?;
+    let known = baseline.finish(console, &registry)?;
     if let Some(record) = &known {
         listing.record(record);
     }

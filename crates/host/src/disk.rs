@@ -101,10 +101,15 @@ impl Disk {
 
     /// Returns a path of the system relative to the current folder, which itself is `.`.
     pub fn named(path: &Path) -> PathBuf {
-        let here = Self::place(Path::new("."));
+        Self::named_from(path, Path::new("."))
+    }
+
+    /// Returns a path of the system relative to a folder, which itself is `.`.
+    pub fn named_from(path: &Path, folder: &Path) -> PathBuf {
+        let folder = Self::place(folder);
         match Self::place(path) {
-            path if path == here => ".".into(),
-            path => relative(&path, &here),
+            path if path == folder => ".".into(),
+            path => relative(&path, &folder),
         }
     }
 

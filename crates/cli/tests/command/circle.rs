@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use crate::folder::{call, one_line};
+use crate::folder::call;
 use crate::workspace::root;
 use serde_json::Value;
 
@@ -109,27 +109,6 @@ fn a_worse_turn_of_a_recording_is_named() {
 }
 
 #[test]
-fn a_circle_that_is_too_fast_says_what_is_not() {
-    // R5.22
-    let fast = ["circle", "--radius", "5", "--feed", "1000"];
-    let document = json(&[&fast[..], &["--format", "json"]].concat());
-    for side in ["off", "on"] {
-        assert!(document[side]["glitch_max"].is_null(), "{side}");
-        assert_eq!(document[side]["advice"], Value::Array(Vec::new()));
-        for crossing in ["X+", "Y+", "X-", "Y-"] {
-            assert!(document[side]["cw"]["glitch"][crossing].is_null());
-        }
-        assert!(document[side]["G_b"].is_f64());
-    }
-    assert_eq!(document["glitches_up_to"]["feed_mm_min"], 785.0);
-    assert_eq!(document["glitches_up_to"]["radius_mm"], 6.4);
-    let said = String::from_utf8(tool(&fast).stdout).expect("text");
-    let said = one_line(&said);
-    let words = "a feed of 785 mm/min or less or a radius of 6.4 mm and more gives figures";
-    assert!(said.contains(words), "{said}");
-}
-
-#[test]
 fn each_axis_has_its_own_list() {
     // R5.25: it is reported which list goes where, and incomplete input is refused.
     let folder = tempfile::tempdir().expect("a folder");
@@ -180,31 +159,6 @@ fn every_model_and_plant_can_be_named() {
             assert!((3.0..60.0).contains(&glitch), "{model} {plant}: {glitch}");
         }
     }
-}
-
-#[test]
-fn what_cannot_be_driven_is_refused() {
-    // R5.20
-    for (arguments, words) in [
-        (["--feed=0", "--radius=100"], "a feed of 0 mm/min"),
-        (["--feed=nan", "--radius=100"], "write a number in mm/min"),
-        (["--radius=1e9", "--feed=1000"], "a radius of 1000000000 mm"),
-        (["--cycle-time=1s", "--feed=1000"], "a CNC cycle of 1000 ms"),
-        (
-            ["--cycle-time=1e-9", "--feed=1000"],
-            "a CNC cycle of 0.000000001 ms",
-        ),
-        (["--feed=1", "--radius=100"], "at most 1500 s are simulated"),
-        (["--plant=stif", "--feed=1000"], "did you mean `stiff`"),
-        (
-            ["--plant=no.toml", "--feed=1000"],
-            "there is no file `no.toml`",
-        ),
-    ] {
-        let said = refusal(&[&["circle"][..], &arguments].concat());
-        assert!(said.contains(words), "{said}");
-    }
-    assert!(refusal(&["tune", "--feeds=0"]).contains("a feed of 0"));
 }
 
 fn write_circle(path: &Path, header: &str, scale: f64) {
@@ -388,34 +342,6 @@ fn each_axis_gets_a_list_with_the_name_of_the_machine() {
         document["axes"]["X"]["table"],
         document["axes"]["Y"]["table"]
     );
-}
-
-#[test]
-fn compensation_that_makes_it_worse_is_said() {
-    // R5.25: a soft contact at low and at high accelerations.
-    let output = tool(&[
-        "tune",
-        "--plant",
-        "soft",
-        "--feeds",
-        "500,16000",
-        "--radii",
-        "130",
-        "--no-shaping",
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{output:?}");
-    let text = String::from_utf8(output.stdout).expect("text");
-    let said = String::from_utf8(output.stderr).expect("text");
-    let is_worse = |line: &&str| {
-        let numbers: Vec<f64> = line
-            .split_whitespace()
-            .filter_map(|it| it.parse().ok())
-            .collect();
-        matches!(numbers[..], [_, _, _, off, on, ..] if on > off)
-    };
-    let worse = text.lines().filter(is_worse).count();
-    assert_eq!(said.matches("FC506").count() > 0, worse > 0, "{text}{said}");
-    assert!(worse > 0, "{text}");
 }
 
 #[test]

@@ -27,14 +27,6 @@ fn explain_prints_the_page() {
 }
 
 #[test]
-fn an_unknown_code_is_answered_with_the_nearest() {
-    assert_eq!(
-        refused(&["explain", "FC2O1"]),
-        "error: there is no page about `FC2O1`\nhelp: did you mean `FC201`?\n"
-    );
-}
-
-#[test]
 fn codes_are_listed() {
     let text = frictcomp(&["explain"]);
     assert!(
@@ -70,43 +62,6 @@ fn usage_errors_are_status_2_and_help_is_0() {
     assert_eq!(frictcomp(&["--help"]).status.code(), Some(0));
     assert_eq!(frictcomp(&["run", "--help"]).status.code(), Some(0));
     assert_eq!(frictcomp(&["--version"]).status.code(), Some(0));
-}
-
-#[test]
-fn an_earlier_word_is_answered_with_the_present_one() {
-    // R9.85
-    for (before, answer) in [
-        (
-            &["graph", "--format", "dot", "."][..],
-            "`frictcomp graph` is now `frictcomp show calls`\n",
-        ),
-        (
-            &["trend", "--help"],
-            "`frictcomp trend` is now `frictcomp commission trend`\n",
-        ),
-        (
-            &["--color", "never", "codes"],
-            "`frictcomp codes` is now `frictcomp explain`\n",
-        ),
-        (
-            &["check", "--unknowns", "."],
-            "`frictcomp check --unknowns` is now `frictcomp show values`\n",
-        ),
-        (
-            &["ask", "--output=questions"],
-            "`frictcomp ask --output` is now `frictcomp ask write --into`\n",
-        ),
-        (
-            &["commission", "learn", "--x", "ActPosX"],
-            "`frictcomp commission learn --x` is now `frictcomp commission learn --position`\n",
-        ),
-        (
-            &["circle", "--trace", "c.csv"],
-            "`frictcomp circle --trace` is now `frictcomp circle --recording`\n",
-        ),
-    ] {
-        assert_eq!(refused(before), answer);
-    }
 }
 
 #[test]

@@ -99,114 +99,6 @@ fn a_vendor_s_start_up_list_is_read_from_any_folder() {
     assert_eq!(run.status.code(), Some(0), "{}", stdout(&run));
 }
 
-#[test]
-fn missing_lists_are_counted_and_shown_where_they_are_named() {
-    // R3.14
-    let root = tempfile::tempdir().unwrap();
-    vendor(root.path());
-    let lists = root.path().join("cnc/listen");
-    for name in ["default.lis", "achsmds2.lis", "achskw1.lis"] {
-        fs::remove_file(lists.join(name)).unwrap();
-    }
-    let cnc = root.path().join("cnc");
-    write(
-        &cnc,
-        &[(
-            "frictcomp.toml",
-            "[machine]\nstartup = \"listen/hochlauf.lis\"\n",
-        )],
-    );
-    let listed = tool(&cnc, &["lists", "listen/hochlauf.lis"]);
-    assert_eq!(listed.status.code(), Some(1));
-    let said_of_lists = stdout(&listed);
-    assert!(
-        said_of_lists.starts_with("3 errors in 3 files, 3 lists are missing\n"),
-        "{said_of_lists}"
-    );
-    let shown = tool(&cnc, &["config", "show"]);
-    assert_eq!(shown.status.code(), Some(1));
-    assert!(
-        stdout(&shown).contains("lists          3 read, 3 missing"),
-        "{}",
-        stdout(&shown)
-    );
-    for line in [3, 5, 7] {
-        let place = format!("listen/hochlauf.lis:{line}:");
-        assert!(stderr(&shown).contains(&place), "{}", stderr(&shown));
-    }
-}
-
-#[test]
-fn a_folder_is_checked_by_its_configuration_or_by_the_list_or_project_below_it() {
-    // R3.42
-    let root = tempfile::tempdir().unwrap();
-    vendor(root.path());
-    let project = "<TcSmProject><Axis><ItemName>A</ItemName><AchsMds>kopf.achs_nr 1\nEnde\n</AchsMds></Axis></TcSmProject>";
-    write(&root.path().join("twincat"), &[("M.tsproj", project)]);
-    for (folder, file) in [
-        ("cnc", "cnc/listen/hochlauf.lis"),
-        ("cnc/listen", "cnc/listen/hochlauf.lis"),
-        ("twincat", "twincat/M.tsproj"),
-    ] {
-        for command in ["lists", "drive"] {
-            let [of_folder, of_file] =
-                [folder, file].map(|path| tool(root.path(), &[command, path]));
-            assert_eq!(of_folder.status, of_file.status, "{command} {folder}");
-            assert_eq!(stderr(&of_folder), stderr(&of_file), "{command} {folder}");
-            assert_eq!(of_folder.stdout, of_file.stdout, "{command} {folder}");
-        }
-    }
-    let several = tool(root.path(), &["lists", "."]);
-    assert_eq!(several.status.code(), Some(2), "{}", stderr(&several));
-}
-
-#[test]
-fn what_is_no_start_up_list_starts_nothing() {
-    // R3.12
-    let root = tempfile::tempdir().unwrap();
-    vendor(root.path());
-    let cnc = root.path().join("cnc");
-    write(&cnc, &[("mill.toml", "[[axis]]\nname = \"X\"\n")]);
-    for (file, what) in [
-        ("listen/achskw1.lis", "is a value list, not a start-up list"),
-        (
-            "listen/sda_mds1.lis",
-            "is a channel list, not a start-up list",
-        ),
-        ("mill.toml", "is a `frictcomp.toml`, not a start-up list"),
-        ("a.nc", "is a program, not a start-up list"),
-        ("listen", "is a folder, not a list"),
-    ] {
-        for arguments in [
-            vec!["run", "--startup", file, "a.nc"],
-            vec!["check", "--startup", file, "a.nc"],
-            vec!["config", "show", "--startup", file],
-        ] {
-            let refused = tool(&cnc, &arguments);
-            assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
-            assert!(
-                stderr(&refused).contains(what),
-                "{arguments:?} {}",
-                stderr(&refused)
-            );
-        }
-    }
-    write(
-        &cnc,
-        &[(
-            "frictcomp.toml",
-            "[machine]\nstartup = \"listen/achskw1.lis\"\n",
-        )],
-    );
-    let refused = tool(&cnc, &["check", "a.nc"]);
-    assert_eq!(refused.status.code(), Some(1));
-    assert!(
-        stdout(&refused).contains("frictcomp.toml:2:11"),
-        "{}",
-        stdout(&refused)
-    );
-}
-
 #[cfg(unix)]
 #[test]
 fn lists_are_regular_files_that_may_be_read() {
@@ -231,64 +123,6 @@ fn lists_are_regular_files_that_may_be_read() {
         "{}",
         stderr(&named)
     );
-}
-
-#[test]
-fn init_writes_what_loads_without_a_message() {
-    // R9.73
-    let root = tempfile::tempdir().unwrap();
-    vendor(root.path());
-    let cnc = root.path().join("cnc");
-    let made = tool(&cnc, &["init"]);
-    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
-    assert!(
-        stderr(&made).starts_with("wrote `./frictcomp.toml`"),
-        "{}",
-        stderr(&made)
-    );
-    let text = fs::read_to_string(cnc.join("frictcomp.toml")).unwrap();
-    assert!(
-        text.contains("\nstartup = \"listen/hochlauf.lis\""),
-        "{text}"
-    );
-    loads_and_runs(&cnc, "a.nc");
-
-    let programs = tempfile::tempdir().unwrap();
-    write(
-        programs.path(),
-        &[
-            (
-                "p/b.nc",
-                "G0 X1 Y2 Z1=3\nZ1[COMP OFF FRICT]\nX[COMP ON FRICT]\nZ1[COMP ON FRICT]\nM30\n",
-            ),
-            ("p/sub/c.nc", "B[COMP OFF FRICT]\nB[COMP ON FRICT]\nM30\n"),
-        ],
-    );
-    let made = tool(programs.path(), &["init", "p"]);
-    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
-    assert!(
-        stderr(&made).contains("the programs use X, Y, B, Z1"),
-        "{}",
-        stderr(&made)
-    );
-    let folder = programs.path().join("p");
-    loads_and_runs(&folder, "b.nc");
-    let shown = stdout(&tool(&folder, &["config", "show"]));
-    let states: Vec<Vec<&str>> = shown
-        .lines()
-        .skip_while(|line| !line.starts_with("axis"))
-        .skip(1)
-        .map(|line| line.split_whitespace().take(3).collect())
-        .collect();
-    let expected = [
-        ["X", "active"],
-        ["Y", "active"],
-        ["B", "active"],
-        ["Z1", "active"],
-    ];
-    for (state, [name, word]) in states.iter().zip(expected) {
-        assert_eq!([state[0], state[2]], [name, word]);
-    }
 }
 
 fn loads_and_runs(folder: &Path, program: &str) {
@@ -381,31 +215,6 @@ fn init_takes_a_start_up_list_and_nothing_else() {
 }
 
 #[test]
-fn axes_that_nobody_described_are_not_taken_for_others() {
-    // R2.20
-    let root = tempfile::tempdir().unwrap();
-    write(
-        root.path(),
-        &[
-            ("a.nc", "X2[COMP OFF FRICT]\nM30\n"),
-            ("y.nc", "Y[COMP OFF FRICT]\nM30\n"),
-        ],
-    );
-    let free = tool(root.path(), &["check", "a.nc"]);
-    assert!(!stdout(&free).contains("did you mean"), "{}", stdout(&free));
-    write(
-        root.path(),
-        &[("frictcomp.toml", "[[axis]]\nname = \"X\"\n")],
-    );
-    let text = stdout(&tool(root.path(), &["check", "y.nc"]));
-    assert!(
-        text.contains("the configuration lists all axes: X"),
-        "{text}"
-    );
-    assert!(text.contains("`[[axis]]` with `name = \"Y\"`"), "{text}");
-}
-
-#[test]
 fn the_lead_of_an_axis_is_that_of_its_recordings() {
     // R6.26: a recording in turns of the motor, with the lead beside it, above it, or on the command line.
     let demo = include_str!("../../../../programs/demo/recordings/friction_x.csv");
@@ -442,32 +251,4 @@ fn the_lead_of_an_axis_is_that_of_its_recordings() {
     assert_eq!(identified(described.path(), &["--axis", "X"]), given);
     assert_ne!(identified(described.path(), &["--lead", "5"]), given);
     assert_ne!(identified(bare.path(), &[]), given);
-}
-
-#[test]
-fn numbers_without_a_header_and_a_time_are_no_recording() {
-    // R6.27
-    let folder = tempfile::tempdir().expect("a folder");
-    let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].in 0\n\
-                frict_comp.table[0].out 100\n";
-    write(
-        folder.path(),
-        &[("x.csv", "5,6\n3,2\n4,1\n4,1\n"), ("x.lis", list)],
-    );
-    for command in ["identify", "verify --value-list x.lis"] {
-        let mut arguments: Vec<&str> = command.split(' ').collect();
-        arguments.extend(["x.csv", "--velocity", "column 1", "--torque", "column 2"]);
-        let output = tool(folder.path(), &arguments);
-        assert_eq!(
-            output.status.code(),
-            Some(2),
-            "{command}: {}",
-            stderr(&output)
-        );
-        assert!(
-            stderr(&output).contains("has no times"),
-            "{}",
-            stderr(&output)
-        );
-    }
 }

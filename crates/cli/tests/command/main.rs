@@ -15,7 +15,6 @@
 
 mod archives;
 mod arriving;
-mod block_search;
 mod cases;
 mod causes;
 mod circle;

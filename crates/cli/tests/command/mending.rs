@@ -58,36 +58,6 @@ fn safe_changes_touch_nothing_else() {
 }
 
 #[test]
-fn a_change_that_guesses_is_not_made() {
-    // R9.82
-    let bench = Bench::new(&[
-        ("a.nc", "X[COMP OFF FRIKT]\nM30\n"),
-        ("b.nc", "X[COMP off FRICT]\nX[COMP ON FRICT]\nM30\n"),
-    ]);
-    let (code, shown, said) = status(&bench, &["check", "--fix", "a.nc", "b.nc"]);
-    assert_eq!(code, Some(1), "{shown}{said}");
-    assert!(
-        shown.contains("FC202") && !shown.contains("FC404"),
-        "{shown}"
-    );
-    assert!(said.contains("fixed `b.nc`: 1 change\n"), "{said}");
-    assert!(!said.contains("fixed `a.nc`"), "{said}");
-    assert_eq!(bench.read("a.nc"), "X[COMP OFF FRIKT]\nM30\n");
-    assert_eq!(
-        bench.read("b.nc"),
-        "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n"
-    );
-    // There is nothing left to change.
-    let (code, shown, said) = status(&bench, &["check", "--fix", "b.nc"]);
-    assert_eq!(
-        (code, shown.as_str()),
-        (Some(0), "b.nc is clean\n"),
-        "{said}"
-    );
-    assert!(!said.contains("fixed"), "{said}");
-}
-
-#[test]
 fn a_difference_shows_the_changes_and_makes_none() {
     // R9.82
     let text = "N10 G90\r\nN20 X[COMP off FRICT]\r\nN30 X[COMP ON FRICT]\r\nN40 M30\r\n";
@@ -128,31 +98,6 @@ fn a_difference_shows_the_changes_and_makes_none() {
             "{said}"
         );
     }
-}
-
-#[test]
-fn a_comment_that_another_program_needs_stays() {
-    // R9.82: alone the subprogram repeats nothing, called it does.
-    let sub = "X[COMP ON FRICT] ; frictcomp: allow FC402\nM17\n";
-    let main = "X[COMP ON FRICT]\nL sub.nc\nM30\n";
-    let bench = Bench::new(&[("main.nc", main), ("sub.nc", sub)]);
-    let alone = Bench::new(&[("sub.nc", "G0 X1 ; frictcomp: allow FC402\nM17\n")]);
-    let (_, shown, said) = status(&bench, &["check", "--fix", "main.nc", "sub.nc"]);
-    assert_eq!(bench.read("sub.nc"), sub, "{shown}{said}");
-    let (_, shown, said) = status(&alone, &["check", "--fix", "sub.nc"]);
-    assert_eq!(alone.read("sub.nc"), "G0 X1\nM17\n", "{shown}{said}");
-}
-
-#[test]
-fn what_a_program_calls_is_left_alone() {
-    // R9.82
-    let bench = Bench::new(&[
-        ("main.nc", "L sub.nc\nM30\n"),
-        ("sub.nc", "X[COMP on FRICT]\nM17\n"),
-    ]);
-    let (_, shown, _) = status(&bench, &["check", "--fix", "main.nc"]);
-    assert!(shown.contains("FC404"), "{shown}");
-    assert_eq!(bench.read("sub.nc"), "X[COMP on FRICT]\nM17\n");
 }
 
 #[cfg(unix)]

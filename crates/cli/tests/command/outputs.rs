@@ -179,22 +179,6 @@ fn no_link_leads_an_output_to_what_users_write() {
 }
 
 #[test]
-fn two_outputs_are_two_files() {
-    // R9.70
-    let bench = bench();
-    let said = refused(&bench, &["run", "part.nc", "-o", "a", "--html", "./a"]);
-    assert!(
-        said.contains("`--output a` and `--html ./a` are the same file"),
-        "{said}"
-    );
-    let said = refused(&bench, &["run", "part.nc", "--state", "s", "-o", "s.lock"]);
-    assert!(said.contains("the lock of --state"), "{said}");
-    let said = refused(&bench, &["run", "part.nc", "--html", "-"]);
-    assert!(said.contains("standard output"), "{said}");
-    assert!(refused(&bench, &["tune", "--svg", "-"]).contains("standard output"));
-}
-
-#[test]
 fn a_dash_is_standard_output() {
     // R9.70
     let bench = bench();
@@ -217,20 +201,6 @@ fn what_is_written_is_named() {
     for name in ["wrote `a.txt`", "wrote `a.html`", "wrote `s`"] {
         assert!(said.lines().any(|line| line == name), "{said}");
     }
-}
-
-#[test]
-fn outputs_take_their_place_together() {
-    // R9.70
-    let bench = bench();
-    bench.write("a.txt", "old");
-    let said = refused(
-        &bench,
-        &["run", "part.nc", "-o", "a.txt", "--html", "no/a.html"],
-    );
-    assert!(said.contains("its folder does not exist"), "{said}");
-    let said = refused(&bench, &["run", "part.nc", "-o", "."]);
-    assert!(said.contains("it is a folder"), "{said}");
 }
 
 #[test]
@@ -510,50 +480,4 @@ fn golden_writes_all_or_nothing_of_a_folder() {
     let before = bench.read("later/a.nc.timeline");
     assert_eq!(bench.status(&["golden", "--update", "later"]), Some(2));
     assert_eq!(bench.read("later/a.nc.timeline"), before);
-}
-
-#[test]
-fn golden_tells_missing_from_drifted() {
-    let bench = bench();
-    let output = bench.call(&["golden", "part.nc"]);
-    assert_eq!(output.status.code(), Some(1));
-    let said = String::from_utf8_lossy(&output.stdout);
-    assert!(said.starts_with("1 timeline: 1 is missing"), "{said}");
-    assert_eq!(bench.status(&["golden", "--update", "part.nc"]), Some(0));
-    assert_eq!(bench.status(&["golden", "part.nc"]), Some(0));
-    bench.write("part.nc", "N10 M30\n");
-    let output = bench.call(&["golden", "part.nc"]);
-    let said = String::from_utf8_lossy(&output.stdout);
-    assert!(said.starts_with("1 timeline: 1 differs"), "{said}");
-}
-
-#[test]
-fn several_paths_give_what_they_can() {
-    // R9.77
-    let bench = bench();
-    let output = bench.call(&["check", "--format", "concise", "missing.nc", "part.nc"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("part.nc:1:"));
-    assert!(stderr(&output).contains("there is no file `missing.nc`"));
-    let output = bench.call(&["lists", "missing.lis", "v.lis", "--show"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("there is no file `missing.lis`"));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("in 1 file\n"));
-}
-
-#[test]
-fn an_agreed_timeline_has_codes_and_no_words() {
-    // R18.30
-    let bench = Bench::new(&[("part.nc", "X[COMP OFF FRICT]\nG1 X5 F100\nM30\n")]);
-    assert_eq!(
-        bench.status(&["golden", "--update", "--enable", "X", "part.nc"]),
-        Some(0)
-    );
-    let agreed = fs::read_to_string(bench.folder().join("part.nc.timeline"));
-    let agreed = agreed.expect("the timeline");
-    assert!(
-        agreed.contains("warning FC401 at 1:1, axis X\n") && agreed.contains("inactive ◄"),
-        "{agreed}"
-    );
-    assert!(!agreed.contains("left inactive"), "{agreed}");
 }

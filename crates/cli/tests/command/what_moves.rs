@@ -226,52 +226,6 @@ fn homing_counts_neither_for_the_second_run_nor_for_required_kinds() {
 }
 
 #[test]
-fn a_cure_changes_no_motion() {
-    // R10.8
-    let sub = "N1 G01 X10 F500\nN2 X0\nM17\n";
-    let main =
-        "N10 X[COMP OFF FRICT]\nN20 L SUB.NC\nN30 $IF V.E.A==1\nM30\n$ENDIF\nN37 L SUB.NC\nM30\n";
-    let other = "N10 X[COMP OFF FRICT]\nN20 L LAST.NC\nN30 M30\n";
-    let last = "N1 G01 X10 F500\nM30\n";
-    let heir = "G01 X5 F100\nM30\n";
-    let bench = bench(&[
-        ("a.nc", main),
-        ("b.nc", other),
-        ("heir.nc", heir),
-        ("SUB.NC", sub),
-        ("LAST.NC", last),
-    ]);
-    let files = ["a.nc", "b.nc", "heir.nc"];
-    let arguments = [&["audit", "--fix=leavers"], &files[..]].concat();
-    let output = bench.call(&arguments);
-    let remarks = String::from_utf8(output.stderr).expect("text");
-    // A block before each end changes the state in no motion.
-    let mended = main.replace("M30\n", "X[COMP ON FRICT]\nM30\n");
-    for (file, text) in [
-        ("a.nc", &*mended),
-        ("b.nc", other),
-        ("SUB.NC", sub),
-        ("LAST.NC", last),
-    ] {
-        assert_eq!(bench.read(file), text, "{file}");
-    }
-    let reason = "b.nc: a block that mends this would change the state in which axes move";
-    assert!(remarks.contains(reason), "{remarks}");
-}
-
-#[test]
-fn a_cure_in_another_place_is_written() {
-    // R10.8
-    let main =
-        "N10 X[COMP OFF FRICT]\nN20 G01 X10 F500\nN30 $IF P1==1\nN32 M30\nN34 $ENDIF\nN40 M30\n";
-    let main = format!("P1=1\n{main}");
-    let bench = bench(&[("a.nc", &main), ("heir.nc", "G01 X5 F100\nM30\n")]);
-    bench.call(&["audit", "--fix=leavers", "a.nc", "heir.nc"]);
-    let mended = main.replace("N32 M30", "N31 X[COMP ON FRICT]\nN32 M30");
-    assert_eq!(bench.read("a.nc"), mended);
-}
-
-#[test]
 fn nothing_says_that_nothing_is_to_be_done_where_an_effect_is_unknown() {
     // R10.9
     let unknown = "L missing.nc\nM30\n";
@@ -289,52 +243,6 @@ fn nothing_says_that_nothing_is_to_be_done_where_an_effect_is_unknown() {
         text.contains("X: no program is known to leave it off"),
         "{text}"
     );
-}
-
-#[test]
-fn a_program_that_asks_for_another_axis_is_no_all_clear() {
-    // R10.10
-    for (text, axis, effect) in [
-        (
-            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nX[COMP OFF FRICT]\n$ENDIF\nM30\n",
-            "X",
-            "depends",
-        ),
-        (
-            "P1 = V.A.FRICT_COMP_ACTIVE[1]\n$IF P1 == 0\nX[COMP OFF FRICT]\n$ENDIF\nM30\n",
-            "X",
-            "depends",
-        ),
-        (
-            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0 && V.A.FRICT_COMP_ACTIVE.Z == 0\nX[COMP OFF FRICT]\n$ENDIF\nM30\n",
-            "X",
-            "depends",
-        ),
-        (
-            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nY[COMP ON FRICT]\n$ENDIF\nM30\n",
-            "Y",
-            "leaves on",
-        ),
-        (
-            "$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nY[COMP ON FRICT]\n$ENDIF\nM30\n",
-            "X",
-            "keeps",
-        ),
-        (
-            "Y[COMP OFF FRICT]\n$IF V.A.FRICT_COMP_ACTIVE.Y == 0\nX[COMP ON FRICT]\n$ENDIF\nM30\n",
-            "X",
-            "leaves on",
-        ),
-    ] {
-        let bench = bench(&[("a.nc", text)]);
-        let records = audit(&bench);
-        let found = program(&records, "a.nc", axis);
-        assert_eq!(found["effect"], effect, "{text}");
-        if effect == "depends" {
-            let way = &found["possible"][0]["ways"][0][0];
-            assert_eq!((&way["kind"], &way["axis"]), (&"found".into(), &"Y".into()));
-        }
-    }
 }
 
 #[test]
@@ -434,20 +342,4 @@ fn the_end_that_was_reached_is_named() {
             );
         }
     }
-}
-
-#[test]
-fn the_fix_goes_into_the_text_that_ends_the_program() {
-    // R1.58
-    let bench = bench(&[
-        ("a.nc", "N10 X[COMP OFF FRICT]\nN20 L LAST.NC\nN30 M30\n"),
-        ("LAST.NC", "N1 G01 X10 F500\nN2 M30\n"),
-    ]);
-    let left = said(&bench, &["a.nc"], "FC401");
-    let fix = &left[0]["fixes"][0];
-    assert_eq!(fix["line"], 2, "{fix}");
-    assert!(
-        fix["file"].as_str().expect("a file").ends_with("LAST.NC"),
-        "{fix}"
-    );
 }

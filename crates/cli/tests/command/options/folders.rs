@@ -103,20 +103,6 @@ fn programs_that_are_not_looked_at_are_said() {
 }
 
 #[test]
-fn a_program_that_another_one_calls_was_looked_at() {
-    // R18.5
-    let bench = Bench::new(&[
-        ("a.nc", "L SUB.PRG\nL4712\nM30\n"),
-        ("SUB.PRG", "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM17\n"),
-        ("4712", "G0 X1\nM17\n"),
-    ]);
-    let output = bench.call(&["check", "--format", "concise"]);
-    let said = stderr(&output);
-    assert!(!said.contains("not checked"), "{said}");
-    assert!(!String::from_utf8_lossy(&output.stdout).contains("FC105"));
-}
-
-#[test]
 fn files_are_left_out_and_taken_as_the_user_says() {
     // R18.5
     let bench = shop();
@@ -328,29 +314,4 @@ fn a_file_that_is_no_program_is_one_error() {
         );
         fs::remove_file(bench.folder().join("c.nc")).expect("removed");
     }
-}
-
-#[test]
-fn a_called_name_that_several_files_have_is_said() {
-    // R2.108
-    let bench = Bench::new(&[
-        ("main.nc", "L sub.nc\nL sub.nc\nL cycles/sub.nc\nM30\n"),
-        ("sub.nc", PLAIN),
-        (
-            "frictcomp.toml",
-            "[machine]\nprogram_dirs = [\"cycles\", \"same\"]\n",
-        ),
-    ]);
-    for (folder, text) in [("cycles", OFF), ("same", PLAIN)] {
-        fs::create_dir_all(bench.folder().join(folder)).expect("a folder");
-        bench.write(&format!("{folder}/sub.nc"), text);
-    }
-    let said = bench.stdout(&["check", "--format", "concise", "main.nc"]);
-    let said: Vec<&str> = said.lines().filter(|it| it.contains("FC329")).collect();
-    assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].contains("`sub.nc` is called here"), "{said:?}");
-    assert!(
-        said[0].contains("`cycles/sub.nc` has the name, too"),
-        "{said:?}"
-    );
 }

@@ -65,68 +65,6 @@ fn a_result_names_the_readings_that_decide_it() {
     }
 }
 
-/// R15.3, R1.29, R1.40: the start of the control decides where no program has switched a kind before the
-/// axis moves; that of a kind with manual activation is a separate question.
-#[test]
-fn the_start_of_the_control_is_named_where_it_decides() {
-    let bench = bench();
-    bench.write("moves.nc", "G1 X1 F100\nM30\n");
-    bench.write("sets.nc", "X[COMP ON FRICT]\nM30\n");
-    let rules = |arguments: &[&str]| -> Vec<String> {
-        let found = rests_on(&bench, arguments);
-        found.into_iter().map(|(rule, ..)| rule).collect()
-    };
-    assert_eq!(rules(&["moves.nc"]), ["R1.29"]);
-    assert!(rules(&["sets.nc", "moves.nc"]).is_empty());
-    assert_eq!(rules(&["--state", "s.json", "moves.nc"]), ["R1.29"]);
-    assert!(rules(&["--state", "s.json", "moves.nc"]).is_empty());
-    let lead = "compensations = [\"LEAD\"]\nmanual_activation = [\"LEAD\"]\n";
-    bench.write("frictcomp.toml", &format!("{MACHINE}{lead}"));
-    bench.write(
-        "lead.nc",
-        "X[COMP ON FRICT]\nG1 X1 F100\nX[COMP ON LEAD]\nM30\n",
-    );
-    assert_eq!(rules(&["lead.nc"]), ["R1.40"]);
-    assert_eq!(rules(&["moves.nc"]), ["R1.29"]);
-    bench.write(
-        "frictcomp.toml",
-        &format!("{MACHINE}{lead}required = [\"LEAD\"]\n"),
-    );
-    assert_eq!(rules(&["sets.nc", "moves.nc"]), ["R1.40"]);
-}
-
-/// R15.3: the effect of programs on each other rests on what a reset keeps, once one of them leaves something.
-#[test]
-fn an_audit_names_the_readings_that_decide_it() {
-    let bench = bench();
-    let rests =
-        "Rests on R1.28, assumed: a reset keeps the state (`frictcomp ask` writes the test)";
-    bench.write("moves.nc", "G1 X1 F100\nM30\n");
-    let alone = bench.stdout(&["audit", "-v", "moves.nc"]);
-    assert!(!alone.contains("Rests on"), "{alone}");
-    bench.write("leaves.nc", "X[COMP OFF FRICT]\nM30\n");
-    let both = bench.stdout(&["audit", "-v", "moves.nc", "leaves.nc"]);
-    assert!(both.contains(&format!("{rests}\n")), "{both}");
-    // R18.21: without `-v` a text has no rule numbers.
-    let brief = bench.stdout(&["audit", "moves.nc", "leaves.nc"]);
-    assert!(!brief.contains("R1.28"), "{brief}");
-    let records = bench.stdout(&["audit", "--format", "ndjson", "moves.nc", "leaves.nc"]);
-    let summary = json(records.lines().last().expect("a summary"));
-    assert_eq!(summary["rests_on"][0]["rule"], "R1.28");
-    bench.write(
-        "shares.nc",
-        "X[COMP OFF FRICT] G1 X1 F100\nX[COMP ON FRICT]\nM30\n",
-    );
-    let shares = bench.stdout(&["audit", "-v", "shares.nc"]);
-    assert!(shares.contains("Rests on R1.9, assumed"), "{shares}");
-    bench.write("order.txt", "shares.nc\nmoves.nc\n");
-    let steps = bench.stdout(&["audit", "-v", "--sequence", "order.txt"]);
-    assert!(steps.contains("Rests on R1.9, assumed"), "{steps}");
-    let steps = bench.stdout(&["audit", "--sequence", "order.txt", "--format", "ndjson"]);
-    let last = json(steps.lines().last().expect("a step"));
-    assert_eq!(last["rests_on"][0]["rule"], "R1.9");
-}
-
 /// R15.3, R4.2 to R4.7: a current rests on the readings that its list makes relevant, and on what switched it; an
 /// option that selects otherwise is not a reading of the machine.
 #[test]
@@ -169,29 +107,6 @@ fn currents_and_contours_name_the_readings_that_decide_them() {
         "{}",
         found["rests_on"]
     );
-}
-
-/// R15.3, R2.96: a selected reading of a block search decides what follows.
-#[test]
-fn a_selected_reading_of_a_search_is_named() {
-    let bench = bench();
-    bench.write(
-        "a.nc",
-        "N10 X[COMP OFF FRICT]\nN20 G1 X5 F100\nN30 X[COMP ON FRICT]\nM30\n",
-    );
-    let searched = ["--from", "N20", "a.nc"];
-    // If the search skips the command, the axis moves as at the start of the control.
-    let start = ("R1.29", "start-up", "assumed");
-    let owned = |all: &[(&str, &str, &str)]| -> Vec<(String, String, String)> {
-        let all = all.iter();
-        all.map(|(rule, reading, basis)| ((*rule).into(), (*reading).into(), (*basis).into()))
-            .collect()
-    };
-    assert_eq!(rests_on(&bench, &searched), owned(&[start]));
-    let selected = format!("{MACHINE}[reading]\n\"R2.96\" = \"decoded\"\n");
-    bench.write("frictcomp.toml", &selected);
-    let search = ("R2.96", "decoded", "selected");
-    assert_eq!(rests_on(&bench, &searched), owned(&[start, search]));
 }
 
 /// R15.3, R2.90: a selected reading of a level that two blocks depend on decides what follows.

@@ -1,4 +1,3 @@
-mod advice;
 mod model;
 mod program;
 mod saved;

@@ -100,58 +100,6 @@ fn a_program_from_a_pipe_says_what_it_says_from_a_file() {
 }
 
 #[test]
-fn every_main_program_but_the_one_that_runs_is_named() {
-    // R2.11
-    let bench = tempfile::tempdir().expect("a folder");
-    let path = bench.path().join("part.nc");
-    let file = &path.to_str().expect("UTF-8").replace('\\', "/");
-    for (program, never_run) in [
-        ("%A\nM30\n", &[][..]),
-        ("%A\nM30\n%B\nM30\n%L C\nM17\n%D\nX1\n", &["B", "D"]),
-        ("X1\n%A\nM30\n", &["A"]),
-        ("%L A\nM17\n%B\nM30\n%C\nM30\n", &["C"]),
-        // A `%` alone ends a file, as on tape.
-        ("%A\nM30\n%\n", &[]),
-        ("%A\nM30\n%L B\nM17\n%\n", &[]),
-        ("%A\nM30\n%B\n%C\nM30\n", &["C"]),
-        // Flow: the text is in memory, from there on or from the start.
-        ("%A\nM30\n%B\n$IF 1 == 1\n$ENDIF\nM30\n", &["B"]),
-        ("%A\nX1\n$IF 1 == 1\n$ENDIF\n%B\nM30\n", &["B"]),
-        ("$IF 1 == 1\n$ENDIF\n%B\nM30\n", &["B"]),
-        ("%A\n%B\n$IF 1 == 1\n$ENDIF\nM30\n", &["B"]),
-    ] {
-        std::fs::write(&path, program).expect("written");
-        let check = |input| {
-            output(
-                &["check", "--isolated", "--format", "concise", input],
-                program.as_bytes(),
-            )
-        };
-        let from_file = check(file);
-        assert_eq!(check("-").replace("<stdin>", file), from_file, "{program}");
-        let named: Vec<&str> = from_file
-            .lines()
-            .filter(|line| line.contains("FC324"))
-            .map(|line| line.split('`').nth(1).expect("a name"))
-            .collect();
-        assert_eq!(named, never_run, "{program}: {from_file}");
-    }
-}
-
-#[test]
-fn a_jump_back_behind_streamed_blocks_is_taken() {
-    // R9.40, R2.42
-    let program = b"N1 X1\nN2 X[COMP OFF FRICT]\nP1 = 0\nN10: P1 = P1 + 1\nN20 Y1\n$IF P1 < 3 $GOTO N10\nM30\n";
-    let text = output(
-        &["run", "--isolated", "--enable", "X", "--format", "csv", "-"],
-        program,
-    );
-    let again = text.lines().filter(|line| line.contains("N20 Y1")).count();
-    assert_eq!(again, 3, "{text}");
-    assert!(text.contains("<stdin>,5,20,N20 Y1,"), "{text}");
-}
-
-#[test]
 fn a_check_prints_the_same_on_any_number_of_processors() {
     // R9.16
     for format in ["text", "ndjson", "sarif"] {

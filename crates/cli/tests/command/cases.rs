@@ -6,7 +6,7 @@ use std::thread;
 
 use crate::console::{Stage, replayed};
 use crate::folder::{Bench, MACHINE};
-use crate::workspace::{agree, files};
+use crate::workspace::{agree, copy, files};
 
 /// The folder of a case.
 struct Case {
@@ -36,6 +36,11 @@ impl Stage for Case {
     fn take(&mut self, kind: &str, text: &str) {
         match (kind.split_once(' '), &self.bench) {
             (None, Some(bench)) if kind == "toml" => Self::describe(bench, text),
+            (None, Some(bench)) if kind == "copy" => {
+                for folder in text.lines() {
+                    copy(folder, bench.folder());
+                }
+            }
             (None, None) if kind == "toml" => text.clone_into(&mut self.machine),
             (Some(("file", name)), Some(bench)) => {
                 let path = bench.folder().join(name);

@@ -49,22 +49,6 @@ fn completions_and_the_manual_page_are_printed() {
 }
 
 #[test]
-fn usage_errors_are_status_2_and_help_is_0() {
-    // R9.26
-    for wrong in [
-        &["rum"][..],
-        &["run"],
-        &["run", "--skip", "12", "a.nc"],
-        &["explain", "--format", "csv"],
-    ] {
-        assert!(refused(wrong).starts_with("error: "), "{wrong:?}");
-    }
-    assert_eq!(frictcomp(&["--help"]).status.code(), Some(0));
-    assert_eq!(frictcomp(&["run", "--help"]).status.code(), Some(0));
-    assert_eq!(frictcomp(&["--version"]).status.code(), Some(0));
-}
-
-#[test]
 fn the_tool_alone_prints_its_commands_in_five_groups() {
     // R9.85
     let output = frictcomp(&[]);
@@ -107,18 +91,6 @@ fn what_cannot_be_read_is_one_clear_line() {
 }
 
 #[test]
-fn a_missing_configuration_is_said_before_anything_runs() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let program = folder.path().join("a.nc");
-    std::fs::write(&program, "N10 M30\n").expect("written");
-    let program = program.display().to_string();
-    let said = refused(&["run", "--config", "missing.toml", &program]);
-    assert!(said.contains("`missing.toml`"), "{said}");
-    let said = refused(&["run", "--isolated", "--enable", "X[", &program]);
-    assert!(said.contains("is not an axis name"), "{said}");
-}
-
-#[test]
 fn a_damaged_state_file_stays_as_it_is() {
     // R9.30
     let folder = tempfile::tempdir().expect("a folder");
@@ -135,33 +107,6 @@ fn a_damaged_state_file_stays_as_it_is() {
     ]);
     assert!(said.contains("is damaged"), "{said}");
     assert_eq!(std::fs::read(path("s.json")).expect("read"), b"{");
-}
-
-#[test]
-fn config_show_prints_the_machine() {
-    let output = frictcomp(&["config", "show", "--isolated", "--enable", "X,Q"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let text = stdout(&output);
-    assert!(
-        text.contains("X     T     active        1 assumed     assumed"),
-        "{text}"
-    );
-    assert!(
-        text.contains("Y     T     unconfigured  0 default     none"),
-        "{text}"
-    );
-    assert!(text.contains("Q     T     active"), "{text}");
-    // `enable` of the configuration assumes the same, without an option.
-    let folder = tempfile::tempdir().expect("a folder");
-    let config = folder.path().join("frictcomp.toml");
-    std::fs::write(&config, "[[axis]]\nname = \"X\"\nenable = true\n").expect("written");
-    let shown = config.display().to_string();
-    let output = frictcomp(&["config", "show", "--config", &shown]);
-    let text = stdout(&output);
-    assert!(
-        text.contains("1 assumed     assumed") && !text.contains("--enable"),
-        "{text}"
-    );
 }
 
 #[test]
@@ -209,15 +154,4 @@ fn a_closed_pipe_is_quiet() {
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(stderr(&output), "");
-}
-
-#[test]
-fn a_file_as_the_only_argument_is_run() {
-    // R13.15
-    let program = root().join("programs/demo/friction.nc");
-    let program = program.to_str().expect("a name in UTF-8");
-    let (alone, run) = (frictcomp(&[program]), frictcomp(&["run", program]));
-    assert_eq!(stdout(&alone), stdout(&run));
-    assert_eq!(alone.status.code(), run.status.code());
-    assert!(refused(&["no-such-file.nc"]).contains("no-such-file.nc"));
 }

@@ -216,43 +216,6 @@ fn what_deviates_beside_the_plane_is_said() {
 }
 
 #[test]
-fn a_limit_fails_the_build() {
-    // R11.6
-    let bench = bench(&circle("G03", "OFF"));
-    let status = |limit: &str| {
-        let arguments = [
-            "contour",
-            "part.nc",
-            "--start",
-            "X25,Y0",
-            "--fail-above",
-            limit,
-        ];
-        bench.call(&arguments).status.code()
-    };
-    assert_eq!(status("5"), Some(1));
-    assert_eq!(status("500"), Some(0));
-    assert_eq!(status("-1"), Some(2));
-    // A stretch that was not driven is not an all-clear.
-    let unknown = bench.call(&["contour", "part.nc", "--fail-above", "500", "--plane", "XZ"]);
-    assert_eq!(unknown.status.code(), Some(1), "{unknown:?}");
-}
-
-#[test]
-fn feed_moves_that_were_left_out_are_no_all_clear() {
-    // R11.6, R11.8: the start of the first feed move is unknown; that of a rapid move does not matter.
-    let status = |program: &str| {
-        let bench = bench(program);
-        let call = bench.call(&["contour", "part.nc", "--fail-above", "500"]);
-        call.status.code()
-    };
-    assert_eq!(status("G01 X10 Y0 F2000\nG01 X20\nM30\n"), Some(1));
-    assert_eq!(status("G00 X10 Y0\nG01 X20 F2000\nM30\n"), Some(0));
-    let turned = "G00 X10 Y0\nG01 X20 F2000\n#ROTATION ON [ANGLE 30]\nX30 Y0\nX40\nM30\n";
-    assert_eq!(status(turned), Some(1));
-}
-
-#[test]
 fn a_program_that_is_stopped_is_no_all_clear() {
     // R2.60, R11.6: what follows an endless loop is never driven, and both commands report it.
     let bench = bench("G00 X0 Y0\nG01 X10 F2000\n$WHILE 1 == 1\nG04 1\n$ENDWHILE\nX50\nM30\n");
@@ -296,26 +259,6 @@ fn every_format_has_a_record_for_each_reversal() {
     assert_eq!(table.lines().count(), count + 1);
     // R9.76: a negative number is no text.
     assert!(table.contains(",-") && !table.contains(",'-"), "{table}");
-}
-
-#[test]
-fn wrong_arguments_are_refused() {
-    let bench = bench(&circle("G02", "OFF"));
-    for arguments in [
-        &["--plane", "XQ"][..],
-        &["--plane", "XX"],
-        &["--plane", "X"],
-        &["--plant", "none"],
-        &["--value-list", "X"],
-        &["--value-list", "Q=none.lis"],
-        &["--start", "Q0"],
-        &["--svg", "part.nc"],
-        &["--max-cycles", "0"],
-    ] {
-        let output = bench.call(&[&["contour", "part.nc"], arguments].concat());
-        assert_eq!(output.status.code(), Some(2), "{arguments:?} {output:?}");
-    }
-    assert_eq!(bench.call(&["contour", "-"]).status.code(), Some(2));
 }
 
 #[test]
@@ -432,16 +375,6 @@ fn a_long_program_makes_no_larger_picture() {
     };
     let (short, long) = (size(8), size(16));
     assert!(long < short * 3 / 2, "{short} {long}");
-}
-
-#[test]
-fn a_program_that_drives_no_path_has_no_figures() {
-    // R11.3
-    let bench = bench("X[COMP OFF FRICT]\nM30\n");
-    let output = bench.call(&["contour", "part.nc", "--plant", "mid"]);
-    let text = String::from_utf8(output.stdout).expect("text");
-    assert!(text.contains("no path was driven while cutting"), "{text}");
-    assert!(!text.contains("µm"), "{text}");
 }
 
 /// Rows of a mould along X with a wave in Z, in which Y only grows.

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::console::{Stage, replayed};
-use crate::workspace::{agree, files, root};
+use crate::workspace::{agree, copy, files, root};
 use frictcomp::documents::RULES;
 use frictcomp_report::assumptions::{Chapter, chapters};
 
@@ -43,15 +43,9 @@ const PROJECT: &str = "programs/demo/twincat";
 
 /// A folder with a copy of a demo at its place.
 fn copied(demo: &str) -> tempfile::TempDir {
-    let copy = tempfile::tempdir().expect("a folder");
-    for path in files(demo, &["csv", "lis", "json", "nc", "tsproj", "xti"]) {
-        let to = copy
-            .path()
-            .join(path.strip_prefix(root()).expect("in the tree"));
-        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
-        fs::copy(&path, to).expect("copied");
-    }
-    copy
+    let folder = tempfile::tempdir().expect("a folder");
+    copy(demo, folder.path());
+    folder
 }
 
 /// The tree, or a copy of the demo that a command changes.

@@ -355,47 +355,6 @@ fn cases() -> Vec<Case> {
     files.iter().map(read).collect()
 }
 
-/// R15.10, R15.11: every case holds on this engine.
-#[test]
-fn every_conformance_case_holds() {
-    let bench = bench();
-    let folder = root().join("conformance");
-    let folder = folder.to_str().expect("text");
-    let output = bench.call(&["conformance", folder]);
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{said}");
-    let document = json(&bench.stdout(&["conformance", folder, "--format", "json"]));
-    let cases = document["cases"].as_u64().expect("a number");
-    assert!(cases >= 150, "{cases}");
-    assert_eq!(document["held"], cases);
-    assert_eq!(document["failed"], serde_json::json!([]));
-    assert!(document["undecided"].as_u64().expect("a number") >= 12);
-}
-
-/// R15.11: a case that fails is named, with the actual result.
-#[test]
-fn a_case_that_does_not_hold_is_named() {
-    let bench = bench();
-    fs::create_dir_all(bench.folder().join("cases/1")).expect("a folder");
-    let case = fs::read_to_string(root().join("conformance/1/off.toml")).expect("a case");
-    bench.write("cases/1/off.toml", &case.replace("inactive", "active"));
-    let output = bench.call(&["conformance", "cases", "--format", "json"]);
-    assert_eq!(output.status.code(), Some(1));
-    let document = json(&String::from_utf8(output.stdout).expect("text"));
-    assert_eq!(
-        (&document["cases"], &document["held"]),
-        (&1.into(), &0.into())
-    );
-    let failed = &document["failed"][0];
-    assert_eq!(failed["file"], "cases/1/off.toml");
-    assert_eq!(failed["expected"], "X FRICT active after main.nc:1");
-    assert_eq!(failed["found"], "inactive");
-    bench.write("cases/1/off.toml", &case.replace("about", "abuot"));
-    let output = bench.call(&["conformance", "cases"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("abuot"));
-}
-
 /// R15.11: cases become programs for a control, and its answers are compared.
 #[test]
 fn answers_of_a_control_are_compared() {

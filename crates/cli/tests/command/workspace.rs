@@ -10,7 +10,7 @@ pub(crate) fn root() -> &'static Path {
     package.ancestors().nth(2).expect("the workspace")
 }
 
-/// The files below a folder with one of the extensions, sorted.
+/// The files below a folder with one of the extensions, or with any if none is given, sorted.
 pub(crate) fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
     let mut folders = vec![root().join(folder)];
     let mut found = Vec::new();
@@ -20,7 +20,8 @@ pub(crate) fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
             let extension = path.extension().and_then(|it| it.to_str());
             if path.is_dir() {
                 folders.push(path);
-            } else if extension.is_some_and(|it| extensions.contains(&it)) {
+            } else if extensions.is_empty() || extension.is_some_and(|it| extensions.contains(&it))
+            {
                 found.push(path);
             }
         }
@@ -53,4 +54,13 @@ pub(crate) fn agree(path: &Path, fresh: &str) {
         part(&text, "-"),
         part(fresh, "+")
     );
+}
+
+/// Copies a folder of the tree to its place below another folder.
+pub(crate) fn copy(folder: &str, below: &Path) {
+    for path in files(folder, &[]) {
+        let to = below.join(path.strip_prefix(root()).expect("in the tree"));
+        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+        fs::copy(&path, to).expect("copied");
+    }
 }

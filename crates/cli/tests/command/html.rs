@@ -632,11 +632,18 @@ fn browser() -> Option<PathBuf> {
         return Some(named.into());
     }
     let path = std::env::var_os("PATH")?;
-    std::env::split_paths(&path)
+    let found = std::env::split_paths(&path)
         .flat_map(|folder| {
             ["chromium", "chromium-browser", "google-chrome"].map(|name| folder.join(name))
         })
-        .find(|file| file.is_file())
+        .find(|file| file.is_file());
+    if found.is_none() {
+        let _ = writeln!(
+            std::io::stderr(),
+            "skipped: no Chromium in PATH and no FRICTCOMP_BROWSER; no page was opened"
+        );
+    }
+    found
 }
 
 /// Loads a page and returns the resulting document, and what the browser logged.
@@ -707,10 +714,6 @@ fn body_tag(dom: &str) -> &str {
 fn the_report_works_in_a_browser() {
     // R9.51, R9.52
     let Some(browser) = browser() else {
-        let _ = writeln!(
-            std::io::stderr(),
-            "skipped: no Chromium in PATH and no FRICTCOMP_BROWSER; the report was not opened"
-        );
         return;
     };
     let mut program = String::from("%<script>document.body.dataset.gone='1'</script>\n");

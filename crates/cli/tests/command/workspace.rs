@@ -43,9 +43,10 @@ pub(crate) fn agree(path: &Path, fresh: &str) {
     }
     let same = text.lines().zip(fresh.lines());
     let same = same.take_while(|(old, new)| old == new).count();
-    let part = |text: &str, mark: &str| -> String {
+    let part = |text: &str, mark: &str| {
         let lines = text.lines().skip(same).take(5);
-        lines.map(|line| format!("{mark} {line}\n")).collect()
+        let lines: Vec<String> = lines.map(|line| format!("{mark} {line}\n")).collect();
+        lines.concat()
     };
     panic!(
         "{} is old, see CONTRIBUTING.md: line {}\n{}{}",

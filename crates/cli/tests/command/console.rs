@@ -94,7 +94,8 @@ impl Typed {
         let printed = [stdout(&output), stderr(&output)];
         for (printed, is_silent) in printed.into_iter().zip(self.is_silent) {
             if !is_silent {
-                push(&mut text, &printed);
+                // The name of the tool on Windows.
+                push(&mut text, &printed.replace("frictcomp.exe", "frictcomp"));
             }
         }
         match output.status.code() {

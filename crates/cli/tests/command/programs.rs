@@ -40,13 +40,14 @@ const ELSEWHERE: &[(&str, &[&str])] = &[
             "FC520", "FC521", "FC522", "FC523", "FC524", "FC525", "FC526",
         ],
     ),
-    ("crates/cli/tests/command/block_search.rs", &["FC413"]),
-    ("crates/cli/tests/command/circle.rs", &["FC506"]),
+    ("crates/cli/tests/cases/block_search.md", &["FC413"]),
+    ("crates/cli/tests/cases/circle.md", &["FC506"]),
     (
         "crates/cli/tests/command/options/folders.rs",
-        &["FC104", "FC105", "FC329"],
+        &["FC104", "FC105"],
     ),
-    ("crates/cli/tests/command/records.rs", &["P-ERR-110641"]),
+    ("crates/cli/tests/cases/options.md", &["FC329"]),
+    ("crates/cli/tests/cases/records.md", &["P-ERR-110641"]),
 ];
 
 /// Runs the tool in the root of the repository.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::in_use::{device, told};
-use super::trace_error::TraceError;
+use crate::outputs::{device, told};
+use crate::recordings::TraceError;
 use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp::text::shown_path;
 use frictcomp_physics::simulation::{Preset, UnknownPreset};

@@ -7,9 +7,9 @@ use super::recorded::RecordedProgram;
 use super::unused::UnusedRecording;
 use crate::disk::Disk;
 use crate::error::HostError;
-use crate::signatures::{SignedAt, signatures_of};
-use crate::switches::switches_of;
-use crate::traces::{read_circles, read_motion, read_turns};
+use crate::recordings::{
+    SignedAt, read_circles, read_motion, read_turns, signatures_of, switches_of,
+};
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{

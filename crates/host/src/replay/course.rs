@@ -6,11 +6,10 @@ use std::sync::Arc;
 
 use super::conditions::Condition;
 use super::recorded::RecordedAxis;
-use crate::discovery::LoadedMachine;
-use crate::dry_run::{Programs, RunContext, expect_axes, run_programs};
+use crate::disk::{Input, Naming};
 use crate::error::HostError;
-use crate::input::{Input, Naming};
-use crate::switched_axes::switched_axes;
+use crate::machines::{LoadedMachine, switched_axes};
+use crate::run::{Programs, RunContext, expect_axes, run_programs};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::interpreter::{EndedBy, PositionFrame};

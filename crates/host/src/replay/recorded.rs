@@ -4,8 +4,7 @@ use std::path::Path;
 
 use crate::disk::Disk;
 use crate::error::HostError;
-use crate::trace_error::TraceError;
-use crate::traces::{lacks, numbers_of, position_column, read_trace};
+use crate::recordings::{TraceError, lacks, numbers_of, position_column, read_trace};
 use frictcomp::machine::Machine;
 use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_recordings::identify::{StatedAxis, stated_axis};

@@ -4,9 +4,9 @@ use super::beside::{Measure, ReplayedAxis};
 use super::conditions::{AssumedAnswers, MAX_WAYS, TriedCondition};
 use super::course::{Course, is_open};
 use super::recorded::{RecordedGap, StateRecording};
-use crate::discovery::LoadedMachine;
+use crate::disk::Input;
 use crate::error::HostError;
-use crate::input::Input;
+use crate::machines::LoadedMachine;
 use frictcomp::readings::Question;
 use frictcomp::session::SessionOptions;
 

@@ -1,8 +1,8 @@
 //! Friction in several states, and over the years.
 
-use crate::states::StatesReport;
+use crate::results::identify::states::StatesReport;
+use crate::results::trend::TrendReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
-use crate::trend::TrendReport;
 use frictcomp_recordings::identify::FrictionParameter;
 
 /// Friction over speed, a curve for each state.

@@ -1,0 +1,490 @@
+//! `frictcomp check`: every diagnostic of every program.
+
+mod baseline;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+
+use crate::args::{
+    ExecutionArgs, FixArgs, FolderArgs, Lister, ListingArgs, MachineArgs, MendRun, Uncompensated,
+    of_axis, passed_over, remark, say_left_out, total, undescribed_remark,
+};
+use crate::commands::diff::unseen_remark;
+use crate::output::{Console, DataTarget, Failure, Failures, FileWatch, Outputs, Printed};
+use baseline::{Baseline, BaselineArgs};
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::session::{Causes, Findings};
+use frictcomp::text::shown_path;
+use frictcomp::timeline::{ReadingsInForce, Record, Sink};
+use frictcomp_host::{
+    Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, FileRegistry, HostError, Input,
+    LoadedMachine, Machines, Naming, Revision, SingleRun, find_programs, in_order, is_source,
+    main_programs, processors, run_alone,
+};
+use frictcomp_report::assumptions::rests_on_text;
+use frictcomp_report::{ListingFormat, ProgramResult, command_line, wrap};
+
+/// Print all messages of all programs, and mend what is safe
+///
+/// Each program runs from the start of the control. A program that another one calls is checked in its callers: it is not checked by itself if it holds
+/// neither M02 nor M30 and a main program of this call executes it to its end.
+#[derive(Debug, Args)]
+// Each is a separate switch on the command line.
+#[allow(clippy::struct_excessive_bools)]
+pub(crate) struct CheckArgs {
+    /// Programs and folders of programs; `-` is standard input
+    #[arg(value_name = "PATH", default_value = ".")]
+    paths: Vec<PathBuf>,
+    /// The number of programs to check at once; by default the number of processors
+    #[arg(long, short, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Check only the programs that differ from this revision of their git repository, by default
+    /// `HEAD`, and those that reach them by their calls
+    #[arg(long, value_name = "REV", num_args = 0..=1, default_missing_value = "HEAD")]
+    changed: Option<String>,
+    /// Check called programs by themselves, too
+    #[arg(long)]
+    all: bool,
+    /// Check again after each save, only what the change reaches
+    #[arg(long, conflicts_with_all = ["changed", "fix", "diff", "write_baseline", "output"])]
+    watch: bool,
+    #[command(flatten)]
+    baseline: BaselineArgs,
+    #[command(flatten)]
+    fixes: FixArgs,
+    #[command(flatten)]
+    listing: ListingArgs,
+    #[command(flatten)]
+    folders: FolderArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
+    let console = args.listing.console(console)?;
+    if args.watch {
+        return watch(args, console);
+    }
+    Failures::of(console, |failures| check(args, console, (None, failures)))
+}
+
+/// Checks all programs, and after each save what it affects. Ends when watching is no longer possible.
+fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
+    if args.paths.iter().any(|path| path.as_os_str() == "-") {
+        let failure = Failure::new("standard input is not saved, so it cannot be watched");
+        return Err(failure.with_help("name programs or folders"));
+    }
+    let mut files = FileWatch::new()?;
+    files.watch(args.paths.iter().map(PathBuf::as_path))?;
+    let mut saved: Option<Vec<ChangedFile>> = None;
+    loop {
+        let mut machines = args.machines(&FileRegistry::default())?;
+        let found = find_programs(&args.paths, |folder| machines.selection(folder));
+        for input in &found.inputs {
+            // A machine that cannot be used is reported by the check.
+            let _ = machines.for_folder(input.folder());
+        }
+        files.watch(machines.folders())?;
+        let done = Failures::of(console, |failures| {
+            check(args, console, (saved.take(), failures))
+        });
+        if let Err(failure) = done {
+            console.explain(&failure);
+        }
+        files.say();
+        let selection = machines.selection(args.paths.first().map_or(Path::new(""), |it| it));
+        saved = Some(files.next(|path| is_source(path, selection.extensions.as_deref()))?);
+    }
+}
+
+fn check(
+    args: &CheckArgs,
+    console: Console,
+    (saved, failures): (Option<Vec<ChangedFile>>, &mut Failures),
+) -> Result<u8, Failure> {
+    let registry = FileRegistry::default();
+    let mut machines = args.machines(&registry)?;
+    let Since { paths, revision } = args.since()?;
+    let mut found = find_programs(&paths, |folder| machines.selection(folder));
+    failures.extend(Failures::from(found.failures));
+    let mut inputs = found.inputs;
+    if let Some((name, revision)) = &revision {
+        let changed = ChangedPrograms::since(revision, &inputs, &mut machines, processors());
+        let changed = failures.keep(changed?);
+        console.remark(&changed_remark(changed.inputs.len(), inputs.len(), name));
+        if let Some(remark) = unseen_remark(&changed) {
+            console.remark(&remark);
+        }
+        inputs = changed.inputs;
+    }
+    if let Some(saved) = saved {
+        let changed = ChangedPrograms::of(saved, &inputs, &mut machines, processors());
+        inputs = failures.keep(changed).inputs;
+    }
+    for input in &inputs {
+        input.note(&registry);
+    }
+    machines.look_ahead(&inputs);
+    let mut outputs = Outputs::new(&registry, console);
+    let mut target = outputs.result(args.listing.output.as_deref())?;
+    let mut bench = MendRun {
+        inputs: &inputs,
+        machines: &mut machines,
+        execution: &args.execution,
+        workers: args.jobs,
+    };
+    if args.fixes.diff {
+        outputs.check()?;
+        let status = bench.diff(&mut target, (console, failures))?;
+        outputs.finish()?;
+        return Ok(status);
+    }
+    if args.fixes.fix {
+        outputs.check()?;
+        bench.fix(console, failures)?;
+    }
+    // Every list is known before anything runs.
+    let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
+    let jobs: Vec<ProgramOnMachine> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
+    outputs.check()?;
+    say_undescribed(args, &jobs, &mut target, console);
+    let mut listing = args.listing.lister(target)?;
+    let mut baseline = args.baseline.open(&registry, &mut outputs)?;
+    outputs.check()?;
+    let in_callers = args.check_all(jobs, (&mut listing, &mut baseline), failures);
+    found.left_out.forget_read(&registry);
+    let missed = found.left_out.diagnostics(&mut machines);
+    list_missed(missed, &mut listing, &mut baseline);
+    let read: BTreeSet<String> = registry.files().iter().map(|it| shown_path(it)).collect();
+    let is_checked = |file: &str| read.contains(file) || !Path::new(file).exists();
+    let known = baseline.finish(console, is_checked)?;
+    if let Some(record) = &known {
+        listing.record(record);
+    }
+    let name = inputs.first().map(|it| it.name(Naming::AsGiven));
+    if let (Some(name), false) = (name, args.baseline.is_written()) {
+        let mut headline = listing.tally().on_programs(&name);
+        if known.is_some() {
+            headline.text.push_str(" beyond the baseline");
+        }
+        let assumed = machines.loaded().filter_map(|it| it.machine.assumption());
+        listing.headline(headline.assuming(assumed));
+    }
+    let printed = listing.finish()?;
+    if printed == Printed::Unread && failures.is_empty() {
+        return Ok(crate::output::CLEAN);
+    }
+    outputs.finish()?;
+    for remark in machines.loaded().filter_map(remark) {
+        console.remark(&remark);
+    }
+    args.machine.say_unread(&machines, &registry, console);
+    if args.listing.format == ListingFormat::Text && !args.baseline.is_written() {
+        listing.hint().iter().for_each(|hint| console.remark(hint));
+        let beside = in_callers_remark(in_callers) + &passed_over(found.left_out.others());
+        console.detail(&(total(listing.tally()) + &beside));
+        if let Some(said) = rests_on_text(&listing.tally().rests_on) {
+            console.detail(&said);
+        }
+    }
+    say_left_out(&mut found.left_out, &registry, console);
+    if let Some(remark) = listing.unknown_remark() {
+        console.remark(&remark);
+    }
+    Ok(listing.status())
+}
+
+/// Lists the programs that were not looked at and switch compensation (R18.5).
+fn list_missed(
+    missed: impl IntoIterator<Item = Diagnostic>,
+    listing: &mut Lister<'_>,
+    baseline: &mut Baseline,
+) {
+    for mut said in missed {
+        said.reword(Some(command_line));
+        list((listing, baseline), &said);
+    }
+}
+
+/// Reports before everything else that no machine is described (R1.37).
+fn say_undescribed(
+    args: &CheckArgs,
+    jobs: &[ProgramOnMachine<'_>],
+    target: &mut DataTarget,
+    console: Console,
+) {
+    let undescribed = jobs.iter().filter_map(|(input, loaded)| {
+        let described = loaded.as_ref().map_or(true, |it| it.machine.is_described());
+        (!described).then_some(*input)
+    });
+    let Some(remark) = undescribed_remark(undescribed) else {
+        return;
+    };
+    if args.listing.format == ListingFormat::Text && !args.listing.quiet && !args.listing.statistics
+    {
+        // A writer that accepts no more fails at the next line.
+        let _ = writeln!(target.writer, "{}\n", wrap(&remark, target.look.width, 0));
+    } else {
+        console.remark(&remark);
+    }
+}
+
+/// A program and the machine that it runs on.
+type ProgramOnMachine<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
+
+/// Returns the number of programs checked since a revision, in words.
+fn changed_remark(changed: usize, all: usize, revision: &str) -> String {
+    match changed {
+        0 => format!("none of {all} programs differs from `{revision}` or reaches one that does"),
+        _ => format!("{changed} of {all} programs differ from `{revision}` or reach one that does"),
+    }
+}
+
+/// Subject of the check: paths, and the revision with its name where only changed programs count.
+struct Since {
+    paths: Vec<PathBuf>,
+    revision: Option<(String, Revision)>,
+}
+
+impl CheckArgs {
+    fn machines(&self, registry: &FileRegistry) -> Result<Machines, Failure> {
+        let machines = self.machine.weighed(&self.listing.severities, registry)?;
+        Ok(machines.selecting(self.folders.options()))
+    }
+
+    /// Returns the paths, and the revision with its name where only changed programs are checked. A word after
+    /// `--changed` that is not a revision may be the first path.
+    fn since(&self) -> Result<Since, Failure> {
+        let Some(name) = &self.changed else {
+            return Ok(Since {
+                paths: self.paths.clone(),
+                revision: None,
+            });
+        };
+        let folder = self.paths.first().map(PathBuf::as_path);
+        let folder = folder
+            .filter(|path| path.is_dir())
+            .or(folder.and_then(Path::parent));
+        let folder = folder.unwrap_or(Path::new(""));
+        match Revision::new(folder, name) {
+            Ok(revision) => Ok(Since {
+                paths: self.paths.clone(),
+                revision: Some((name.clone(), revision)),
+            }),
+            Err(HostError::NoRevision(_)) if Path::new(name).exists() => {
+                let mut paths = vec![PathBuf::from(name)];
+                // Without a path the current folder is meant, and the word takes its place.
+                paths.extend(
+                    self.paths
+                        .iter()
+                        .filter(|path| **path != Path::new("."))
+                        .cloned(),
+                );
+                let head = "HEAD".to_owned();
+                let revision = Revision::new(folder, &head)?;
+                Ok(Since {
+                    paths,
+                    revision: Some((head, revision)),
+                })
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Checks the programs in parallel, and lists the messages in the order of the programs. Returns how many of
+    /// them were checked only in their callers (R17.2).
+    fn check_all(
+        &self,
+        jobs: Vec<ProgramOnMachine<'_>>,
+        (listing, baseline): (&mut Lister<'_>, &mut Baseline),
+        failures: &mut Failures,
+    ) -> usize {
+        let mut listed: Vec<Option<PathBuf>> = Vec::new();
+        let mut causes = Causes::default();
+        let mut programs = Vec::new();
+        let checked = self.checked(jobs, failures);
+        let mains = self.mains(&checked);
+        for (
+            CheckedProgram {
+                input,
+                loaded,
+                found,
+            },
+            is_main,
+        ) in checked.into_iter().zip(&mains)
+        {
+            if !listed.contains(&loaded.origin) {
+                listed.push(loaded.origin.clone());
+                for mut diagnostic in loaded.errors().cloned() {
+                    diagnostic.reword(Some(command_line));
+                    causes.say(diagnostic);
+                }
+            }
+            if !is_main {
+                continue;
+            }
+            let name = input.name(Naming::AsGiven);
+            programs.push((name, causes.add(found.findings), found.unknown.is_empty()));
+            for (axis, moves) in found.uncompensated {
+                listing.feed_moves(axis, &moves);
+            }
+            listing.unknown(found.unknown);
+            listing.rests_on(found.rests_on);
+            for (severity, more) in &found.unsaid {
+                listing.count(*severity, baseline.unlisted(*severity, *more));
+            }
+        }
+        // Only now is it known which programs reach a message.
+        let results: Vec<ProgramResult> = causes
+            .diagnostics()
+            .iter()
+            .map(|said| list((listing, baseline), said))
+            .collect();
+        for (name, said, is_known) in programs {
+            let certain = if is_known {
+                ProgramResult::Clean
+            } else {
+                ProgramResult::Depends
+            };
+            let results = said.iter().map(|at| results[*at]);
+            listing.program(&name, results.chain([certain]).min().unwrap_or(certain));
+        }
+        mains.iter().filter(|is_main| !**is_main).count()
+    }
+
+    /// Returns the messages of each program alone, in the order of the programs.
+    fn checked<'a>(
+        &self,
+        jobs: Vec<ProgramOnMachine<'a>>,
+        failures: &mut Failures,
+    ) -> Vec<CheckedProgram<'a>> {
+        let workers = self.jobs.unwrap_or_else(processors);
+        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
+        let check =
+            |(input, loaded): ProgramOnMachine<'a>| -> Result<CheckedProgram<'a>, HostError> {
+                let loaded = loaded?;
+                let found = check_file(input, &loaded, &self.execution)?;
+                Ok(CheckedProgram {
+                    input,
+                    loaded,
+                    found,
+                })
+            };
+        let mut all = Vec::with_capacity(jobs.len());
+        in_order(jobs.into_iter(), workers, check, |checked| {
+            match checked {
+                Ok(checked) => all.push(checked),
+                Err(error) => failures.push(Failure::from(error)),
+            }
+            ControlFlow::Continue(())
+        });
+        all
+    }
+
+    /// Returns the programs that count on their own.
+    fn mains(&self, checked: &[CheckedProgram<'_>]) -> Vec<bool> {
+        if self.all {
+            return vec![true; checked.len()];
+        }
+        let executed = checked.iter().map(|it| ExecutedProgram {
+            input: it.input,
+            executed_to_end: it.found.executed_to_end.clone(),
+        });
+        main_programs(&executed.collect::<Vec<_>>(), &Disk::default())
+    }
+}
+
+/// Lists a message that is not in the baseline, and returns the result that it gives a program.
+fn list((listing, baseline): (&mut Lister<'_>, &mut Baseline), said: &Diagnostic) -> ProgramResult {
+    if !baseline.lists(said) {
+        return ProgramResult::Clean;
+    }
+    // A writer that accepts no more is found at the end.
+    let _ = listing.diagnostic(said);
+    ProgramResult::of(said)
+}
+
+/// Returns the remark on programs that were checked only in their callers.
+fn in_callers_remark(programs: usize) -> String {
+    match programs {
+        0 => String::new(),
+        1 => "; 1 called program was checked in its callers (`--all` checks it alone)".to_owned(),
+        several => {
+            format!(
+                "; {several} called programs were checked in their callers (`--all` checks them alone)"
+            )
+        }
+    }
+}
+
+/// A program that was checked alone.
+struct CheckedProgram<'a> {
+    input: &'a Input,
+    loaded: Arc<LoadedMachine>,
+    found: ProgramMessages,
+}
+
+/// Messages of a program.
+struct ProgramMessages {
+    findings: Findings,
+    /// Number of further messages, by severity (R2.85).
+    unsaid: BTreeMap<Severity, u64>,
+    /// Its uncompensated feed moves, by axes.
+    uncompensated: Vec<(String, Uncompensated)>,
+    /// The states that are unknown at its end or where their axis moves.
+    unknown: BTreeSet<String>,
+    /// The readings on which its results depend.
+    rests_on: ReadingsInForce,
+    /// The files that it executed to their end.
+    executed_to_end: Vec<String>,
+}
+
+/// Runs one program from the start of the control.
+fn check_file(
+    input: &Input,
+    loaded: &LoadedMachine,
+    execution: &ExecutionArgs,
+) -> Result<ProgramMessages, HostError> {
+    let alone = SingleRun {
+        options: execution.check(loaded),
+        naming: Naming::AsGiven,
+        axes: Axes::AsTheyOccur,
+    };
+    let mut findings = Findings::default();
+    let mut uncompensated = Vec::new();
+    let mut rests_on = ReadingsInForce::default();
+    let mut sink = |record: &Record<'_>| {
+        if let Record::Summary(summary) = record {
+            rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
+            let axes = summary.uncompensated();
+            uncompensated.extend(axes.map(|axis| {
+                let of = summary.state.machine.axis(axis.axis);
+                let moves = Uncompensated::of_program(of.axis_type, axis.feed_moves);
+                (of.name.clone(), moves)
+            }));
+        }
+        findings.record(record)
+    };
+    let session = run_alone(input, loaded, alone, &mut sink)?;
+    let unsaid = findings.unsaid(session.counts());
+    let unknown = session.unknown();
+    let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+    let returned = session.interpreter().returned_files();
+    Ok(ProgramMessages {
+        executed_to_end: returned.map(ToString::to_string).collect(),
+        findings,
+        unsaid,
+        uncompensated,
+        unknown,
+        rests_on,
+    })
+}

@@ -1,0 +1,213 @@
+//! The folder of `commission learn`: rounds with lists and recordings, and the file that records them.
+
+use std::path::{Path, PathBuf};
+
+use crate::output::{Failure, Outputs, shown, write_text};
+use frictcomp_host::{FileRegistry, read_text, recordings_in, sha256_of, sha256_of_text};
+use frictcomp_recordings::commission::ValueListUsed;
+
+use frictcomp_report::learn::{
+    LearningFile, LearningRound, MeasuredFriction, Prediction, RecordedFile,
+};
+
+/// The file that records the rounds.
+const FILE: &str = "learning.json";
+
+/// The files of the lists within a round.
+const LISTS: [&str; 2] = ["X.lis", "Y.lis"];
+
+/// The axes of the lists.
+const AXES: [&str; 2] = ["X", "Y"];
+
+/// A folder of rounds.
+#[derive(Debug)]
+pub(super) struct LearningFolder {
+    path: PathBuf,
+    pub(super) file: LearningFile,
+    /// The existing recordings of each round.
+    pub(super) recordings: Vec<Vec<RecordedFile>>,
+}
+
+impl LearningFolder {
+    /// Creates a folder without rounds.
+    pub(super) fn new(path: &Path, friction: [MeasuredFriction; 2]) -> Self {
+        Self {
+            path: path.to_owned(),
+            file: LearningFile {
+                schema: LearningFile::SCHEMA,
+                friction,
+                rounds: Vec::new(),
+            },
+            recordings: Vec::new(),
+        }
+    }
+
+    /// Opens the folder as it was left; `None` if it was not begun. Every file must still be the one from which later
+    /// rounds were made.
+    pub(super) fn open(path: &Path, registry: &FileRegistry) -> Result<Option<Self>, Failure> {
+        let json = path.join(FILE);
+        if !json.exists() {
+            return Ok(None);
+        }
+        let read: Result<LearningFile, _> = serde_json::from_str(&read_text(&json)?);
+        let known = |it: &LearningFile| it.schema == LearningFile::SCHEMA && !it.rounds.is_empty();
+        let Some(file) = read.ok().filter(known) else {
+            let message = format!(
+                "`{}` is not a file that `commission learn` wrote",
+                shown(&json)
+            );
+            return Err(Failure::new(message).with_help("begin again in another folder"));
+        };
+        let mut folder = Self {
+            path: path.to_owned(),
+            file,
+            recordings: Vec::new(),
+        };
+        folder.forget_removed();
+        for at in 0..folder.file.rounds.len() {
+            folder.check_lists(at)?;
+            let recordings = folder.recorded(at, registry)?;
+            folder.check_recordings(at, &recordings)?;
+            folder.recordings.push(recordings);
+        }
+        folder.check_copies()?;
+        Ok(Some(folder))
+    }
+
+    /// Returns the file that records the rounds.
+    pub(super) fn json(&self) -> PathBuf {
+        self.path.join(FILE)
+    }
+
+    /// Returns the folder of a round, by its index.
+    pub(super) fn round(&self, at: usize) -> PathBuf {
+        self.path.join(format!("round-{}", at + 1))
+    }
+
+    /// Returns the list of an axis in a round.
+    pub(super) fn list(&self, at: usize, axis: usize) -> PathBuf {
+        self.round(at).join(LISTS[axis])
+    }
+
+    /// Notes from which recordings of the last round the next one was made.
+    pub(super) fn keep_recordings(&mut self) {
+        if let (Some(round), Some(there)) = (self.file.rounds.last_mut(), self.recordings.last()) {
+            round.recordings.clone_from(there);
+        }
+    }
+
+    /// Adds a round with the texts of its lists, which do not replace any file.
+    pub(super) fn add_round(
+        &mut self,
+        texts: &[String; 2],
+        predictions: [Option<Prediction>; 2],
+        outputs: &mut Outputs,
+    ) -> Result<(), Failure> {
+        let at = self.file.rounds.len();
+        let folder = self.round(at);
+        std::fs::create_dir_all(&folder).map_err(|error| Failure::writing(&folder, error))?;
+        for (axis, text) in texts.iter().enumerate() {
+            let path = self.list(at, axis);
+            if path.exists() && read_text(&path)? != *text {
+                let message = format!("`{}` already exists and is a different list", shown(&path));
+                return Err(Failure::new(message).with_help("move it to another folder"));
+            }
+            write_text(&mut outputs.list("the list", &path)?, text)?;
+        }
+        self.file.rounds.push(LearningRound {
+            lists: [0, 1].map(|axis: usize| ValueListUsed {
+                axis: AXES[axis].to_owned(),
+                file: LISTS[axis].to_owned(),
+                sha256: sha256_of_text(&texts[axis]),
+            }),
+            predictions,
+            recordings: Vec::new(),
+        });
+        Ok(())
+    }
+
+    /// Forgets the rounds from the first one whose folder was removed, and their recordings: the user wants them
+    /// made again.
+    fn forget_removed(&mut self) {
+        let removed = (1..self.file.rounds.len()).find(|&at| !self.round(at).exists());
+        if let Some(first) = removed {
+            self.file.rounds.truncate(first);
+            if let Some(last) = self.file.rounds.last_mut() {
+                last.recordings.clear();
+            }
+        }
+    }
+
+    fn check_lists(&self, at: usize) -> Result<(), Failure> {
+        for (axis, used) in self.file.rounds[at].lists.iter().enumerate() {
+            let path = self.list(at, axis);
+            if !path.exists() || sha256_of(&path)? != used.sha256 {
+                let message = format!(
+                    "`{}` is not the list that was handed out for this round",
+                    shown(&path)
+                );
+                let help = format!(
+                    "its SHA-256 was {}; put that list back, and record the round again if another one was loaded",
+                    used.sha256
+                );
+                return Err(Failure::new(message).with_help(help));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the recordings in the folder of a round.
+    fn recorded(&self, at: usize, registry: &FileRegistry) -> Result<Vec<RecordedFile>, Failure> {
+        let mut found = Vec::new();
+        for path in recordings_in(&self.round(at))? {
+            registry.reads("recording", &path);
+            let name = path.file_name().map(|it| it.to_string_lossy().into_owned());
+            found.push(RecordedFile {
+                file: name.unwrap_or_default(),
+                sha256: sha256_of(&path)?,
+            });
+        }
+        Ok(found)
+    }
+
+    /// Refuses recordings that differ from those from which the next round was made (R16.9).
+    fn check_recordings(&self, at: usize, there: &[RecordedFile]) -> Result<(), Failure> {
+        let kept = &self.file.rounds[at].recordings;
+        if kept.is_empty() || kept == there {
+            return Ok(());
+        }
+        let other = |of: &[RecordedFile], than: &[RecordedFile]| {
+            let found = of.iter().find(|it| !than.contains(it));
+            found.map(|it| self.round(at).join(&it.file))
+        };
+        let changed = other(kept, there).or_else(|| other(there, kept));
+        let message = format!(
+            "`{}` was added, changed or removed after round {} was made from the recordings",
+            changed.map_or_else(String::new, |it| shown(&it)),
+            at + 2
+        );
+        let help = format!(
+            "put the recordings back as they were, or remove the folder of round {} and later ones: they are made again",
+            at + 2
+        );
+        Err(Failure::new(message).with_help(help))
+    }
+
+    /// Refuses a recording that occurs twice: as two recordings of one list it would show no spread.
+    fn check_copies(&self) -> Result<(), Failure> {
+        let mut seen: Vec<(&RecordedFile, PathBuf)> = Vec::new();
+        for (at, recordings) in self.recordings.iter().enumerate() {
+            for recording in recordings {
+                let path = self.round(at).join(&recording.file);
+                let same = seen.iter().find(|(it, _)| it.sha256 == recording.sha256);
+                if let Some((_, first)) = same {
+                    let message = format!("`{}` is a copy of `{}`", shown(&path), shown(first));
+                    let help = "record each circle twice, and again in each round";
+                    return Err(Failure::new(message).with_help(help));
+                }
+                seen.push((recording, path));
+            }
+        }
+        Ok(())
+    }
+}

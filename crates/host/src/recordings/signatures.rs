@@ -1,0 +1,81 @@
+//! The programs in a recording, identified by their signatures (R16.1).
+
+use std::path::Path;
+
+use super::trace_error::TraceError;
+use super::traces::read_trace;
+use crate::disk::Disk;
+use crate::error::HostError;
+use frictcomp_physics::current::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};
+use frictcomp_recordings::commission::{Signature, signature_in};
+use frictcomp_recordings::trace::{
+    ChannelQuantity, ChannelSelection, Choice, Pick, SelectError, TimeSource,
+};
+
+/// A signature in a recording, and the time in s at which its strokes end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct SignedAt {
+    /// The signature.
+    pub signature: Signature,
+    /// The end of its strokes in the times of the recording.
+    pub end_s: f64,
+}
+
+/// Returns the signatures in the motion of an axis, whose channels are its position or its velocity; rows without
+/// times are `cycle_s` apart. None if the recording has no such channel. A position without a unit is
+/// tried in 0.1 µm and in mm.
+///
+/// # Errors
+/// The file cannot be read, or is not a recording.
+pub fn signatures_of(
+    path: &Path,
+    selection: &ChannelSelection,
+    cycle_s: Option<f64>,
+) -> Result<Vec<SignedAt>, HostError> {
+    let mut motion: Option<(ChannelQuantity, Pick)> = None;
+    let recording = read_trace(path, &Disk::default(), |channels| {
+        let find = |quantity| selection.find(quantity, channels);
+        let named = |quantity| Ok::<_, SelectError>(find(quantity)?.map(|pick| (quantity, pick)));
+        motion = match named(ChannelQuantity::Position)? {
+            Some(found) => Some(found),
+            None => named(ChannelQuantity::Velocity)?,
+        };
+        let time = find(ChannelQuantity::Time)?;
+        Ok(Choice {
+            values: motion.iter().map(|(_, pick)| pick.channel).collect(),
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::default()
+        })
+    })?;
+    let Some((quantity, pick)) = motion else {
+        return Ok(Vec::new());
+    };
+    let aligned = recording.align(&[pick], cycle_s);
+    let aligned = aligned.map_err(|reason| TraceError::Apart {
+        path: path.to_owned(),
+        reason,
+    })?;
+    let step_s = aligned.step_s;
+    let samples = aligned.columns.first().map_or(&[][..], Vec::as_slice);
+    let places: Vec<Vec<f64>> = if quantity == ChannelQuantity::Position {
+        let scales = [
+            Some(POSITION_UNITS_PER_MM),
+            pick.is_unit_assumed.then_some(1.0),
+        ];
+        let in_mm = |scale: f64| samples.iter().map(|it| it / scale).collect();
+        scales.into_iter().flatten().map(in_mm).collect()
+    } else {
+        let way = samples.iter().scan(0.0, |place, speed| {
+            *place += speed / VELOCITY_UNITS_PER_MM_PER_S * step_s;
+            Some(*place)
+        });
+        vec![way.collect()]
+    };
+    let found = places.iter().flat_map(|place| signature_in(place, step_s));
+    let at = |(signature, sample): (Signature, usize)| SignedAt {
+        signature,
+        end_s: aligned.times_s.get(sample).copied().unwrap_or_default(),
+    };
+    Ok(found.map(at).collect())
+}

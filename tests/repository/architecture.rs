@@ -8,7 +8,7 @@ use crate::root;
 
 /// The rooms that each room of a package may import from. Rooms are listed in the order of the data; an import never
 /// goes down. The packages that a package may use are in its `Cargo.toml`.
-const ROOMS: [(&str, &[&str]); 28] = [
+const ROOMS: [(&str, &[&str]); 29] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -123,6 +123,7 @@ const ROOMS: [(&str, &[&str]); 28] = [
     ("identify", &["trace"]),
     ("commission", &["trace", "identify"]),
     ("evidence", &[]),
+    ("value_lists", &[]),
 ];
 
 /// A package: its folder, and the name of its single room if it has no rooms.
@@ -161,10 +162,14 @@ const FOLDERS: [(&str, &str, &[&str]); 30] = [
     ("circle", "fitted", &["recorded", "tune"]),
     ("circle", "learn", &["recorded", "tune"]),
     ("simulation", "", &["friction"]),
-    ("host", "", &["outputs", "recordings"]),
+    ("host", "", &["commission", "outputs", "recordings"]),
     ("host", "archive", &["disk", "machines", "outputs"]),
     ("host", "ask", &["disk", "recordings", "replay"]),
-    ("host", "commission", &["disk", "machines", "recordings"]),
+    (
+        "host",
+        "commission",
+        &["disk", "machines", "outputs", "recordings"],
+    ),
     ("host", "machines", &["disk"]),
     ("host", "outputs", &["disk"]),
     ("host", "recordings", &["disk"]),

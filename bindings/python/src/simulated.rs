@@ -19,12 +19,12 @@ use frictcomp_physics::circle::{
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_recordings::value_lists::{TunedFor, render_tuned};
 use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::circle::{CircleReport, ListOrigin, picture, render_json};
 use frictcomp_report::pictures;
+use frictcomp_report::results::circle::{CircleReport, ListOrigin, picture, render_json};
+use frictcomp_report::results::tune::{TuneReport, render_json as render_tune};
 use frictcomp_report::svg::Frame;
-use frictcomp_report::tune::{TuneReport, render_json as render_tune};
-use frictcomp_report::value_lists::render_tuned;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -219,7 +219,18 @@ impl PyTuned {
         let has_lists = axes.iter().all(|axis| axis.list().is_some());
         let head = ListHead::default();
         let lists = axes.each_ref().map(|axis| {
-            [None, Some(FRACTIONS)].map(|build| render_tuned(&report, axis, build, &head))
+            [None, Some(FRACTIONS)].map(|build| {
+                render_tuned(
+                    TunedFor {
+                        plant: &report.plant,
+                        model: report.model,
+                        tuned: &report.tuned,
+                        axis,
+                    },
+                    build,
+                    &head,
+                )
+            })
         });
         let reports = std::slice::from_ref(&report);
         Self {

@@ -7,9 +7,9 @@ use frictcomp_host::{Watch, tune};
 use frictcomp_physics::circle::{Circle, Ranges, Shaping, Task, TuningAim};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_recordings::value_lists::{TunedFor, render_tuned};
 use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::tune::{TuneReport, document};
-use frictcomp_report::value_lists::render_tuned;
+use frictcomp_report::results::tune::{TuneReport, document};
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
@@ -46,7 +46,16 @@ pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let [axis, _] = &report.tuned.axes;
     Ok(json(&TuningAnswer {
         drawn: DrawnReport::from(&document(std::slice::from_ref(&report))),
-        list: render_tuned(&report, axis, None, &ListHead::default()),
+        list: render_tuned(
+            TunedFor {
+                plant: &report.plant,
+                model: report.model,
+                tuned: &report.tuned,
+                axis,
+            },
+            None,
+            &ListHead::default(),
+        ),
     }))
 }
 

@@ -37,10 +37,11 @@ mod watch;
 mod workers;
 
 pub use archive::{
-    ArchiveAuditor, AuditOptions, CallGraph, ChangedFile, ChangedPrograms, ExecutedProgram,
-    FoundCall, FoundPrograms, GraphProgram, LeftOutFile, LeftOutFiles, MendedProgram, MissingCall,
-    OldFile, Revision, UnreadVariable, WhyLeftOut, find_programs, find_startup, main_programs,
-    outline_of, unread_variables, write_new,
+    ArchiveAuditor, AuditOptions, CallGraph, CalledPrograms, ChangedFile, ChangedPrograms,
+    CheckOptions, CheckedProgram, CheckedPrograms, ExecutedProgram, FoundCall, FoundPrograms,
+    GraphProgram, LeftOutFile, LeftOutFiles, MendedProgram, MissingCall, OldFile,
+    ProgramsOnMachines, Revision, UnreadVariable, WhyLeftOut, find_programs, find_startup,
+    main_programs, outline_of, unread_variables, write_new,
 };
 pub use disk::{
     CONFIG_NAME, Disk, EncodedText, FileRegistry, FolderOptions, FolderSelection, IgnoreFiles,

@@ -21,26 +21,20 @@ mod document;
 pub mod html;
 mod messages;
 pub mod pictures;
-mod results;
+pub mod results;
 pub mod svg;
 mod timeline;
 mod wording;
 
 pub use document::{Document, Headline, ShownDocument, Standing, Table};
 pub use messages::{Listing, ListingFormat, ProgramResult, Tally, concise_line};
-pub use results::identify::{of_axes, on_circles, states};
-pub use results::tune::value_lists;
-pub use results::{
-    audit, circle, commission, compare, configuration, contour, current, drives, identify, learn,
-    lists, replay, schema, stiction, trace, trend, tune, verify,
-};
 pub use timeline::{
     Blocks, Csv, Json, MessageExtent, Ndjson, Positions, Report, Runs, Text, TextOptions,
     TimelineFormat, TimelineOptions, View, headline,
 };
 pub use wording::{
     Detail, FALLBACK_WIDTH, Look, Paint, TextChange, assumed_limits, command_line, counted,
-    feed_moves_text, fitted, leading, render, render_unified, visible, visible_line, wrap,
+    feed_moves_text, fitted, leading, render, render_unified, rounded, visible, visible_line, wrap,
 };
 
 #[cfg(test)]

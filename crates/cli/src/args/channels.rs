@@ -255,7 +255,7 @@ pub(crate) struct TorqueKindArgs {
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct TorqueArgs {
     #[command(flatten)]
-    kind: TorqueKindArgs,
+    pub(crate) kind: TorqueKindArgs,
     /// Whether friction compensation was on while recording; by default taken from a channel `comp`
     #[arg(long, value_name = "STATE")]
     compensation: Option<SwitchState>,
@@ -271,11 +271,15 @@ enum SwitchState {
 impl TorqueArgs {
     /// Returns the known properties of the torque, with those given by the user.
     pub(crate) fn measured(&self, recorded: Measured) -> Measured {
-        let said = self.compensation.map(|state| match state {
+        recorded.stated(self.kind.torque_kind, self.switched())
+    }
+
+    /// Returns the state of friction compensation, if it is given.
+    pub(crate) fn switched(&self) -> Option<Switched> {
+        self.compensation.map(|state| match state {
             SwitchState::On => Switched::On,
             SwitchState::Off => Switched::Off,
-        });
-        recorded.stated(self.kind.torque_kind, said)
+        })
     }
 }
 

@@ -78,21 +78,13 @@ impl ExecutionArgs {
 
     /// Returns the options of a session that runs on a machine.
     pub(crate) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
-        Self::session(loaded, self.run(stop))
+        loaded
+            .session(self.run(stop))
+            .with_wording(Some(command_line))
     }
 
-    /// Returns the options of a session that checks a program on a machine.
-    pub(crate) fn check(&self, loaded: &LoadedMachine) -> SessionOptions {
-        Self::session(loaded, self.brief(StopPolicy::CheckAll, NonZeroU64::MIN))
-    }
-
-    fn session(loaded: &LoadedMachine, run: Options) -> SessionOptions {
-        SessionOptions {
-            run,
-            levels: loaded.levels.clone(),
-            settings: loaded.settings.clone(),
-            wording: Some(command_line),
-            ..SessionOptions::default()
-        }
+    /// Returns the options of a program that is checked.
+    pub(crate) fn check(&self) -> Options {
+        self.brief(StopPolicy::CheckAll, NonZeroU64::MIN)
     }
 }

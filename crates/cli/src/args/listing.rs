@@ -9,16 +9,15 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::fail_on::{FailOn, FailOnWord};
-use super::result::RecordsFormat;
 use super::severities::SeverityArgs;
 use super::values;
-use crate::output::{Console, DataTarget, Failure, Printed};
+use crate::output::{Console, DataTarget, Failure, Printed, RecordsFormat};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::drive_interface::DriveReport;
 use frictcomp::lists::{AxisType, Origin, Parameter};
 use frictcomp::machine::AxisReport;
 use frictcomp::timeline::{FeedMoves, ReadingsInForce};
-use frictcomp_report::drives::drive_record;
+use frictcomp_report::results::drives::drive_record;
 use frictcomp_report::{Headline, Listing, ListingFormat, ProgramResult, Tally, feed_moves_text};
 
 /// Options for listing diagnostics.

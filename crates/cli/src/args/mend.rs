@@ -16,7 +16,7 @@ use frictcomp_host::{
     Axes, HostError, Input, LoadedMachine, Machines, MendedFile, Naming, SingleRun, in_order, mend,
     processors, run_alone, write_mended,
 };
-use frictcomp_report::{TextChange, render_unified};
+use frictcomp_report::{TextChange, command_line, render_unified};
 
 /// Largest number of rounds of changes, since changes may call for others.
 const MOST_PASSES: usize = 10;
@@ -143,7 +143,9 @@ impl MendRun<'_> {
         let run = |(input, loaded): (&Input, Result<Arc<LoadedMachine>, HostError>)| {
             let loaded = loaded?;
             let alone = SingleRun {
-                options: execution.check(&loaded),
+                options: loaded
+                    .session(execution.check())
+                    .with_wording(Some(command_line)),
                 naming: Naming::AsGiven,
                 axes: Axes::AsTheyOccur,
             };

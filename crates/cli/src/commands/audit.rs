@@ -5,29 +5,27 @@ use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use serde_json::{Value, json};
 
 use crate::args::{
     ExecutionArgs, FailOn, FailOnWord, FolderArgs, MachineArgs, SeverityArgs, differences, of_axis,
     say_left_out, settings, undescribed_remark,
 };
-use crate::output::{Console, Failure, Failures, Files, Outputs, Printed, difference, exit, shown};
+use crate::output::{
+    Console, Failure, Failures, Files, Outputs, Printed, RecordsFormat, difference, exit, shown,
+};
 use frictcomp::audit::{Archive, CuredMotions, MendedEnd, Selected, WhyMissed};
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::StopPolicy;
 use frictcomp::session::Causes;
-use frictcomp::text::shown_path;
-use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{
     ArchiveAuditor, AuditOptions, FileRegistry, Input, Machines, MendedProgram, find_programs,
     read_text, write_mended,
 };
-use frictcomp_report::audit::{
-    AuditReport, Length, MachineAudit, records, render_csv, render_text, sequence_records,
-    sequence_text,
-};
 use frictcomp_report::html::render_audit;
+use frictcomp_report::results::audit::{
+    AuditReport, Length, records, render_csv, render_text, sequence_records, sequence_text,
+};
 use frictcomp_report::{counted, fitted};
 
 /// Show what the order of programs does, and end its hazards
@@ -183,14 +181,14 @@ impl AuditArgs {
                 target.painted(&differences(files), difference)?;
                 Console::talk(&to_write(&changes));
                 outputs.finish()?;
-                let report = report(&auditor, archives, None);
+                let report = AuditReport::new(auditor.described(), archives, None);
                 return Ok(self.status(report.has_warnings(), false));
             }
             write(&changes, console)?;
             archives = failures.keep(auditor.audit());
         }
         found.left_out.forget_read(&registry);
-        let report = report(&auditor, archives, found.left_out.in_words());
+        let report = AuditReport::new(auditor.described(), archives, found.left_out.in_words());
         let width = target.look.width;
         let printed = target.text(&match self.format {
             AuditFormat::Text if self.quiet => fitted(&format!("{}\n", report.headline()), width),
@@ -201,8 +199,8 @@ impl AuditArgs {
                 fitted(&render_text(&report, Length::Folded, console.detail), width)
             }
             AuditFormat::Csv => render_csv(&report),
-            AuditFormat::Json => document(&records(&report)),
-            AuditFormat::Ndjson => lines(&records(&report)),
+            AuditFormat::Json => RecordsFormat::Json.records("", &records(&report)),
+            AuditFormat::Ndjson => RecordsFormat::Ndjson.records("", &records(&report)),
         })?;
         if let Some(html) = &mut html {
             render_audit(&report, &mut Files, html).map_err(Failure::output)?;
@@ -285,8 +283,8 @@ impl AuditArgs {
         let steps = failures.keep(auditor.follow());
         let width = target.look.width;
         target.text(&match self.format {
-            AuditFormat::Json => document(&sequence_records(&steps)),
-            AuditFormat::Ndjson => lines(&sequence_records(&steps)),
+            AuditFormat::Json => RecordsFormat::Json.records("", &sequence_records(&steps)),
+            AuditFormat::Ndjson => RecordsFormat::Ndjson.records("", &sequence_records(&steps)),
             AuditFormat::Text | AuditFormat::Csv => {
                 fitted(&sequence_text(&steps, console.detail), width)
             }
@@ -328,22 +326,6 @@ impl FixScope {
     }
 }
 
-fn report(
-    auditor: &ArchiveAuditor,
-    archives: Vec<Archive>,
-    not_checked: Option<String>,
-) -> AuditReport {
-    let machines = auditor.machines().iter().zip(archives);
-    let machines = machines.map(|(loaded, archive)| {
-        let origin = loaded.origin.as_deref();
-        MachineAudit::new(origin.map(shown_path), &loaded.machine, archive)
-    });
-    AuditReport {
-        machines: machines.collect(),
-        not_checked,
-    }
-}
-
 /// Returns the messages about programs without a block, and files that are no programs (R18.6).
 fn about_files(auditor: &ArchiveAuditor, report: &AuditReport) -> Vec<Diagnostic> {
     let mut causes = Causes::default();
@@ -362,12 +344,7 @@ fn about_files(auditor: &ArchiveAuditor, report: &AuditReport) -> Vec<Diagnostic
 
 /// Reports before everything else that no machine is described (R1.37).
 fn say_undescribed(auditor: &ArchiveAuditor, console: Console) {
-    let programs = auditor.programs().iter();
-    let undescribed = programs.filter_map(|(input, machine)| {
-        let is_described = auditor.machines()[*machine].machine.is_described();
-        (!is_described).then_some(input)
-    });
-    if let Some(remark) = undescribed_remark(undescribed) {
+    if let Some(remark) = undescribed_remark(auditor.undescribed()) {
         console.remark(&remark);
     }
 }
@@ -499,14 +476,4 @@ fn programs_of(order: &Path) -> Result<Vec<Input>, Failure> {
         input.probe()?;
     }
     Ok(inputs)
-}
-
-fn document(records: &[Value]) -> String {
-    format!("{:#}\n", json!({ "schema": SCHEMA, "records": records }))
-}
-
-fn lines(records: &[Value]) -> String {
-    records.iter().fold(String::new(), |lines, record| {
-        lines + &record.to_string() + "\n"
-    })
 }

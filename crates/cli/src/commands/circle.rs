@@ -6,16 +6,16 @@ use clap::{Args, ValueEnum};
 
 use crate::args::{
     ByAxis, CircleChannelArgs, CurrentReadingArgs, CycleArgs, ModelArgs, PerAxis, PlantArgs,
-    ResultArgs, quantities, value_list,
+    quantities, value_list,
 };
-use crate::output::{
-    Console, Failure, HtmlArgs, Outputs, exit, progress, write_page, write_picture,
-};
+use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, exit, progress};
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, compare, find_plant, memory_for_simulation, read_circles};
 use frictcomp_physics::circle::{Circle, CircularTest, CommandedCircle, Method, PathCentre};
-use frictcomp_report::circle::{CircleReport, ListOrigin, document, render_csv, render_json};
+use frictcomp_report::results::circle::{
+    CircleReport, ListOrigin, document, render_csv, render_json,
+};
 
 /// Make a circular test, simulated or recorded
 ///
@@ -86,22 +86,22 @@ enum CircleFormat {
 pub(crate) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     memory_for_simulation()?;
     let registry = FileRegistry::default();
-    let mut outputs = Outputs::new(&registry, console);
-    let mut result = outputs.result(args.result.output.as_deref())?;
-    let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
+    let job = Job::new(&args.result, &registry, console)?;
+    let job = job
+        .with_picture(args.svg.as_deref())?
+        .with_page(&args.html)?;
     let recordings = [&args.files[..], &args.recording].concat();
     let report = if recordings.is_empty() {
         args.channels.refuse_without_recording()?;
         let (test, origin) = simulation(args, &registry)?;
-        outputs.check()?;
+        job.outputs.check()?;
         let comparison = compare(&test, &progress::watch())?.about(args.centre);
         CircleReport::simulated(test, comparison, origin)
     } else {
         for path in &recordings {
             registry.reads("recording", path);
         }
-        outputs.check()?;
+        job.outputs.check()?;
         let commanded = CommandedCircle {
             radius_mm: args.radius,
             feed_mm_per_min: args.feed,
@@ -115,15 +115,11 @@ pub(crate) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         CircleReport::recorded(recording)
     };
     let document = document(&report);
-    let text = match args.result.format {
-        CircleFormat::Text => document.text(console.detail, result.look.width),
-        CircleFormat::Json => render_json(&report),
-        CircleFormat::Csv => render_csv(&report),
-    };
-    write_picture(svg, &document)?;
-    write_page(html, &document)?;
-    result.text(&text)?;
-    outputs.finish()?;
+    job.finish_with(&[document], |format| match format {
+        CircleFormat::Text => None,
+        CircleFormat::Json => Some(render_json(&report)),
+        CircleFormat::Csv => Some(render_csv(&report)),
+    })?;
     Ok(exit::CLEAN)
 }
 
@@ -162,11 +158,7 @@ fn given_lists(
     given: &[PerAxis],
     registry: &FileRegistry,
 ) -> Result<([FrictionList; 2], ListOrigin), Failure> {
-    let lists = ByAxis {
-        option: "--value-list",
-        given,
-        axes: &["X", "Y"],
-    };
+    let lists = ByAxis::new("--value-list", given, &["X", "Y"]);
     let [x, y] = [lists.required("X")?, lists.required("Y")?];
     let origin = if x == y {
         ListOrigin::File(shown_path(x))

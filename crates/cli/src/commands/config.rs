@@ -12,8 +12,8 @@ use frictcomp::diagnostic::Diagnostic;
 use frictcomp::lists::AxisType;
 use frictcomp::machine::{AxisSet, Machine, Parameterisation};
 use frictcomp_host::{CONFIG_NAME, FileRegistry, LoadedMachine};
-use frictcomp_report::lists::render_parameters;
-use frictcomp_report::schema::{config_schema, plant_schema};
+use frictcomp_report::results::lists::render_parameters;
+use frictcomp_report::results::schema::{config_schema, plant_schema};
 use frictcomp_report::{Table, visible_line};
 
 /// Show the configuration in effect, or its schema

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::args::{ResultArgs, ResultFormat};
-use crate::output::{Console, Failure, Outputs, exit, shown, write_text};
+use crate::output::{Console, Failure, Outputs, ResultArgs, ResultFormat, exit, shown, write_text};
 use frictcomp::text::shown_path;
 use frictcomp_host::conformance::{
     Answers, Case, CaseError, Compared, Mismatch, Totals, export, find_cases, run_case,

@@ -4,19 +4,19 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::args::{ExecutionArgs, MachineArgs, ResultArgs, SimulationArgs, quantities, remark};
-use crate::output::{Console, DataTarget, Failure, Files, Outputs, exit, write_text};
+use crate::args::{ExecutionArgs, MachineArgs, SimulationArgs, quantities, remark};
+use crate::output::{Console, DataTarget, Failure, Files, Outputs, ResultArgs, exit, write_text};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp_host::{
     FileRegistry, Input, LoadedMachine, Naming, NoDrivenContour, OutputFile, drive_contour,
 };
 use frictcomp_physics::contour::{ContourLimits, ContourOptions, ProgramContour};
-use frictcomp_report::contour::{
+use frictcomp_report::html::render_contour;
+use frictcomp_report::pictures::ContourPicture;
+use frictcomp_report::results::contour::{
     ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_json,
     summary_record, why_not_judged,
 };
-use frictcomp_report::html::render_contour;
-use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
 
 /// Show where on the part compensation is missing

@@ -12,7 +12,7 @@ use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_drives::{XmlError, read_devices, read_network};
 use frictcomp_host::{Disk, FileRegistry, read_list};
-use frictcomp_report::drives::{drives_headline, render_drives};
+use frictcomp_report::results::drives::{drives_headline, render_drives};
 use frictcomp_report::{ListingFormat, command_line};
 
 /// Check that the torque of compensation reaches the drives

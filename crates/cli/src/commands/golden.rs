@@ -18,7 +18,7 @@ use frictcomp_host::{
     run_alone,
 };
 use frictcomp_physics::contour::BlockDeviations;
-use frictcomp_report::contour::{AgreedContour, GoldenContour, agreed_contour};
+use frictcomp_report::results::contour::{AgreedContour, GoldenContour, agreed_contour};
 use frictcomp_report::{
     MessageExtent, Report, Text, TextChange, TextOptions, counted, render_unified,
 };

@@ -9,7 +9,7 @@ use crate::output::{Console, Failure, exit};
 use frictcomp::machine::Outline;
 use frictcomp::text::shown_path;
 use frictcomp_host::{CONFIG_NAME, HostError, outline_of, write_new};
-use frictcomp_report::configuration::render_configuration;
+use frictcomp_report::results::configuration::render_configuration;
 
 /// Write a commented `frictcomp.toml` to start from
 ///

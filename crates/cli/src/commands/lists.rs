@@ -9,8 +9,8 @@ use crate::output::{Console, Failure, Failures, Outputs, Printed, exit, parts, w
 use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::machine::{AcceptedList, ListsReport};
 use frictcomp_host::{FileRegistry, is_configuration};
-use frictcomp_report::lists::render_parameters;
 use frictcomp_report::pictures::value_curves;
+use frictcomp_report::results::lists::render_parameters;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::{ListingFormat, Tally, command_line};
 

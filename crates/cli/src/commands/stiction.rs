@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 
 use clap::Args;
 
-use crate::args::{ResultArgs, ResultFormat};
-use crate::output::{Console, Failure, HtmlArgs, Outputs, exit, write_page};
+use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, exit};
 use frictcomp_host::FileRegistry;
 use frictcomp_physics::stiction::{Quantity, StictionError, solve};
-use frictcomp_report::stiction::{document, guideline, record};
+use frictcomp_report::results::stiction::{document, guideline, record};
 
 /// Compute stiction compensation of the Heidenhain TNC 407, 415 and 425 (MP1511 to MP1513)
 ///
@@ -100,16 +99,10 @@ fn help(error: &StictionError) -> &'static str {
 pub(crate) fn run(args: &StictionArgs, console: Console) -> Result<u8, Failure> {
     let solution = solve(&args.given())
         .map_err(|error| Failure::new(error.to_string()).with_help(help(&error)))?;
-    let mut outputs = Outputs::new(&FileRegistry::default(), console);
-    let mut target = outputs.result(args.result.output.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
-    let document = document(&solution);
-    write_page(html, &document)?;
-    target.text(&match args.result.format {
-        ResultFormat::Text => document.text(console.detail, target.look.width),
-        ResultFormat::Json => format!("{:#}\n", record(&solution)),
+    let job = Job::new(&args.result, &FileRegistry::default(), console)?.with_page(&args.html)?;
+    job.finish(&document(&solution), || {
+        format!("{:#}\n", record(&solution))
     })?;
-    outputs.finish()?;
     for kept in &solution.guidelines {
         Console::talk(&format!("warning: {}", guideline(*kept)));
     }

@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::args::{ResultArgs, ResultFormat};
-use crate::output::{Console, Failure, HtmlArgs, Outputs, exit, write_page, write_picture};
+use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, ResultFormat, exit};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_trace};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
-use frictcomp_report::trace::{TraceReport, document, render_json};
+use frictcomp_report::results::trace::{TraceReport, document, render_json};
 
 /// List the channels of a recording: rates, lengths, ranges, gaps
 ///
@@ -37,11 +36,11 @@ pub(crate) struct TraceArgs {
 pub(crate) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
     registry.reads("recording", &args.recording);
-    let mut outputs = Outputs::new(&registry, console);
-    let mut result = outputs.result(args.result.output.as_deref())?;
-    let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
-    outputs.check()?;
+    let job = Job::new(&args.result, &registry, console)?;
+    let job = job
+        .with_picture(args.svg.as_deref())?
+        .with_page(&args.html)?;
+    job.outputs.check()?;
     let selection = ChannelSelection {
         time: args.time.clone(),
         ..ChannelSelection::default()
@@ -55,12 +54,12 @@ pub(crate) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
         recording: &read,
     };
     let document = document(&report);
-    write_picture(svg, &document)?;
-    write_page(html, &document)?;
-    result.text(&match args.result.format {
-        ResultFormat::Text => document.shown(console.detail).to_string(),
-        ResultFormat::Json => render_json(&report),
+    job.finish_with(std::slice::from_ref(&document), |format| {
+        Some(match format {
+            // The names of channels stay whole.
+            ResultFormat::Text => document.shown(console.detail).to_string(),
+            ResultFormat::Json => render_json(&report),
+        })
     })?;
-    outputs.finish()?;
     Ok(exit::CLEAN)
 }

@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use crate::args::{
-    CncBuildArgs, CurrentReadingArgs, CycleArgs, MachineArgs, ModelArgs, ResultArgs, ResultFormat,
-    quantities,
+    CncBuildArgs, CurrentReadingArgs, CycleArgs, MachineArgs, ModelArgs, quantities,
 };
 use crate::output::{
-    Console, Failure, HtmlArgs, Outputs, exit, progress, write_page, write_picture, write_text,
+    Console, Failure, HtmlArgs, Job, Outputs, ResultArgs, exit, progress, write_text,
 };
 use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::lists::{AxisType, ListHead, Points};
@@ -22,10 +21,10 @@ use frictcomp_physics::circle::{
     Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task,
 };
 use frictcomp_physics::simulation::Plant;
+use frictcomp_recordings::value_lists::{TunedFor, render_tuned};
 use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::tune::{TuneReport, document, render_json, round};
-use frictcomp_report::value_lists::render_tuned;
-use frictcomp_report::visible_line;
+use frictcomp_report::results::tune::{TuneReport, document, render_json};
+use frictcomp_report::{rounded, visible_line};
 
 /// Largest number of circles tuned at once.
 const MAX_CIRCLES: usize = 32;
@@ -150,19 +149,19 @@ pub(crate) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     {
         check_list(first)?;
     }
-    let mut outputs = Outputs::new(&registry, console);
-    let mut target = outputs.result(args.result.output.as_deref())?;
+    let mut job = Job::new(&args.result, &registry, console)?;
     let list = args.write_list.as_deref();
     let list = list
-        .map(|path| outputs.list("--write-list", path))
+        .map(|path| job.outputs.list("--write-list", path))
         .transpose()?;
     let axis_lists = match &args.into {
-        Some(folder) => axis_lists(folder, args, &mut outputs, &registry)?,
+        Some(folder) => axis_lists(folder, args, &mut job.outputs, &registry)?,
         None => Vec::new(),
     };
-    let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
-    outputs.check()?;
+    let job = job
+        .with_picture(args.svg.as_deref())?
+        .with_page(&args.html)?;
+    job.outputs.check()?;
     let model = args.model.model();
     let mut reports = Vec::new();
     for plant in plants {
@@ -195,17 +194,23 @@ pub(crate) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     }
     if let Some(first) = reports.first() {
         let [x, y] = &first.tuned.axes;
+        let list_of = |axis| TunedFor {
+            plant: &first.plant,
+            model: first.model,
+            tuned: &first.tuned,
+            axis,
+        };
         if let Some(mut file) = list {
             write_text(
                 &mut file,
-                &render_tuned(first, x, args.build.cnc_build, &ListHead::default()),
+                &render_tuned(list_of(x), args.build.cnc_build, &ListHead::default()),
             )?;
             if x != y {
                 console.remark("Y has its own list: `--into` writes both");
             }
         }
         for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
-            let text = render_tuned(first, axis, args.build.cnc_build, &of_axis.head());
+            let text = render_tuned(list_of(axis), args.build.cnc_build, &of_axis.head());
             write_text(&mut of_axis.file, &text)?;
         }
     }
@@ -213,13 +218,7 @@ pub(crate) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         console.show(&worse_than_off(report));
     }
     let document = document(&reports);
-    write_picture(svg, &document)?;
-    write_page(html, &document)?;
-    target.text(&match args.result.format {
-        ResultFormat::Text => document.text(console.detail, target.look.width),
-        ResultFormat::Json => render_json(&reports),
-    })?;
-    outputs.finish()?;
+    job.finish(&document, || render_json(&reports))?;
     Ok(exit::CLEAN)
 }
 
@@ -262,7 +261,6 @@ fn axis_lists(
     outputs: &mut Outputs,
     registry: &FileRegistry,
 ) -> Result<Vec<AxisFile>, Failure> {
-    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
     let loaded = args.machine.machines(registry).for_folder(Path::new("."))?;
     let linear: Vec<&Axis> = loaded
         .machine
@@ -277,7 +275,7 @@ fn axis_lists(
         let found = same.or(linear.get(at));
         let name = found.map_or(axis.as_str(), |axis| &axis.name);
         Ok(AxisFile {
-            file: outputs.list("--into", &folder.join(format!("{name}.lis")))?,
+            file: outputs.list_in_folder("--into", &folder.join(format!("{name}.lis")))?,
             name: name.to_owned(),
             number: found.and_then(|axis| axis.number),
         })
@@ -292,8 +290,8 @@ fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
         format!(
             "at {} mm/min on a radius of {} mm compensation leaves {:.1} µm, more than the {:.1} µm \
              without it",
-            round(it.feed_mm_per_min),
-            round(it.radius_mm),
+            rounded(it.feed_mm_per_min),
+            rounded(it.radius_mm),
             it.glitch_on_um,
             it.glitch_off_um
         )

@@ -5,15 +5,14 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::args::{
-    AxisChannelArgs, ByAxis, CurrentReadingArgs, CycleArgs, FollowedChannels, PerAxis, ResultArgs,
-    ResultFormat, named, refuse_alike, value_list,
+    AxisChannelArgs, ByAxis, CurrentReadingArgs, CycleArgs, FollowedChannels, PerAxis, named,
+    refuse_alike, value_list,
 };
-use crate::output::{Console, Failure, HtmlArgs, Outputs, exit, write_page};
+use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, exit};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
 use frictcomp_recordings::identify::{Predictor, verify_followed};
-use frictcomp_report::of_axes;
-use frictcomp_report::verify::{VerifyReport, document, render_json};
+use frictcomp_report::results::verify::{VerifyReport, document, render_json};
 
 /// Compare a recorded torque with what a value list predicts
 ///
@@ -48,9 +47,7 @@ pub(crate) struct VerifyArgs {
 pub(crate) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
     registry.reads("recording", &args.recording);
-    let mut outputs = Outputs::new(&registry, console);
-    let mut result = outputs.result(args.result.output.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
+    let job = Job::new(&args.result, &registry, console)?.with_page(&args.html)?;
     if args.html.is_given() {
         args.channels.sole_axis("`--html` shows")?;
     }
@@ -61,7 +58,7 @@ pub(crate) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
         Ok((path, value_list(path, &registry)?))
     });
     let lists = lists.collect::<Result<Vec<_>, Failure>>()?;
-    outputs.check()?;
+    job.outputs.check()?;
     let cycle_s = args.cycle.seconds()?;
     let reports = axes.iter().zip(&lists).map(|(axis, (path, list))| {
         let recorded = &args.recording;
@@ -91,16 +88,6 @@ pub(crate) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
         exit::FOUND
     };
     let documents: Vec<_> = reports.iter().map(document).collect();
-    if let [document] = &documents[..] {
-        write_page(html, document)?;
-    }
-    let texts = documents
-        .iter()
-        .map(|it| it.text(console.detail, result.look.width));
-    result.text(&match args.result.format {
-        ResultFormat::Text => of_axes(texts),
-        ResultFormat::Json => render_json(&reports),
-    })?;
-    outputs.finish()?;
+    job.finish_all(&documents, || render_json(&reports))?;
     Ok(status)
 }

@@ -42,7 +42,7 @@ pub(crate) struct Console {
     pub(crate) detail: Detail,
     written: OutputContents,
     /// Files that every output may replace by `--force`.
-    forced: Option<Replaces>,
+    pub(crate) forced: Option<Replaces>,
 }
 
 /// Contents of standard output.
@@ -117,11 +117,6 @@ impl Console {
     /// Returns the console with the extent of text set.
     pub(crate) fn detailed(self, detail: Detail) -> Self {
         Self { detail, ..self }
-    }
-
-    /// Returns the files that an output may replace.
-    pub(crate) fn replaces(self, replaces: Replaces) -> Replaces {
-        self.forced.unwrap_or(replaces)
     }
 
     /// Returns the console with the contents of standard output set.

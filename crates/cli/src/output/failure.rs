@@ -5,6 +5,8 @@ use std::path::Path;
 
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::text::shown_path;
+use frictcomp_host::ask::AskError;
+use frictcomp_host::commission::CommissionError;
 use frictcomp_host::{HostError, TraceError};
 use frictcomp_physics::circle::{CircleError, RecordedError};
 use frictcomp_physics::current::FollowError;
@@ -71,16 +73,33 @@ impl From<&HostError> for Failure {
     fn from(error: &HostError) -> Self {
         Self {
             message: error.to_string(),
-            help: circle_option(error)
-                .map(str::to_owned)
-                .or_else(|| error.help())
-                .or_else(|| options_for(error))
-                .into_iter()
-                .collect(),
+            help: match error {
+                HostError::Commission(CommissionError::NoTrend { left_out, .. }) => {
+                    let left_out = left_out.iter();
+                    left_out
+                        .map(|(file, reason)| format!("{file}: {reason}"))
+                        .collect()
+                }
+                HostError::Ask(AskError::Recording(reason)) => {
+                    let mut help = Self::from(&**reason).help;
+                    help.push(ANSWERS.to_owned());
+                    help
+                }
+                _ => circle_option(error)
+                    .map(str::to_owned)
+                    .or_else(|| error.help())
+                    .or_else(|| options_for(error))
+                    .into_iter()
+                    .collect(),
+            },
             diagnostics: error.diagnostics().to_vec(),
         }
     }
 }
+
+/// The files that `ask read` takes.
+const ANSWERS: &str =
+    "answers are lines that begin with `frictcomp-ask`, as in `message.txt`, or a recording";
 
 /// Returns the advice in terms of command line options, if the host has none.
 fn options_for(error: &HostError) -> Option<String> {
@@ -115,6 +134,36 @@ fn options_for(error: &HostError) -> Option<String> {
                 "known plants are {}, and files: `--plant FILE.toml`",
                 frictcomp_physics::simulation::Preset::names()
             ));
+        }
+        HostError::Ask(AskError::NoAnswer(_)) => ANSWERS,
+        HostError::Commission(error) => return commission_option(error),
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+/// Returns the advice on a commissioning in terms of the command line.
+fn commission_option(error: &CommissionError) -> Option<String> {
+    let help = match error {
+        CommissionError::NotAPlan { .. } => "`frictcomp commission plan` writes it",
+        CommissionError::NoPlan(_) => {
+            "`frictcomp commission plan --into FOLDER` writes it with the programs"
+        }
+        CommissionError::OtherPlan(_) => {
+            "its recordings would count for the new plan; plan in another folder, or use `--force` if there are none"
+        }
+        CommissionError::NoLimit { .. } => {
+            "give it in `frictcomp.toml`, or the axis list with `--startup`: the way to accelerate has to fit into the \
+             travel"
+        }
+        CommissionError::NotBegun(_) => {
+            "begin with the measured friction, `--friction X=comp_x.lis --friction Y=comp_y.lis`"
+        }
+        CommissionError::Begun(_) => {
+            "leave `--friction` and `--value-list` out to continue, or name another folder"
+        }
+        CommissionError::NoBestList => {
+            "leave `--write-list` out until the circles of a round are recorded"
         }
         _ => return None,
     };

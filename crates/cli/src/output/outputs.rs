@@ -26,10 +26,15 @@ impl Outputs {
     /// Creates an empty set of outputs.
     pub(crate) fn new(registry: &FileRegistry, console: Console) -> Self {
         Self {
-            files: OutputFiles::new(registry),
+            files: OutputFiles::new(registry).forced(console.forced),
             console,
             printing: None,
         }
+    }
+
+    /// Returns the files among them.
+    pub(crate) fn files(&mut self) -> &mut OutputFiles {
+        &mut self.files
     }
 
     /// Returns the destination of the main result: the file after `--output`, or standard output.
@@ -68,6 +73,15 @@ impl Outputs {
         self.place(option, path, Replaces::Lists)
     }
 
+    /// Returns the file of a value list in a folder that is made if there is none.
+    pub(crate) fn list_in_folder(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+    ) -> Result<OutputFile, Failure> {
+        Ok(self.files.create_in_folder(option, path, Replaces::Lists)?)
+    }
+
     fn place(
         &mut self,
         option: &'static str,
@@ -87,7 +101,6 @@ impl Outputs {
         path: &Path,
         replaces: Replaces,
     ) -> Result<OutputFile, Failure> {
-        let replaces = self.console.replaces(replaces);
         Ok(self.files.create(option, path, replaces)?)
     }
 
@@ -102,8 +115,7 @@ impl Outputs {
 
     /// Notes a file that will be written, before its content is known.
     pub(crate) fn claim(&mut self, option: &'static str, path: &Path) {
-        let replaces = self.console.replaces(Replaces::Results);
-        self.files.claim(option, path, replaces);
+        self.files.claim(option, path, Replaces::Results);
     }
 
     /// Notes the files that hold the state and its lock.

@@ -13,6 +13,7 @@ use crate::workers::{in_order, processors};
 use frictcomp::audit::{Archive, Auditor, ProgramAudit, Sequence, Step};
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::interpreter::{Event, Interpreter, Observer, Options};
+use frictcomp::machine::Machine;
 use frictcomp::text::SourceFile;
 
 /// Number of blocks between two looks at the clock.
@@ -105,6 +106,20 @@ impl ArchiveAuditor {
     /// Returns the machines of the programs, in the order in which they were found.
     pub fn machines(&self) -> &[Arc<LoadedMachine>] {
         &self.machines
+    }
+
+    /// Returns the machines, each with the configuration or start-up list that describes it, if there is one.
+    pub fn described(&self) -> impl Iterator<Item = (Option<&Path>, &Machine)> {
+        let machines = self.machines.iter();
+        machines.map(|it| (it.origin.as_deref(), &it.machine))
+    }
+
+    /// Returns the programs whose machine is not described.
+    pub fn undescribed(&self) -> impl Iterator<Item = &Input> {
+        self.programs.iter().filter_map(|(input, machine)| {
+            let is_described = self.machines[*machine].machine.is_described();
+            (!is_described).then_some(input)
+        })
     }
 
     /// Returns the programs, each with the position of its machine.

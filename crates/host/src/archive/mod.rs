@@ -3,6 +3,7 @@
 mod audits;
 mod call_graph;
 mod changed_programs;
+mod checks;
 mod cures;
 mod first_look;
 mod git;
@@ -14,6 +15,9 @@ mod walk;
 pub use audits::{ArchiveAuditor, AuditOptions};
 pub use call_graph::{CallGraph, FoundCall, GraphProgram, MissingCall};
 pub use changed_programs::ChangedPrograms;
+pub use checks::{
+    CalledPrograms, CheckOptions, CheckedProgram, CheckedPrograms, ProgramsOnMachines,
+};
 pub use cures::MendedProgram;
 pub use first_look::{find_startup, outline_of, write_new};
 pub use git::{ChangedFile, OldFile, Revision};

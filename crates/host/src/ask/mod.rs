@@ -7,13 +7,12 @@
 
 mod answers;
 mod axis;
+mod control;
 mod motion;
 mod programs;
 mod recording;
 mod written;
 
-pub use answers::{Answer, AnswerVerdict, UnreadAnswer, read_answers};
+pub use answers::UnreadAnswer;
 pub use axis::AskedAxis;
-pub use programs::{AskedFile, ask, readme};
-pub use recording::{RecordedQuestions, read_recorded_answers};
-pub use written::{AnsweredReading, InvalidToml, date_of, with_findings};
+pub use control::{AskError, AskedControl, ReadAnswers, RecordedAnswers, TRAVEL};

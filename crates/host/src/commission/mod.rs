@@ -1,13 +1,24 @@
-//! The recordings of a commissioning: the program of each, and what it shows (R16.2).
+//! Commissioning in a folder: the program of each recording, what it shows, and what follows from all (R16.2).
 
 mod channels;
 mod closer;
+mod error;
+mod evaluated;
 mod friction;
+mod learn;
+mod plan;
+mod plants;
 mod reading;
 mod recorded;
 mod results;
+mod trend;
 mod unused;
 
 pub use channels::CommissionChannels;
+pub use error::CommissionError;
+pub use evaluated::{Commissioning, plan_name, read_plans};
+pub use learn::{FirstLists, Learning};
+pub use plan::{AxisToMeasure, Planning};
 pub use reading::CommissionReader;
+pub use trend::DatedRecordings;
 pub use unused::UnusedRecording;

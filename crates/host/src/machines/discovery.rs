@@ -14,8 +14,10 @@ use crate::disk::{
 use crate::error::HostError;
 use crate::watch::{Watch, Watcher};
 use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
+use frictcomp::interpreter::Options;
 use frictcomp::lists::{Parameter, is_xml};
 use frictcomp::machine::{AxisReport, AxisSet, Configuration, Machine, Setting};
+use frictcomp::session::SessionOptions;
 use frictcomp::text::{SourceFile, shown_path};
 
 /// Selection of the configuration.
@@ -88,6 +90,13 @@ pub struct LoadedMachine {
 }
 
 impl LoadedMachine {
+    /// Returns the options of a session on the machine.
+    pub fn session(&self, run: Options) -> SessionOptions {
+        SessionOptions::from(run)
+            .with_levels(self.levels.clone())
+            .with_settings(self.settings.clone())
+    }
+
     fn new(configuration: Configuration, path: &Path, registry: &FileRegistry) -> Self {
         let folder = path.parent().unwrap_or(Path::new(""));
         let folders = configuration.program_dirs.iter();

@@ -6,10 +6,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use serde::Serialize;
+
 use super::atomic_file::{AtomicFile, Placed, take_away_left};
 use crate::disk::{Claim, FileRegistry, Replaces};
 use crate::error::HostError;
-use frictcomp::text::shown_path;
+use frictcomp::text::{shown_json, shown_path};
 
 /// The output files of a piece of work. If dropped before [`finish`](Self::finish), nothing is
 /// written.
@@ -22,6 +24,8 @@ pub struct OutputFiles {
     compared: usize,
     /// Folders from which the leftovers of killed runs have been removed.
     swept: BTreeSet<PathBuf>,
+    /// The files that every output may replace, in place of those that each says.
+    forced: Option<Replaces>,
 }
 
 /// A result that is being written to a file or a device. Its copies write to the same file.
@@ -56,7 +60,34 @@ impl OutputFiles {
             open: Vec::new(),
             compared: 0,
             swept: BTreeSet::new(),
+            forced: None,
         }
+    }
+
+    /// Returns the set whose outputs all may replace these files, if they are given.
+    #[must_use]
+    pub fn forced(self, forced: Option<Replaces>) -> Self {
+        Self { forced, ..self }
+    }
+
+    /// Returns the files that an output may replace.
+    pub fn replaces(&self, replaces: Replaces) -> Replaces {
+        self.forced.unwrap_or(replaces)
+    }
+
+    /// Begins an output as [`create`](Self::create) does, in a folder that is made if there is none.
+    ///
+    /// # Errors
+    /// The folder cannot be made, or the file cannot be written.
+    pub fn create_in_folder(
+        &mut self,
+        name: &'static str,
+        path: &Path,
+        replaces: Replaces,
+    ) -> Result<OutputFile, HostError> {
+        let folder = path.parent().unwrap_or(path);
+        std::fs::create_dir_all(folder).map_err(|error| HostError::write(folder, error))?;
+        self.create(name, path, replaces)
     }
 
     /// Creates a part of the outputs of other work, which has compared them with all known inputs.
@@ -92,7 +123,7 @@ impl OutputFiles {
         self.claims.push(Claim {
             name,
             path: path.to_owned(),
-            replaces,
+            replaces: self.replaces(replaces),
         });
     }
 
@@ -199,6 +230,14 @@ impl OutputFile {
         self.write_all(bytes).map_err(HostError::Output)
     }
 
+    /// Writes a value as JSON without hidden characters, and a line end.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn json(&mut self, value: &impl Serialize) -> Result<(), HostError> {
+        self.bytes(json_text(value)?.as_bytes())
+    }
+
     fn place(&self) -> MutexGuard<'_, OutputPlace> {
         self.place.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -210,6 +249,12 @@ impl OutputFile {
             kind => io::Error::new(kind, format!("{error} (`{}`)", shown_path(&self.path))),
         }
     }
+}
+
+/// Returns a value as JSON without hidden characters, and a line end.
+pub(crate) fn json_text(value: &impl Serialize) -> Result<String, HostError> {
+    let text = serde_json::to_string_pretty(value).map_err(io::Error::other);
+    Ok(shown_json(&text.map_err(HostError::Output)?).into_owned() + "\n")
 }
 
 /// Whether a path names something that can only be opened, not replaced: a device, a pipe, or an open file of

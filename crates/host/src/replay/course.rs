@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::conditions::Condition;
-use super::recorded::RecordedAxis;
 use crate::disk::{Input, Naming};
 use crate::error::HostError;
 use crate::machines::{LoadedMachine, switched_axes};
@@ -18,6 +17,7 @@ use frictcomp::session::{Session, SessionOptions};
 use frictcomp::syntax::ast::{Address, Block, Item, Word};
 use frictcomp::syntax::parse_block;
 use frictcomp::timeline::{Record, Row, StateView};
+use frictcomp_recordings::replay::RecordedAxis;
 
 /// Largest number of executed blocks; they are kept until the recording is compared with them.
 const MAX_STEPS: usize = 4_000_000;

@@ -115,7 +115,7 @@ fn taken(
 /// first. Programs are recognised by their numbers. Of several recordings those count that were driven at the feed of
 /// the program, otherwise those next to it; of those the smallest glitch without and the largest with compensation,
 /// for each axis and direction.
-pub fn before_after(
+pub(super) fn before_after(
     results: &[RecordingResult],
     axes: &[MeasuredAxis],
     (is_off, is_on): (impl Fn(u16) -> bool, impl Fn(u16) -> bool),

@@ -1,5 +1,6 @@
 //! The results of the commands, each as a document and as data.
 
+pub mod ask;
 pub mod audit;
 pub mod circle;
 pub mod commission;

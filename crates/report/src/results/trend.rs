@@ -7,79 +7,51 @@ use serde::Serialize;
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::friction_trend;
 use crate::wording::{counted, to_pretty, visible_line};
-use frictcomp_recordings::identify::{FrictionChange, FrictionLevels, FrictionParameter};
+use frictcomp_recordings::identify::{
+    DatedFriction, FrictionChange, FrictionParameter, TrendReport,
+};
 
-/// The friction of an axis on some dates.
-#[derive(Debug, Clone)]
-pub struct TrendReport {
-    /// The axis, if it is named.
-    pub axis: Option<String>,
-    /// The unit of the friction.
-    pub unit: String,
-    /// The recordings in the order of their dates.
-    pub dates: Vec<DatedFriction>,
-    /// The changes between them.
-    pub changes: Vec<FrictionChange>,
-    /// Files that give no friction, each with its reason.
-    pub left_out: Vec<(String, String)>,
-}
-
-/// The friction of one recording.
-#[derive(Debug, Clone)]
-pub struct DatedFriction {
-    /// The date, `2026-03-01`.
-    pub date: String,
-    /// The days since 1970-01-01.
-    pub day: f64,
-    /// Name of the file.
-    pub file: String,
-    /// The parameters.
-    pub levels: FrictionLevels,
-}
-
-impl TrendReport {
-    /// Returns the verdict: the parameters that changed, and by how much the one that changed most.
-    pub fn headline(&self) -> Headline {
-        let most = self
-            .changes
-            .iter()
-            .max_by(|one, other| one.part.abs().total_cmp(&other.part.abs()));
-        let text = match most {
-            None => format!(
-                "no parameter of these {} changed by more than 3 combined errors and 5 %",
-                counted(self.dates.len(), "recording")
-            ),
-            Some(most) => {
-                let is_changed = |it: &&FrictionParameter| {
-                    let mut changes = self.changes.iter();
-                    changes.any(|change| change.parameter == **it)
-                };
-                let changed = FrictionParameter::ALL.iter().filter(is_changed);
-                let changed: Vec<&str> = changed.map(|it| it.as_str()).collect();
-                let (name, by) = (most.parameter.as_str(), self.change(most));
-                match &changed[..] {
-                    [.., _, _] => format!("{} changed; {name} most, by {by}", changed.join(", ")),
-                    _ => format!("{name} changed by {by}"),
-                }
+/// Returns the verdict: the parameters that changed, and by how much the one that changed most.
+pub fn headline(report: &TrendReport) -> Headline {
+    let most = report
+        .changes
+        .iter()
+        .max_by(|one, other| one.part.abs().total_cmp(&other.part.abs()));
+    let text = match most {
+        None => format!(
+            "no parameter of these {} changed by more than 3 combined errors and 5 %",
+            counted(report.dates.len(), "recording")
+        ),
+        Some(most) => {
+            let is_changed = |it: &&FrictionParameter| {
+                let mut changes = report.changes.iter();
+                changes.any(|change| change.parameter == **it)
+            };
+            let changed = FrictionParameter::ALL.iter().filter(is_changed);
+            let changed: Vec<&str> = changed.map(|it| it.as_str()).collect();
+            let (name, by) = (most.parameter.as_str(), change_of(report, most));
+            match &changed[..] {
+                [.., _, _] => format!("{} changed; {name} most, by {by}", changed.join(", ")),
+                _ => format!("{name} changed by {by}"),
             }
-        };
-        Headline::new(Standing::Plain, text)
-    }
+        }
+    };
+    Headline::new(Standing::Plain, text)
+}
 
-    /// Returns the size of a change and its dates.
-    fn change(&self, change: &FrictionChange) -> String {
-        let date = |at: usize| self.dates.get(at).map_or("?", |it| &it.date);
-        let whole = match change.parameter {
-            FrictionParameter::Offset => " of Fc",
-            _ => "",
-        };
-        format!(
-            "{:+.1} %{whole} between {} and {}",
-            change.part * 100.0,
-            date(change.from),
-            date(change.to)
-        )
-    }
+/// Returns the size of a change and its dates.
+fn change_of(report: &TrendReport, change: &FrictionChange) -> String {
+    let date = |at: usize| report.dates.get(at).map_or("?", |it| &it.date);
+    let whole = match change.parameter {
+        FrictionParameter::Offset => " of Fc",
+        _ => "",
+    };
+    format!(
+        "{:+.1} %{whole} between {} and {}",
+        change.part * 100.0,
+        date(change.from),
+        date(change.to)
+    )
 }
 
 /// A row for each recording, then the changes, then the files left out.
@@ -89,7 +61,7 @@ pub fn document(report: &TrendReport) -> Document<'_> {
         .as_deref()
         .map(|it| format!(" of axis {}", visible_line(it)));
     let axis = axis.unwrap_or_default();
-    let mut out = Document::new(format!("Friction{axis} over time"), report.headline());
+    let mut out = Document::new(format!("Friction{axis} over time"), headline(report));
     out.figure(|| friction_trend(report));
     let _ = writeln!(
         out,
@@ -122,7 +94,7 @@ pub fn document(report: &TrendReport) -> Document<'_> {
             out,
             "{} changed by {}, {:.0} combined errors",
             change.parameter.as_str(),
-            report.change(change),
+            change_of(report, change),
             change.errors
         );
     }
@@ -203,7 +175,7 @@ pub fn render_json(report: &TrendReport) -> String {
     });
     to_pretty(&TrendDocument {
         schema: 1,
-        headline: report.headline(),
+        headline: headline(report),
         axis: report.axis.as_deref(),
         unit: &report.unit,
         dates: dates.collect(),

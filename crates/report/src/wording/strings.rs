@@ -71,6 +71,12 @@ pub(crate) fn integer(out: &mut Vec<u8>, number: impl itoa::Integer) {
     out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
 }
 
+/// Rounds a number for reports: no more digits than are meaningful.
+pub fn rounded(value: f64) -> f64 {
+    // No negative zero.
+    (value * 1e6).round() / 1e6 + 0.0
+}
+
 /// Returns a count with its noun in English: `1 block`, `2 blocks`.
 pub fn counted(count: impl Copy + Display + PartialEq + From<u8>, noun: &str) -> String {
     let plural = if count == 1.into() { "" } else { "s" };

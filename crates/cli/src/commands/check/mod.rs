@@ -2,12 +2,10 @@
 
 mod baseline;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use clap::Args;
 
@@ -18,14 +16,12 @@ use crate::args::{
 use crate::commands::diff::unseen_remark;
 use crate::output::{Console, DataTarget, Failure, Failures, FileWatch, Outputs, Printed};
 use baseline::{Baseline, BaselineArgs};
-use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp::session::{Causes, Findings};
+use frictcomp::diagnostic::Diagnostic;
 use frictcomp::text::shown_path;
-use frictcomp::timeline::{ReadingsInForce, Record, Sink};
 use frictcomp_host::{
-    Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, FileRegistry, HostError, Input,
-    LoadedMachine, Machines, Naming, Revision, SingleRun, find_programs, in_order, is_source,
-    main_programs, processors, run_alone,
+    CalledPrograms, ChangedFile, ChangedPrograms, CheckOptions, CheckedPrograms, Disk,
+    FileRegistry, HostError, Machines, Naming, ProgramsOnMachines, Revision, find_programs,
+    is_source, processors,
 };
 use frictcomp_report::assumptions::rests_on_text;
 use frictcomp_report::{ListingFormat, ProgramResult, command_line, wrap};
@@ -152,15 +148,15 @@ fn check(
         outputs.check()?;
         bench.fix(console, failures)?;
     }
-    // Every list is known before anything runs.
-    let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
-    let jobs: Vec<ProgramOnMachine> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
+    let programs = ProgramsOnMachines::new(&inputs, &mut machines);
     outputs.check()?;
-    say_undescribed(args, &jobs, &mut target, console);
+    say_undescribed(args, &programs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
     let mut baseline = args.baseline.open(&registry, &mut outputs)?;
     outputs.check()?;
-    let in_callers = args.check_all(jobs, (&mut listing, &mut baseline), failures);
+    let checked = failures.keep(programs.check(&args.options()));
+    let in_callers = checked.in_callers;
+    list_all(checked, &mut listing, &mut baseline);
     found.left_out.forget_read(&registry);
     let missed = found.left_out.diagnostics(&mut machines);
     list_missed(missed, &mut listing, &mut baseline);
@@ -218,15 +214,11 @@ fn list_missed(
 /// Reports before everything else that no machine is described (R1.37).
 fn say_undescribed(
     args: &CheckArgs,
-    jobs: &[ProgramOnMachine<'_>],
+    programs: &ProgramsOnMachines<'_>,
     target: &mut DataTarget,
     console: Console,
 ) {
-    let undescribed = jobs.iter().filter_map(|(input, loaded)| {
-        let described = loaded.as_ref().map_or(true, |it| it.machine.is_described());
-        (!described).then_some(*input)
-    });
-    let Some(remark) = undescribed_remark(undescribed) else {
+    let Some(remark) = undescribed_remark(programs.undescribed()) else {
         return;
     };
     if args.listing.format == ListingFormat::Text && !args.listing.quiet && !args.listing.statistics
@@ -237,9 +229,6 @@ fn say_undescribed(
         console.remark(&remark);
     }
 }
-
-/// A program and the machine that it runs on.
-type ProgramOnMachine<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
 /// Returns the number of programs checked since a revision, in words.
 fn changed_remark(changed: usize, all: usize, revision: &str) -> String {
@@ -300,106 +289,48 @@ impl CheckArgs {
         }
     }
 
-    /// Checks the programs in parallel, and lists the messages in the order of the programs. Returns how many of
-    /// them were checked only in their callers (R17.2).
-    fn check_all(
-        &self,
-        jobs: Vec<ProgramOnMachine<'_>>,
-        (listing, baseline): (&mut Lister<'_>, &mut Baseline),
-        failures: &mut Failures,
-    ) -> usize {
-        let mut listed: Vec<Option<PathBuf>> = Vec::new();
-        let mut causes = Causes::default();
-        let mut programs = Vec::new();
-        let checked = self.checked(jobs, failures);
-        let mains = self.mains(&checked);
-        for (
-            CheckedProgram {
-                input,
-                loaded,
-                found,
-            },
-            is_main,
-        ) in checked.into_iter().zip(&mains)
-        {
-            if !listed.contains(&loaded.origin) {
-                listed.push(loaded.origin.clone());
-                for mut diagnostic in loaded.errors().cloned() {
-                    diagnostic.reword(Some(command_line));
-                    causes.say(diagnostic);
-                }
-            }
-            if !is_main {
-                continue;
-            }
-            let name = input.name(Naming::AsGiven);
-            programs.push((name, causes.add(found.findings), found.unknown.is_empty()));
-            for (axis, moves) in found.uncompensated {
-                listing.feed_moves(axis, &moves);
-            }
-            listing.unknown(found.unknown);
-            listing.rests_on(found.rests_on);
-            for (severity, more) in &found.unsaid {
-                listing.count(*severity, baseline.unlisted(*severity, *more));
-            }
-        }
-        // Only now is it known which programs reach a message.
-        let results: Vec<ProgramResult> = causes
-            .diagnostics()
-            .iter()
-            .map(|said| list((listing, baseline), said))
-            .collect();
-        for (name, said, is_known) in programs {
-            let certain = if is_known {
-                ProgramResult::Clean
+    /// Returns the options of the checks.
+    fn options(&self) -> CheckOptions {
+        CheckOptions {
+            run: self.execution.check(),
+            wording: Some(command_line),
+            called: if self.all {
+                CalledPrograms::Alone
             } else {
-                ProgramResult::Depends
-            };
-            let results = said.iter().map(|at| results[*at]);
-            listing.program(&name, results.chain([certain]).min().unwrap_or(certain));
+                CalledPrograms::InCallers
+            },
+            workers: self.jobs.unwrap_or_else(processors),
+            disk: Disk::default(),
         }
-        mains.iter().filter(|is_main| !**is_main).count()
     }
+}
 
-    /// Returns the messages of each program alone, in the order of the programs.
-    fn checked<'a>(
-        &self,
-        jobs: Vec<ProgramOnMachine<'a>>,
-        failures: &mut Failures,
-    ) -> Vec<CheckedProgram<'a>> {
-        let workers = self.jobs.unwrap_or_else(processors);
-        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
-        let check =
-            |(input, loaded): ProgramOnMachine<'a>| -> Result<CheckedProgram<'a>, HostError> {
-                let loaded = loaded?;
-                let found = check_file(input, &loaded, &self.execution)?;
-                Ok(CheckedProgram {
-                    input,
-                    loaded,
-                    found,
-                })
-            };
-        let mut all = Vec::with_capacity(jobs.len());
-        in_order(jobs.into_iter(), workers, check, |checked| {
-            match checked {
-                Ok(checked) => all.push(checked),
-                Err(error) => failures.push(Failure::from(error)),
-            }
-            ControlFlow::Continue(())
-        });
-        all
-    }
-
-    /// Returns the programs that count on their own.
-    fn mains(&self, checked: &[CheckedProgram<'_>]) -> Vec<bool> {
-        if self.all {
-            return vec![true; checked.len()];
+/// Lists the messages of programs, in their order.
+fn list_all(checked: CheckedPrograms, listing: &mut Lister<'_>, baseline: &mut Baseline) {
+    for program in &checked.programs {
+        for (axis, axis_type, moves) in &program.uncompensated {
+            let moves = Uncompensated::of_program(*axis_type, *moves);
+            listing.feed_moves(axis.clone(), &moves);
         }
-        let executed = checked.iter().map(|it| ExecutedProgram {
-            input: it.input,
-            executed_to_end: it.found.executed_to_end.clone(),
-        });
-        main_programs(&executed.collect::<Vec<_>>(), &Disk::default())
+        let unknown = program.unknown.iter();
+        listing.unknown(unknown.map(|(axis, kind)| of_axis(axis, *kind)).collect());
+        for (severity, more) in &program.unsaid {
+            listing.count(*severity, baseline.unlisted(*severity, *more));
+        }
+    }
+    // Only now is it known which programs reach a message.
+    let said = checked.causes.diagnostics().iter();
+    let results: Vec<_> = said.map(|said| list((listing, baseline), said)).collect();
+    for program in checked.programs {
+        listing.rests_on(program.rests_on);
+        let certain = if program.unknown.is_empty() {
+            ProgramResult::Clean
+        } else {
+            ProgramResult::Depends
+        };
+        let results = program.said.iter().map(|at| results[*at]);
+        let result = results.chain([certain]).min().unwrap_or(certain);
+        listing.program(&program.name, result);
     }
 }
 
@@ -424,67 +355,4 @@ fn in_callers_remark(programs: usize) -> String {
             )
         }
     }
-}
-
-/// A program that was checked alone.
-struct CheckedProgram<'a> {
-    input: &'a Input,
-    loaded: Arc<LoadedMachine>,
-    found: ProgramMessages,
-}
-
-/// Messages of a program.
-struct ProgramMessages {
-    findings: Findings,
-    /// Number of further messages, by severity (R2.85).
-    unsaid: BTreeMap<Severity, u64>,
-    /// Its uncompensated feed moves, by axes.
-    uncompensated: Vec<(String, Uncompensated)>,
-    /// The states that are unknown at its end or where their axis moves.
-    unknown: BTreeSet<String>,
-    /// The readings on which its results depend.
-    rests_on: ReadingsInForce,
-    /// The files that it executed to their end.
-    executed_to_end: Vec<String>,
-}
-
-/// Runs one program from the start of the control.
-fn check_file(
-    input: &Input,
-    loaded: &LoadedMachine,
-    execution: &ExecutionArgs,
-) -> Result<ProgramMessages, HostError> {
-    let alone = SingleRun {
-        options: execution.check(loaded),
-        naming: Naming::AsGiven,
-        axes: Axes::AsTheyOccur,
-    };
-    let mut findings = Findings::default();
-    let mut uncompensated = Vec::new();
-    let mut rests_on = ReadingsInForce::default();
-    let mut sink = |record: &Record<'_>| {
-        if let Record::Summary(summary) = record {
-            rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
-            let axes = summary.uncompensated();
-            uncompensated.extend(axes.map(|axis| {
-                let of = summary.state.machine.axis(axis.axis);
-                let moves = Uncompensated::of_program(of.axis_type, axis.feed_moves);
-                (of.name.clone(), moves)
-            }));
-        }
-        findings.record(record)
-    };
-    let session = run_alone(input, loaded, alone, &mut sink)?;
-    let unsaid = findings.unsaid(session.counts());
-    let unknown = session.unknown();
-    let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
-    let returned = session.interpreter().returned_files();
-    Ok(ProgramMessages {
-        executed_to_end: returned.map(ToString::to_string).collect(),
-        findings,
-        unsaid,
-        uncompensated,
-        unknown,
-        rests_on,
-    })
 }

@@ -1,13 +1,9 @@
 //! `frictcomp commission`: from measuring programs to a proven list.
 
 mod channels;
-mod grounds;
 mod learn;
 mod plan;
-mod plants;
 mod run;
-mod run_args;
-mod sources;
 mod trend;
 
 use clap::Subcommand;
@@ -18,7 +14,7 @@ use crate::output::{Console, Failure};
 #[derive(Debug, Subcommand)]
 pub(crate) enum CommissionCommand {
     Plan(plan::PlanArgs),
-    Run(run_args::CommissionRunArgs),
+    Run(run::CommissionRunArgs),
     Learn(learn::LearnArgs),
     Trend(trend::TrendArgs),
 }

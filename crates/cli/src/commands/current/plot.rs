@@ -6,8 +6,8 @@ use frictcomp::lists::FrictionList;
 use frictcomp_host::OutputFile;
 use frictcomp_physics::current::{Reading, Standstill};
 use frictcomp_report::counted;
-use frictcomp_report::current::document;
 use frictcomp_report::pictures::{AxisPlot, CurrentPlot};
+use frictcomp_report::results::current::document;
 
 /// A picture that is drawn as the cycles arrive, and its output files.
 pub(super) struct Plot {

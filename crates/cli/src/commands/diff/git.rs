@@ -6,16 +6,18 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::{DiffArgs, contours, version_of};
-use crate::args::{ResultFormat, say_left_out, undescribed_remark};
-use crate::output::{Console, Failure, Failures, Outputs, Printed, difference, exit, shown};
+use crate::args::{say_left_out, undescribed_remark};
+use crate::output::{
+    Console, Failure, Failures, Outputs, Printed, ResultFormat, difference, exit, shown,
+};
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     ChangedPrograms, Disk, FileRegistry, Input, LoadedMachine, MachineOfVersions, MachineOwner,
     Machines, OpenText, Revision, find_programs, processors,
 };
 use frictcomp_physics::compare::{Agreement, ContourAgreement, Version, VersionComparison};
-use frictcomp_report::compare::{VersionsReport, document, render_json};
 use frictcomp_report::fitted;
+use frictcomp_report::results::compare::{VersionsReport, document, render_json};
 
 /// A program in both versions; it may be missing from one of them.
 struct ProgramVersions {

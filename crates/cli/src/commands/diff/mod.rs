@@ -9,10 +9,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::args::{
-    ExecutionArgs, FolderArgs, MachineArgs, ResultArgs, ResultFormat, SimulationArgs, Tolerance,
-    settings, undescribed_remark,
+    ExecutionArgs, FolderArgs, MachineArgs, SimulationArgs, Tolerance, settings, undescribed_remark,
 };
-use crate::output::{Console, Failure, HtmlArgs, Outputs, Printed, difference, exit, write_page};
+use crate::output::{
+    Console, Failure, HtmlArgs, Outputs, Printed, ResultArgs, ResultFormat, difference, exit,
+    write_page,
+};
 use frictcomp::comp::KindSet;
 use frictcomp::interpreter::StopPolicy;
 use frictcomp::text::shown_path;
@@ -24,7 +26,7 @@ use frictcomp_physics::compare::{
     Agreement, ContourAgreement, ContourComparison, Version, VersionComparison, VersionContour,
 };
 use frictcomp_physics::contour::BlockDeviations;
-use frictcomp_report::compare::{ContoursReport, VersionsReport, document, render_json};
+use frictcomp_report::results::compare::{ContoursReport, VersionsReport, document, render_json};
 
 /// Show what a change changes in the states, and in the contour
 ///

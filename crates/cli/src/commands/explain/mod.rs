@@ -8,8 +8,9 @@ use std::fmt::Write as _;
 use clap::Args;
 use serde_json::json;
 
-use crate::args::{ResultArgs, ResultFormat};
-use crate::output::{Console, Failure, Outputs, exit, page as titles, severities};
+use crate::output::{
+    Console, Failure, Outputs, ResultArgs, ResultFormat, exit, page as titles, severities,
+};
 use frictcomp::ControlError;
 use frictcomp::diagnostic::{Code, did_you_mean};
 use frictcomp::documents::PARAMETER_PAGES;

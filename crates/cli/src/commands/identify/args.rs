@@ -4,16 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::args::{
-    AxisChannelArgs, CncBuildArgs, CycleArgs, ResultArgs, TorqueArgs, named, quantities,
-};
-use crate::output::{Failure, HtmlArgs};
+use crate::args::{AxisChannelArgs, CncBuildArgs, CycleArgs, TorqueArgs, named, quantities};
+use crate::output::{Failure, HtmlArgs, ResultArgs};
 use frictcomp::text::shown_path;
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, TraceFinding, identify,
 };
-use frictcomp_report::identify::IdentifyReport;
-use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_report::results::identify::IdentifyReport;
 
 /// Find the friction of an axis in recordings, and its value list
 ///

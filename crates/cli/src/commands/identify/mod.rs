@@ -7,18 +7,17 @@ use std::path::Path;
 
 pub(crate) use args::{IdentifyArgs, refusal};
 
-use crate::args::{ResultFormat, named, refuse_alike};
-use crate::output::{Console, Failure, Outputs, exit, write_page, write_picture, write_text};
+use crate::args::{named, refuse_alike};
+use crate::output::{Console, Failure, Job, Outputs, exit, write_text};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, OutputFile, read_axis, refuse_copies};
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, ListRequest, ListRequestError, Measured, Track,
     identify_measured_circles,
 };
-use frictcomp_report::identify::{IdentifyReport, document, render_json};
-use frictcomp_report::of_axes;
-use frictcomp_report::on_circles::{self, OnCirclesReport};
-use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_report::results::identify::on_circles::{self, OnCirclesReport};
+use frictcomp_report::results::identify::{IdentifyReport, document, render_json};
 
 /// Runs the command.
 pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
@@ -30,21 +29,16 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     args.recordings
         .iter()
         .for_each(|path| registry.reads("recording", path));
-    let mut outputs = Outputs::new(&registry, console);
-    let mut target = outputs.result(args.result.output.as_deref())?;
-    let lists = lists(args, &mut outputs)?;
-    let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
-    outputs.check()?;
+    let mut job = Job::new(&args.result, &registry, console)?;
+    let lists = lists(args, &mut job.outputs)?;
+    let job = job
+        .with_picture(args.svg.as_deref())?
+        .with_page(&args.html)?;
+    job.outputs.check()?;
     if args.circles {
         let report = circles(args, lists, &registry)?;
         let document = on_circles::document(&report);
-        write_page(html, &document)?;
-        target.text(&match args.result.format {
-            ResultFormat::Text => document.text(console.detail, target.look.width),
-            ResultFormat::Json => on_circles::render_json(&report),
-        })?;
-        outputs.finish()?;
+        job.finish(&document, || on_circles::render_json(&report))?;
         return Ok(exit::CLEAN);
     }
     let reports = at_speeds(args, &options, &registry)?;
@@ -52,18 +46,7 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         write_text(&mut list, &args.list_of(report, &[]))?;
     }
     let documents: Vec<_> = reports.iter().map(document).collect();
-    if let [document] = &documents[..] {
-        write_picture(svg, document)?;
-        write_page(html, document)?;
-    }
-    let texts = documents
-        .iter()
-        .map(|it| it.text(console.detail, target.look.width));
-    target.text(&match args.result.format {
-        ResultFormat::Text => of_axes(texts),
-        ResultFormat::Json => render_json(&reports),
-    })?;
-    outputs.finish()?;
+    job.finish_all(&documents, || render_json(&reports))?;
     Ok(exit::CLEAN)
 }
 
@@ -86,9 +69,8 @@ fn lists(args: &IdentifyArgs, outputs: &mut Outputs) -> Result<Vec<OutputFile>, 
     let Some(folder) = &args.into else {
         return Ok(Vec::new());
     };
-    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
     let axes = args.channels.axes().into_iter();
-    axes.map(|axis| outputs.list("--into", &folder.join(format!("{axis}.lis"))))
+    axes.map(|axis| outputs.list_in_folder("--into", &folder.join(format!("{axis}.lis"))))
         .collect()
 }
 

@@ -3,12 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::args::IdentifyArgs;
-use crate::args::ResultFormat;
-use crate::output::{Console, Failure, Outputs, exit, write_page, write_picture, write_text};
+use crate::output::{Console, Failure, Job, exit, write_text};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis, refuse_copies};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
-use frictcomp_report::states::{StatesReport, document, render_json};
+use frictcomp_report::results::identify::states::{StatesReport, document, render_json};
 use frictcomp_report::visible_line;
 
 /// The state for which the list is made, unless another one is named.
@@ -29,15 +28,15 @@ pub(super) fn run(
     for (_, path) in &recordings {
         registry.reads("recording", path);
     }
-    let mut outputs = Outputs::new(&registry, console);
-    let mut target = outputs.result(args.result.output.as_deref())?;
+    let mut job = Job::new(&args.result, &registry, console)?;
     let list = args.write_list.as_deref();
     let list = list
-        .map(|path| outputs.list("--write-list", path))
+        .map(|path| job.outputs.list("--write-list", path))
         .transpose()?;
-    let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
-    outputs.check()?;
+    let job = job
+        .with_picture(args.svg.as_deref())?
+        .with_page(&args.html)?;
+    job.outputs.check()?;
     let paths: Vec<PathBuf> = recordings.iter().map(|it| it.1.clone()).collect();
     refuse_copies(&paths)?;
     let cycle = args.cycle.seconds()?;
@@ -64,13 +63,7 @@ pub(super) fn run(
         write_text(&mut list, &args.list_of(state, &[report.spread()]))?;
     }
     let document = document(&report);
-    write_picture(svg, &document)?;
-    write_page(html, &document)?;
-    target.text(&match args.result.format {
-        ResultFormat::Text => document.text(console.detail, target.look.width),
-        ResultFormat::Json => render_json(&report),
-    })?;
-    outputs.finish()?;
+    job.finish(&document, || render_json(&report))?;
     Ok(exit::CLEAN)
 }
 

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use crate::args::{FolderArgs, MachineArgs, ResultArgs, say_left_out};
-use crate::output::{Console, Failure, Failures, Outputs, Printed, exit, parts};
+use crate::args::{FolderArgs, MachineArgs, say_left_out};
+use crate::output::{Console, Failure, Failures, Outputs, Printed, ResultArgs, exit, parts};
 use frictcomp::interpreter::NoProgram;
 use frictcomp_host::{
     CallGraph, FileRegistry, GraphProgram, MissingCall, find_programs, processors,

@@ -6,8 +6,10 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::args::{FolderArgs, MachineArgs, ResultArgs, ResultFormat, passed_over};
-use crate::output::{Console, Failure, Failures, Outputs, Printed, exit, shown};
+use crate::args::{FolderArgs, MachineArgs, passed_over};
+use crate::output::{
+    Console, Failure, Failures, Outputs, Printed, ResultArgs, ResultFormat, exit, shown,
+};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{FileRegistry, FoundPrograms, Input, LeftOutFile, Naming, find_programs};

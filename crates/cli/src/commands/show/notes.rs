@@ -7,15 +7,15 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::args::{ExecutionArgs, FolderArgs, MachineArgs, RecordsFormat, ResultArgs};
-use crate::output::{Console, Failure, Failures, Outputs, exit};
+use crate::args::{ExecutionArgs, FolderArgs, MachineArgs};
+use crate::output::{Console, Failure, Failures, Outputs, RecordsFormat, ResultArgs, exit};
 use frictcomp::interpreter::{NoteKind, Notes};
 use frictcomp::session::Findings;
 use frictcomp::text::{Position, shown_json};
 use frictcomp_host::{
     Axes, FileRegistry, Input, LoadedMachine, Naming, SingleRun, find_programs, run_alone,
 };
-use frictcomp_report::{Headline, Standing, counted, leading};
+use frictcomp_report::{Headline, Standing, command_line, counted, leading};
 
 /// Programs whose notes are shown.
 #[derive(Debug, Args)]
@@ -137,10 +137,10 @@ impl NotesArgs {
         (input, loaded): (&Input, &LoadedMachine),
         notes: &mut BTreeSet<NotedName>,
     ) -> Result<(), Failure> {
-        let mut options = self.execution.check(loaded);
-        options.run.notes = Notes::Taken;
+        let mut run = self.execution.check();
+        run.notes = Notes::Taken;
         let alone = SingleRun {
-            options,
+            options: loaded.session(run).with_wording(Some(command_line)),
             naming: Naming::AsGiven,
             axes: Axes::AsTheyOccur,
         };

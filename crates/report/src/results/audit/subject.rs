@@ -1,10 +1,13 @@
 //! The subject of the report: archives by machine, and the words for effects of programs.
 
+use std::path::Path;
+
 use crate::document::{Headline, Standing};
 use crate::wording::counted;
 use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
 use frictcomp::comp::Kind;
 use frictcomp::machine::Machine;
+use frictcomp::text::shown_path;
 use frictcomp::timeline::ReadingsInForce;
 
 /// Archives by machine, with what was found in each.
@@ -32,9 +35,26 @@ pub struct MachineAudit {
     pub assumption: Option<String>,
 }
 
+impl AuditReport {
+    /// Creates the report on the archive of each machine, with the file that describes it.
+    pub fn new<'a>(
+        machines: impl Iterator<Item = (Option<&'a Path>, &'a Machine)>,
+        archives: Vec<Archive>,
+        not_checked: Option<String>,
+    ) -> Self {
+        let machines = machines.zip(archives).map(|((origin, machine), archive)| {
+            MachineAudit::new(origin.map(shown_path), machine, archive)
+        });
+        Self {
+            machines: machines.collect(),
+            not_checked,
+        }
+    }
+}
+
 impl MachineAudit {
     /// Finds the effects of the programs of a machine together.
-    pub fn new(origin: Option<String>, machine: &Machine, archive: Archive) -> Self {
+    fn new(origin: Option<String>, machine: &Machine, archive: Archive) -> Self {
         let archive = archive.without_unswitched();
         Self {
             findings: archive.findings(),

@@ -1,8 +1,9 @@
 //! The radial deviations as CSV.
 
+use crate::wording::rounded;
 use std::fmt::Write as _;
 
-use super::subject::{CircleReport, round};
+use super::subject::CircleReport;
 use frictcomp_physics::circle::UM_PER_M;
 
 /// Rows of the CSV per turn: one every 0.1°.
@@ -21,7 +22,7 @@ pub fn render_csv(report: &CircleReport) -> String {
             {
                 #[allow(clippy::cast_precision_loss)] // at most 3600
                 let angle = row as f64 / 10.0;
-                let deviation = round(deviation * UM_PER_M);
+                let deviation = rounded(deviation * UM_PER_M);
                 let _ = writeln!(out, "{},{direction},{angle},{deviation}", side.name);
             }
         }

@@ -1,11 +1,12 @@
 //! The circular test as a document.
 
 use super::picture::{picture, title};
-use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
+use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT};
 use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::document::{Document, Table};
 use crate::pictures::value_curve;
 use crate::results::stiction::guideline;
+use crate::wording::rounded;
 use frictcomp::diagnostic::{ReadableNumber, Rounded};
 use frictcomp::lists::{AxisType, FrictionList};
 use frictcomp::machine::AcceptedList;
@@ -210,7 +211,7 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String>
             "plant {}, friction {}, CNC cycle {} ms, {}",
             test.plant.name,
             test.model,
-            round(1000.0 * circle.cycle_time_s),
+            rounded(1000.0 * circle.cycle_time_s),
             unit_force(test)
         ),
     ];
@@ -293,14 +294,14 @@ pub(crate) fn stiction_line(stiction: &StictionParameters) -> String {
         "MP1511 {} µs, MP1512 {} (Δs_a at most {} µm), GP {} µm, t_C {} µs{feed}",
         ReadableNumber(stiction.mp1511_us),
         ReadableNumber(stiction.mp1512),
-        ReadableNumber(round(stiction.limit_um())),
+        ReadableNumber(rounded(stiction.limit_um())),
         ReadableNumber(stiction.gp_um),
         ReadableNumber(stiction.tc_us)
     )
 }
 
 fn unit_force(test: &CircularTest) -> String {
-    let [x, y] = [&test.plant.x, &test.plant.y].map(|drive| round(drive.force_per_unit_n));
+    let [x, y] = [&test.plant.x, &test.plant.y].map(|drive| rounded(drive.force_per_unit_n));
     #[allow(clippy::float_cmp)] // the same text
     if x == y {
         format!("{x} N a drive unit")

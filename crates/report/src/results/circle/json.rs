@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast, round};
+use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast};
 use crate::assumptions::not_modelled;
 use crate::document::Headline;
-use crate::wording::to_pretty;
+use crate::wording::{rounded, to_pretty};
 use frictcomp_physics::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, Glitch, Method, PathCentre, PathFigures,
     Recording, WorseTurn,
@@ -142,8 +142,8 @@ struct Ellipse {
 impl AxisRecord {
     fn of(shape: &AxisShape) -> Self {
         Self {
-            step: round(shape.step_um),
-            peak: round(shape.peak_um),
+            step: rounded(shape.step_um),
+            peak: rounded(shape.peak_um),
             is_settled: shape.is_settled,
         }
     }
@@ -169,24 +169,24 @@ impl PathRecord {
         let shape = figures.shape.as_ref();
         let glitches = shape.map(|shape| &shape.glitches);
         Self {
-            g_mz: round(figures.g_mz_um),
-            g_lsc: round(figures.g_lsc_um),
-            f_max: figures.f_max_um.map(round),
-            f_min: figures.f_min_um.map(round),
-            d: figures.d_um.map(round),
-            glitch: ByCrossing::of(glitches, |glitch| round(glitch.height_um)),
+            g_mz: rounded(figures.g_mz_um),
+            g_lsc: rounded(figures.g_lsc_um),
+            f_max: figures.f_max_um.map(rounded),
+            f_min: figures.f_min_um.map(rounded),
+            d: figures.d_um.map(rounded),
+            glitch: ByCrossing::of(glitches, |glitch| rounded(glitch.height_um)),
             shape: ByCrossing::of(glitches, |glitch| Bulges {
-                outward: round(glitch.outward_um),
-                inward: round(glitch.inward_um),
+                outward: rounded(glitch.outward_um),
+                inward: rounded(glitch.inward_um),
             }),
-            glitch_window_deg: shape.map(|shape| round(shape.window_deg)),
+            glitch_window_deg: shape.map(|shape| rounded(shape.window_deg)),
             axes: ByAxis {
                 x: shape.map(|shape| AxisRecord::of(&shape.axes[0])),
                 y: shape.map(|shape| AxisRecord::of(&shape.axes[1])),
             },
             ellipse: shape.map(|shape| Ellipse {
-                along_axes: round(shape.ellipse_um[0]),
-                at_45_deg: round(shape.ellipse_um[1]),
+                along_axes: rounded(shape.ellipse_um[0]),
+                at_45_deg: rounded(shape.ellipse_um[1]),
             }),
         }
     }
@@ -195,20 +195,20 @@ impl PathRecord {
 impl SideRecord {
     fn of(side: &NamedSide) -> Self {
         let figures = &side.side.figures;
-        let rounded = |advice: &Diagnosis| Diagnosis {
-            size_um: round(advice.size_um),
+        let diagnosis = |advice: &Diagnosis| Diagnosis {
+            size_um: rounded(advice.size_um),
             ..*advice
         };
         Self {
             ccw: figures.ccw.as_ref().map(PathRecord::of),
             cw: figures.cw.as_ref().map(PathRecord::of),
             centre: figures.centre,
-            centre_distance: figures.centre_distance_um.map(round),
-            g_b: figures.g_b_um.map(round),
-            h: figures.h_um.map(round),
-            d: figures.d_um.map(round),
-            glitch_max: figures.glitch_max_um().map(round),
-            advice: side.advice.iter().map(rounded).collect(),
+            centre_distance: figures.centre_distance_um.map(rounded),
+            g_b: figures.g_b_um.map(rounded),
+            h: figures.h_um.map(rounded),
+            d: figures.d_um.map(rounded),
+            glitch_max: figures.glitch_max_um().map(rounded),
+            advice: side.advice.iter().map(diagnosis).collect(),
         }
     }
 }
@@ -251,7 +251,7 @@ pub fn render_json(report: &CircleReport) -> String {
         Subject::Recorded(recording) => ConditionsRecord {
             source: "recorded",
             diameter_mm: recording.commanded.radius_mm.map(|radius| 2.0 * radius),
-            feed_mm_min: report.driven().1.map(round),
+            feed_mm_min: report.driven().1.map(rounded),
             cycle_time_s: None,
             plant: None,
             model: None,

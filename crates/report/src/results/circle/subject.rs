@@ -196,9 +196,3 @@ pub(super) struct TooFast {
     /// Or a radius of at least this.
     pub(super) radius_mm: Option<f64>,
 }
-
-/// Rounds a number of µm for JSON and CSV.
-pub(super) fn round(value: f64) -> f64 {
-    // No negative zero.
-    (value * 1e6).round() / 1e6 + 0.0
-}

@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 use super::picture::friction_of_axis;
-use super::plants::PlantVerdict;
-use super::results::{AxisVerdict, ResultsReport};
+use super::plants::lacking;
 use crate::document::{Document, Table};
 use crate::wording::visible_line;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::commission::{
-    CirclesFound, FrictionFound, MeasuredAxis, RecordingOutcome, TunedList,
+    AxisVerdict, CirclesFound, FrictionFound, MeasuredAxis, PlantVerdict, RecordingOutcome,
+    ResultsReport, TunedList,
 };
 
 /// Contents of the report beyond the results.
@@ -142,7 +142,7 @@ fn push_grounds(out: &mut Document<'_>, report: &ResultsReport, given: &Acceptan
         "  That the lists of stage 2 were loaded is what the operator confirmed; no recording shows it.",
         "  The positions of the circles are those of the recorded channels: motor or load, as the operator noted.",
     ]);
-    let lacking = report.fitted.lacking.iter();
+    let lacking = lacking(&report.fitted).into_iter();
     out.lines(lacking.map(|reason| format!("  No plant was fitted: {}.", visible_line(reason))));
     out.push_str("  Feeds, loads and temperatures that were not recorded are not judged.\n");
     let said = report.said.iter();

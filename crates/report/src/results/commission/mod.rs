@@ -10,11 +10,7 @@ mod summary;
 mod words;
 
 pub use acceptance::Acceptance;
-pub use plants::{PlantVerdict, Plants};
 pub use program::render_program;
 pub use readme::render_readme;
-pub use results::{
-    AxisVerdict, InputFile, Results, ResultsReport, Round, document, glitch_unit,
-    render_results_json,
-};
-pub use summary::{PlanReport, render_file, render_json, render_text};
+pub use results::{document, render_results_json};
+pub use summary::{render_json, render_text};

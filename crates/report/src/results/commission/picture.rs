@@ -1,8 +1,7 @@
 //! The friction of a commissioned axis, and its circles before and after.
 
-use super::Round;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
-use frictcomp_recordings::commission::{BeforeAfter, FrictionFound, Shows};
+use frictcomp_recordings::commission::{BeforeAfter, FrictionFound, Round, Shows};
 
 /// Friction over speed with bars of one standard error, and the points of the list.
 pub(super) fn friction_of_axis(found: &FrictionFound) -> LineChart {

@@ -4,38 +4,39 @@ use std::fmt::Write as _;
 
 use frictcomp::diagnostic::Rounded;
 use frictcomp_physics::circle::Extent;
-use frictcomp_recordings::commission::{ComparedGlitch, PlantAxis, PlantFound, TunedList};
+use frictcomp_recordings::commission::{
+    ComparedGlitch, PlantAxis, PlantFound, PlantVerdict, Plants,
+};
 use serde::Serialize;
 
-use crate::assumptions::not_modelled_line;
+use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::document::{Document, Table};
 use crate::wording::visible_line;
 
-/// The plants of all rounds.
-#[derive(Debug, Clone, Default)]
-#[non_exhaustive]
-pub struct Plants {
-    /// A plant for each round whose circles are recorded.
-    pub verdicts: Vec<PlantVerdict>,
-    /// Reasons why none is fitted to all recordings.
-    pub lacking: Vec<String>,
+/// A plant as JSON.
+#[derive(Serialize)]
+pub(super) struct PlantRecord<'a> {
+    #[serde(flatten)]
+    verdict: &'a PlantVerdict,
+    not_modelled: Vec<&'static str>,
 }
 
-/// A plant, and what the recordings say about it.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct PlantVerdict {
-    /// The plant.
-    #[serde(flatten)]
-    pub found: PlantFound,
-    /// Recorded glitches with their predictions.
-    pub compared: Vec<ComparedGlitch>,
-    /// Recorded glitches that are worse than predicted: it is rejected, and so are the lists that were tuned on it.
-    pub rejected: Vec<String>,
-    /// Recorded glitches that are better than predicted: nothing is predicted with it any more (R16.16).
-    pub retired: Vec<String>,
-    /// What its simulation leaves out.
-    pub not_modelled: Vec<&'static str>,
+impl<'a> PlantRecord<'a> {
+    pub(super) fn of(verdict: &'a PlantVerdict) -> Self {
+        Self {
+            verdict,
+            not_modelled: not_modelled([&verdict.base.x, &verdict.base.y]),
+        }
+    }
+}
+
+/// Returns the reasons why no plant is fitted to all recordings.
+pub(super) fn lacking(plants: &Plants) -> Vec<&str> {
+    if plants.is_wanted {
+        plants.lacking.iter().map(String::as_str).collect()
+    } else {
+        vec!["`--plant` does not say what is known of the machine"]
+    }
 }
 
 /// A fitted parameter in words.
@@ -46,52 +47,6 @@ struct FittedParameter {
     value: String,
     /// The 95 % range.
     range: String,
-}
-
-impl Plants {
-    /// Creates the result if no plant was requested.
-    pub fn not_wanted() -> Self {
-        let reason = "`--plant` does not say what is known of the machine";
-        Self {
-            verdicts: Vec::new(),
-            lacking: vec![reason.to_owned()],
-        }
-    }
-
-    /// The plants themselves.
-    pub fn found(&self) -> impl Iterator<Item = &PlantFound> {
-        self.verdicts.iter().map(|it| &it.found)
-    }
-
-    /// Whether the recordings reject the last plant.
-    pub fn is_rejected(&self) -> bool {
-        let last = self.verdicts.last();
-        last.is_some_and(|it| !it.rejected.is_empty())
-    }
-
-    /// Reasons against lists that were tuned on the plant with a key.
-    pub fn against(&self, key: &str) -> Vec<String> {
-        let Some(plant) = self.verdicts.iter().find(|it| it.found.key == key) else {
-            let reason = "the plant on which they were tuned is not fitted now, so that its predictions are not compared";
-            return vec![reason.to_owned()];
-        };
-        let missed = plant.rejected.iter();
-        missed
-            .map(|it| format!("the plant on which they were tuned is rejected: {it}"))
-            .collect()
-    }
-}
-
-impl PlantVerdict {
-    /// Whether recordings miss none of its predictions.
-    pub fn holds(&self) -> bool {
-        self.rejected.is_empty() && self.retired.is_empty()
-    }
-
-    /// The tuned lists, unless the plant is rejected or retired.
-    pub fn lists(&self) -> &[TunedList] {
-        if self.holds() { &self.found.lists } else { &[] }
-    }
 }
 
 /// The fitted parameters of an axis.
@@ -134,14 +89,17 @@ fn parameters(axis: &PlantAxis) -> [FittedParameter; 6] {
 
 /// Appends the last plant, and the lists that were tuned on it.
 pub(super) fn push_plants(out: &mut Document<'_>, plants: &Plants) {
-    let lacking = plants.lacking.iter();
+    let lacking = lacking(plants).into_iter();
     out.lines(lacking.map(|reason| format!("\nno plant is fitted: {}", visible_line(reason))));
     let Some(verdict) = plants.verdicts.last() else {
         return;
     };
     out.section("Plant");
     push_plant(out, verdict);
-    out.lines([not_modelled_line(&verdict.not_modelled)]);
+    out.lines([not_modelled_line(&not_modelled([
+        &verdict.base.x,
+        &verdict.base.y,
+    ]))]);
     for (title, reasons) in [
         (
             "the plant is rejected, and the earlier lists stay:",

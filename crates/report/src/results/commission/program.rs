@@ -2,10 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::summary::PlanReport;
 use super::words::{number, told};
 use frictcomp_recordings::commission::{
-    Installed, MeasuredAxis, MeasuringProgram, PlanStep, Stage, Turning,
+    Installed, MeasuredAxis, MeasuringProgram, PlanReport, PlanStep, Stage, Turning,
 };
 
 /// A program of a plan, with `\n` at the end of each line and ASCII letters only.

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::summary::{PlanReport, minutes};
+use super::summary::minutes;
 use super::words::told;
 use frictcomp::lists::AxisType;
-use frictcomp_recordings::commission::{Installed, Stage};
+use frictcomp_recordings::commission::{Installed, PlanReport, Stage};
 
 /// One page in ASCII letters, at most 78 columns wide: the programs, and how to run and record them.
 pub fn render_readme(report: &PlanReport) -> String {

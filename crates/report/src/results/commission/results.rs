@@ -2,227 +2,83 @@
 
 use std::fmt::Write as _;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::acceptance::{Acceptance, push_acceptance};
 use super::picture::glitches_by_feed;
-use super::plants::{PlantVerdict, Plants, push_plants};
+use super::plants::{PlantRecord, lacking, push_plants};
 use super::words::{number, told};
 use crate::document::{Document, Headline, Standing, Table};
 use crate::wording::{counted, to_pretty, visible_line};
-use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{
-    BeforeAfter, FrictionFound, Plan, PlanFile, PlantFound, RecordingOutcome, RecordingResult,
-    Shows, Stage, ValueListUsed,
+    AxisVerdict, InputFile, RecordingOutcome, RecordingResult, Results, ResultsReport, Round,
+    Shows, ValueListUsed,
 };
 
-/// The content of `results.json`.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub struct Results {
-    /// The version of the format of this file.
-    pub schema: u32,
-    /// A result for each recording.
-    pub recordings: Vec<RecordingResult>,
-    /// The fitted plants.
-    pub plants: Vec<PlantFound>,
-}
-
-impl Results {
-    /// The version that is written.
-    pub const SCHEMA: u32 = 5;
-}
-
-/// The list of an axis, or the reasons why it has none.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct AxisVerdict {
-    /// Name of the axis.
-    pub axis: String,
-    /// The file of the provisional list, as it is shown.
-    pub list: Option<String>,
-    /// The recording that it rests on.
-    pub from: Option<String>,
-    /// Reasons against a list, and remarks on it.
-    pub notes: Vec<String>,
-}
-
-/// A file on which the results rest, other than a recording.
-#[derive(Debug, Clone, Serialize)]
-pub struct InputFile {
-    /// Its role: a plan, a plant, the list of an axis.
-    pub what: String,
-    /// The file, as it is shown.
-    pub file: String,
-    /// The SHA-256 of its bytes.
-    pub sha256: String,
-}
-
-/// All that is known of a commissioning.
-#[derive(Debug, Clone)]
-pub struct ResultsReport {
-    /// The plans of both stages, if they exist.
-    pub plans: Vec<PlanFile>,
-    /// A result for each recording.
-    pub results: Vec<RecordingResult>,
-    /// The number of results that were kept from an earlier run.
-    pub kept: usize,
-    /// The files that were read in addition to the recordings.
-    pub inputs: Vec<InputFile>,
-    /// Statements of the user on which the results rest.
-    pub said: Vec<String>,
-    /// The lists.
-    pub axes: Vec<AxisVerdict>,
-    /// The plants that were fitted to the circles.
-    pub fitted: Plants,
-    /// The rounds of stage 2, first to last.
-    pub rounds: Vec<Round>,
-}
-
-/// A set of lists that was recorded in stage 2.
-#[derive(Debug, Clone, Serialize)]
-pub struct Round {
-    /// The number of the round and of its plan, from 2 on.
-    pub number: usize,
-    /// The lists.
-    pub lists: Vec<ValueListUsed>,
-    /// Where friction shows.
-    pub shows: Shows,
-    /// The unit of the glitches.
-    pub unit: &'static str,
-    /// The feeds with compensation off and with these lists on.
-    pub recorded: Vec<BeforeAfter>,
-    /// Reasons why the lists are not accepted; `None` before a feed is recorded off and on.
-    pub against: Option<Vec<String>>,
-    /// What nothing shows, so that the lists are not accepted either (R16.13).
-    pub not_shown: Vec<String>,
-}
-
-/// The unit of the glitches of a plan.
-pub fn glitch_unit(plan: &Plan) -> &'static str {
-    match plan.axes.first() {
-        Some(axis) if axis.axis_type != AxisType::Linear => "0.001°",
-        _ => "µm",
-    }
-}
-
-impl Round {
-    /// Whether there are no reasons against the lists, and everything that they rest on is shown.
-    pub fn is_accepted(&self) -> bool {
-        self.not_shown.is_empty() && self.against.as_ref().is_some_and(Vec::is_empty)
-    }
-
-    /// What an acceptance does not cover.
-    pub(crate) fn limit(&self) -> &'static str {
-        match self.shows {
-            Shows::FollowingError => ", and no contour",
-            Shows::Contour => "",
-        }
-    }
-
-    /// The figure that is compared.
-    pub(crate) fn figure(&self) -> &'static str {
-        match self.shows {
-            Shows::FollowingError => "following error after reversals; motor side, not contour",
-            Shows::Contour => "glitch, a mean over 8 ms without noise, the largest of all turns",
-        }
-    }
-}
-
-impl Round {
-    /// The verdict on lists that are not accepted: something speaks against them, or only proof is missing.
-    pub(crate) fn refusal(&self) -> &'static str {
-        match self.against.as_deref() {
-            Some([]) => "not proven",
-            _ => "not accepted",
-        }
-    }
-}
-
-impl ResultsReport {
-    /// The verdict: whether the lists of the last round are accepted, and what speaks against them (R18.20).
-    pub fn headline(&self) -> Headline {
-        let missing = match self.missing().len() {
-            0 => String::new(),
-            1 => "; 1 program has no usable recording".to_owned(),
-            more => format!("; {more} programs have no usable recording"),
-        };
-        let plant = self.fitted.verdicts.last();
-        let rejected = plant.and_then(|plant| plant.rejected.first());
-        let (standing, text) = match self.rounds.last().map(|it| (it, it.against.as_deref())) {
-            None | Some((_, None)) => (
-                Standing::Open,
-                "no list is accepted yet: the motion with compensation on is not recorded"
-                    .to_owned(),
+/// The verdict: whether the lists of the last round are accepted, and what speaks against them (R18.20).
+fn headline(report: &ResultsReport) -> Headline {
+    let missing = match report.missing().len() {
+        0 => String::new(),
+        1 => "; 1 program has no usable recording".to_owned(),
+        more => format!("; {more} programs have no usable recording"),
+    };
+    let plant = report.fitted.verdicts.last();
+    let rejected = plant.and_then(|plant| plant.rejected.first());
+    let (standing, text) = match report.rounds.last().map(|it| (it, it.against.as_deref())) {
+        None | Some((_, None)) => (
+            Standing::Open,
+            "no list is accepted yet: the motion with compensation on is not recorded".to_owned(),
+        ),
+        Some((round, Some(_))) if round.is_accepted() => (
+            if report.is_complete() {
+                Standing::Good
+            } else {
+                Standing::Open
+            },
+            format!(
+                "the lists of round {} are accepted: at each of the {} recorded feeds they leave no more than \
+                 there was without them{}",
+                round.number,
+                round.recorded.len(),
+                limit(round)
             ),
-            Some((round, Some(_))) if round.is_accepted() => (
-                if self.is_complete() {
-                    Standing::Good
-                } else {
-                    Standing::Open
-                },
-                format!(
-                    "the lists of round {} are accepted: at each of the {} recorded feeds they leave no more than \
-                     there was without them{}",
-                    round.number,
-                    round.recorded.len(),
-                    round.limit()
-                ),
-            ),
-            Some((round, Some(against))) => {
-                let reason = against.iter().chain(&round.not_shown).next();
-                let reason = reason.map_or(String::new(), |it| format!(": {it}"));
-                let text = format!(
-                    "the lists of round {} are {}, the earlier ones stay{reason}",
-                    round.number,
-                    round.refusal()
-                );
-                (Standing::Bad, text)
-            }
-        };
-        let rejected =
-            rejected.map_or(String::new(), |it| format!("; the plant is rejected: {it}"));
-        Headline::new(standing, format!("{text}{rejected}{missing}"))
-    }
+        ),
+        Some((round, Some(against))) => {
+            let reason = against.iter().chain(&round.not_shown).next();
+            let reason = reason.map_or(String::new(), |it| format!(": {it}"));
+            let text = format!(
+                "the lists of round {} are {}, the earlier ones stay{reason}",
+                round.number,
+                refusal(round)
+            );
+            (Standing::Bad, text)
+        }
+    };
+    let rejected = rejected.map_or(String::new(), |it| format!("; the plant is rejected: {it}"));
+    Headline::new(standing, format!("{text}{rejected}{missing}"))
+}
 
-    /// The programs of stage 1 and of the last round that have no usable recording.
-    pub fn missing(&self) -> Vec<String> {
-        let last = self.plans.len().saturating_sub(1);
-        let plans = self.plans.iter().enumerate();
-        let counted = plans.filter(|(at, it)| *at == last || it.plan.stage == Stage::Off);
-        let programs = counted.flat_map(|(_, it)| it.plan.programs.iter());
-        let lacks = |number: u16| {
-            !self
-                .results
-                .iter()
-                .any(|it| it.program == Some(number) && it.found.is_used())
-        };
-        let missing = programs.filter(|it| lacks(it.number));
-        missing.map(|it| it.file.clone()).collect()
+/// What an acceptance does not cover.
+fn limit(round: &Round) -> &'static str {
+    match round.shows {
+        Shows::FollowingError => ", and no contour",
+        Shows::Contour => "",
     }
+}
 
-    /// Returns what is on in the program with a number: nothing, or the lists of a round.
-    pub fn compensation_of(&self, number: u16) -> String {
-        let rounds = self.plans.iter().filter(|it| it.plan.stage == Stage::On);
-        let round = (2..).zip(rounds).find(|(_, plan)| plan.has(number));
-        round.map_or("off".to_owned(), |(round, _)| format!("on, round {round}"))
+/// The figure that is compared.
+fn figure(round: &Round) -> &'static str {
+    match round.shows {
+        Shows::FollowingError => "following error after reversals; motor side, not contour",
+        Shows::Contour => "glitch, a mean over 8 ms without noise, the largest of all turns",
     }
+}
 
-    /// Whether every program is recorded, every axis has a list, the lists of the last round are accepted, and no
-    /// recording rejects the plant.
-    pub fn is_complete(&self) -> bool {
-        self.missing().is_empty()
-            && !self.fitted.is_rejected()
-            && self.axes.iter().all(|it| it.list.is_some())
-            && self.rounds.last().is_some_and(Round::is_accepted)
-    }
-
-    /// The friction from which the list of an axis is made.
-    pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
-        let from = axis.from.as_ref()?;
-        self.results.iter().find_map(|it| match &it.found {
-            RecordingOutcome::Friction(found) if it.file == *from => Some(found),
-            _ => None,
-        })
+/// The verdict on lists that are not accepted: something speaks against them, or only proof is missing.
+fn refusal(round: &Round) -> &'static str {
+    match round.against.as_deref() {
+        Some([]) => "not proven",
+        _ => "not accepted",
     }
 }
 
@@ -234,7 +90,7 @@ pub fn document<'a>(report: &'a ResultsReport, given: &'a Acceptance) -> Documen
         "Friction compensation of {}",
         machine.unwrap_or("a machine without a name")
     );
-    let mut out = Document::new(title, report.headline());
+    let mut out = Document::new(title, headline(report));
     let _ = writeln!(
         out,
         "\n{}, {} of them known from an earlier run\n",
@@ -351,7 +207,7 @@ fn push_round<'a>(out: &mut Document<'a>, round: &'a Round) {
         out,
         "\nround {}: recorded {}, in {}",
         round.number,
-        round.figure(),
+        figure(round),
         round.unit,
     );
     out.table(table);
@@ -367,10 +223,10 @@ fn push_round<'a>(out: &mut Document<'a>, round: &'a Round) {
              it, nor than with the lists that were accepted before, beyond the errors. Other feeds were not recorded{}",
             visible_line(&lists.join(", ")),
             round.recorded.len(),
-            round.limit()
+            limit(round)
         );
     } else {
-        let _ = writeln!(out, "\n{}, the earlier lists stay:", round.refusal());
+        let _ = writeln!(out, "\n{}, the earlier lists stay:", refusal(round));
         let reasons = against.iter().chain(&round.not_shown);
         out.lines(reasons.map(|reason| format!("  {}", visible_line(reason))));
     }
@@ -386,8 +242,8 @@ struct ResultsDocument<'a> {
     said: &'a [String],
     missing: Vec<String>,
     axes: &'a [AxisVerdict],
-    plants: &'a [PlantVerdict],
-    no_plant: &'a [String],
+    plants: Vec<PlantRecord<'a>>,
+    no_plant: Vec<&'a str>,
     rounds: &'a [Round],
 }
 
@@ -395,15 +251,15 @@ struct ResultsDocument<'a> {
 pub fn render_results_json(report: &ResultsReport) -> String {
     to_pretty(&ResultsDocument {
         schema: Results::SCHEMA,
-        headline: report.headline(),
+        headline: headline(report),
         complete: report.is_complete(),
         recordings: &report.results,
         inputs: &report.inputs,
         said: &report.said,
         missing: report.missing(),
         axes: &report.axes,
-        plants: &report.fitted.verdicts,
-        no_plant: &report.fitted.lacking,
+        plants: report.fitted.verdicts.iter().map(PlantRecord::of).collect(),
+        no_plant: lacking(&report.fitted),
         rounds: &report.rounds,
     })
 }

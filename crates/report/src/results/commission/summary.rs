@@ -7,42 +7,18 @@ use serde::Serialize;
 use super::words::{number, told};
 use crate::document::{Headline, Standing, Table};
 use crate::wording::{counted, to_pretty, visible_line};
-use frictcomp_recordings::commission::{MeasuringProgram, Plan, PlanFile, Stage, ValueListUsed};
+use frictcomp_recordings::commission::{MeasuringProgram, PlanFile, PlanReport, Stage};
 
-/// A plan with its basis.
-#[derive(Debug, Clone)]
-pub struct PlanReport {
-    /// The programs.
-    pub plan: Plan,
-    /// The value lists of stage 2.
-    pub lists: Vec<ValueListUsed>,
-    /// The file that describes the machine, as it is shown.
-    pub machine: String,
-    /// Axes whose ramps are those of the control's defaults.
-    pub assumed_jerk: Vec<String>,
-}
-
-impl PlanReport {
-    /// The verdict: the stage, and how long its programs take (R18.20).
-    pub fn headline(&self) -> Headline {
-        let plan = &self.plan;
-        let stage = match plan.stage {
-            Stage::Off => "stage 1, friction compensation off",
-            Stage::On => "stage 2, friction compensation on",
-        };
-        let programs = counted(plan.programs.len(), "program");
-        let text = format!("{stage}: {programs}, {}", minutes(plan.time_s()));
-        Headline::new(Standing::Plain, text)
-    }
-
-    /// The content of `plan.json`.
-    fn file(&self) -> PlanFile {
-        PlanFile {
-            schema: PlanFile::SCHEMA,
-            plan: self.plan.clone(),
-            lists: self.lists.clone(),
-        }
-    }
+/// The verdict: the stage, and how long its programs take (R18.20).
+fn headline(report: &PlanReport) -> Headline {
+    let plan = &report.plan;
+    let stage = match plan.stage {
+        Stage::Off => "stage 1, friction compensation off",
+        Stage::On => "stage 2, friction compensation on",
+    };
+    let programs = counted(plan.programs.len(), "program");
+    let text = format!("{stage}: {programs}, {}", minutes(plan.time_s()));
+    Headline::new(Standing::Plain, text)
 }
 
 #[derive(Serialize)]
@@ -55,20 +31,15 @@ struct PlanDocument {
 /// The plan with its verdict as JSON.
 pub fn render_json(report: &PlanReport) -> String {
     to_pretty(&PlanDocument {
-        headline: report.headline(),
+        headline: headline(report),
         file: report.file(),
     })
-}
-
-/// The content of `plan.json`.
-pub fn render_file(report: &PlanReport) -> String {
-    to_pretty(&report.file())
 }
 
 /// The programs with their times, and their basis.
 pub fn render_text(report: &PlanReport) -> String {
     let plan = &report.plan;
-    let mut out = format!("{}\n\n", report.headline());
+    let mut out = format!("{}\n\n", headline(report));
     let mut table = Table::default()
         .left("program")
         .right("time")

@@ -1,11 +1,7 @@
 //! An identified friction curve as text and JSON.
 
-mod of_axes;
 pub mod on_circles;
 pub mod states;
-
-pub(crate) use of_axes::json_of_axes;
-pub use of_axes::of_axes;
 
 use std::fmt::Write as _;
 
@@ -13,7 +9,7 @@ use serde::Serialize;
 
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::{friction_curve, residuals_over_position, segments_on_trace};
-use crate::wording::visible_line;
+use crate::wording::{to_pretty, visible_line};
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{
     AxisRecording, BranchPoint, DirectionBranches, Fit, FrictionCurve, Identified, TraceFinding,
@@ -384,5 +380,23 @@ pub(crate) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
             .collect(),
         remarks: &report.recording.remarks,
         diagnostics: report.findings().collect(),
+    }
+}
+
+#[derive(Serialize)]
+struct AxesDocument<T> {
+    schema: u32,
+    axes: Vec<T>,
+}
+
+/// The record of an axis, or a document with those of several.
+pub(crate) fn json_of_axes<T: Serialize>(records: impl Iterator<Item = T>) -> String {
+    let records: Vec<T> = records.collect();
+    match &records[..] {
+        [only] => to_pretty(only),
+        _ => to_pretty(&AxesDocument {
+            schema: 1,
+            axes: records,
+        }),
     }
 }

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 use super::circles::{Driven, RoundCircles, has};
 use super::fit::plant_of;
 use super::fitting::{FittedAxis, Fitting, NoPlant};
-use crate::commands::commission::sources::write_list;
-use crate::output::{Failure, Outputs, progress, shown};
+use crate::disk::{read_text, sha256_of_data, sha256_of_text};
+use crate::error::HostError;
+use crate::outputs::OutputFiles;
+use crate::simulations::tune;
 use frictcomp::lists::{FrictionList, Points};
-use frictcomp_host::{read_text, sha256_of_data, sha256_of_text, tune};
+use frictcomp::text::shown_path;
 use frictcomp_physics::circle::{PlaneAxis, Ranges, Shaping, Task, TuningAim, predicted_height_um};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
@@ -16,7 +18,7 @@ use frictcomp_recordings::commission::{
     MOST_CURRENT, PlantFound, PredictedGlitch, TunedList, ValueListUsed,
 };
 
-use frictcomp_report::value_lists::{TunedFrom, render_tuned_on_plant};
+use frictcomp_recordings::value_lists::{TunedFrom, render_tuned_on_plant};
 
 /// The circles recorded off, and the feeds recorded both off and on.
 pub(super) type RecordedFeeds<'a> = (&'a [Driven<'a>], &'a [f64]);
@@ -79,13 +81,13 @@ impl Fitting<'_> {
         axes: &[FittedAxis<'_>],
         recorded: RecordedFeeds<'_>,
         round: &RoundCircles<'_>,
-        outputs: &mut Outputs,
+        outputs: &mut OutputFiles,
     ) -> Result<(), NoPlant> {
         if found.held_out.is_empty() || self.has_lists(found) {
             return Ok(());
         }
         let task = self.task(found, recorded.0)?;
-        let tuned = tune(&task, &progress::watch())?;
+        let tuned = tune(&task, self.watch)?;
         found.lists.clear();
         let old = round.shas();
         for ((axis, tuned), old) in axes.iter().zip(&tuned.axes).zip(old) {
@@ -97,10 +99,10 @@ impl Fitting<'_> {
                 feeds: &found.fitted_feeds,
                 held_out: &found.held_out,
             };
-            let text = render_tuned_on_plant(&list, from, self.args.build.cnc_build);
+            let text = render_tuned_on_plant(&list, from, self.of.build);
             let sha256 = sha256_of_text(&text);
-            let folder = self.args.folder.join("lists");
-            let path = write_list(&folder, &format!("{}-tuned", axis.name), &text, outputs)?;
+            let name = format!("{}-tuned", axis.name);
+            let path = self.of.write_list(&name, &text, outputs)?;
             let on = (Some(sha256.as_str()), Some(&list));
             let predicted_um = self.predict_axis(found, axis, recorded, on)?;
             let mut against = found.fails_held_out(axis.name, &sha256, old);
@@ -113,7 +115,7 @@ impl Fitting<'_> {
             }
             found.lists.push(TunedList {
                 axis: axis.name.to_owned(),
-                file: shown(&path),
+                file: shown_path(&path),
                 sha256,
                 tuned_with: self.tuned_with(),
                 predicted_um,
@@ -135,21 +137,13 @@ impl Fitting<'_> {
 
     /// Returns the options that affect how lists are tuned.
     fn tuned_with(&self) -> String {
-        let shaping = self.shaping() == Shaping::Allowed;
-        let build = self.args.build.cnc_build.map(|it| it.to_string());
+        let shaping = self.of.shaping == Shaping::Allowed;
+        let build = self.of.build.map(|it| it.to_string());
         sha256_of_data(&(shaping, build))
     }
 
-    fn shaping(&self) -> Shaping {
-        if self.args.no_shaping {
-            Shaping::None
-        } else {
-            Shaping::Allowed
-        }
-    }
-
     /// Returns the tuning task for the circles of the fit on the fitted plant.
-    fn task(&self, found: &PlantFound, off: &[Driven<'_>]) -> Result<Task, Failure> {
+    fn task(&self, found: &PlantFound, off: &[Driven<'_>]) -> Result<Task, HostError> {
         let fitted = |it: &&Driven<'_>| has(&found.fitted_feeds, it.circles.feed);
         let circles = off.iter().filter(fitted).map(|it| self.circle(it));
         Ok(Task {
@@ -158,8 +152,8 @@ impl Fitting<'_> {
             circles: circles.collect(),
             ranges: Ranges::default(),
             reading: Reading::default(),
-            points: Points::of_build(self.args.build.cnc_build),
-            shaping: self.shaping(),
+            points: Points::of_build(self.of.build),
+            shaping: self.of.shaping,
             aim: if found.is_determined() {
                 TuningAim::Plant
             } else {

@@ -1,7 +1,5 @@
 //! The result of a tuning as text and JSON.
 
-pub mod value_lists;
-
 use std::fmt::Write as _;
 
 use serde::Serialize;
@@ -10,13 +8,13 @@ use super::circle::stiction_line;
 use crate::assumptions::not_modelled_line;
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::tuning;
-use crate::wording::{last_part, to_pretty, visible_line};
-
+use crate::wording::{last_part, rounded, to_pretty, visible_line};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::RemainingGlitch;
 use frictcomp_physics::circle::Robust;
 use frictcomp_physics::circle::{Candidate, FeedResult, Method, Tuned, TunedAxis};
 use frictcomp_physics::stiction::StictionParameters;
+use frictcomp_recordings::value_lists::tuned_range;
 
 /// A tuned plant.
 #[derive(Debug, Clone)]
@@ -31,22 +29,6 @@ pub struct TuneReport {
     pub not_modelled: Vec<&'static str>,
     /// The result.
     pub tuned: Tuned,
-}
-
-/// Rounds a number for reports: no more digits than are meaningful.
-pub fn round(value: f64) -> f64 {
-    // No negative zero.
-    (value * 1e6).round() / 1e6 + 0.0
-}
-
-/// The accelerations for which lists were tuned, and the largest glitch left there.
-pub(crate) fn tuned_range(tuned: &Tuned) -> String {
-    let [least, most] = tuned.accelerations();
-    format!(
-        "Tuned for reversals with v\u{b2}/R from {least:.2} to {most:.2} mm/s\u{b2}, where at most {:.2} \u{b5}m are \
-         left",
-        tuned.worst_um()
-    )
 }
 
 /// The checks between the circles, and on machines that deviate from the plant (R5.29).
@@ -330,15 +312,15 @@ impl AxisTuningRecord {
 impl<'a> PlantRecord<'a> {
     fn of(report: &'a TuneReport) -> Self {
         let feeds = report.tuned.feeds.iter().map(|row| FeedResult {
-            feed_mm_per_min: round(row.feed_mm_per_min),
-            radius_mm: round(row.radius_mm),
-            acceleration_mm_per_s2: round(row.acceleration_mm_per_s2),
-            glitch_off_um: round(row.glitch_off_um),
-            glitch_on_um: round(row.glitch_on_um),
-            glitch_friction_minus20_um: round(row.glitch_friction_minus20_um),
-            glitch_friction_plus20_um: round(row.glitch_friction_plus20_um),
+            feed_mm_per_min: rounded(row.feed_mm_per_min),
+            radius_mm: rounded(row.radius_mm),
+            acceleration_mm_per_s2: rounded(row.acceleration_mm_per_s2),
+            glitch_off_um: rounded(row.glitch_off_um),
+            glitch_on_um: rounded(row.glitch_on_um),
+            glitch_friction_minus20_um: rounded(row.glitch_friction_minus20_um),
+            glitch_friction_plus20_um: rounded(row.glitch_friction_plus20_um),
         });
-        let [acceleration_min, acceleration_max] = report.tuned.accelerations().map(round);
+        let [acceleration_min, acceleration_max] = report.tuned.accelerations().map(rounded);
         let [x, y] = &report.tuned.axes;
         Self {
             plant: &report.plant,
@@ -356,22 +338,22 @@ impl<'a> PlantRecord<'a> {
                 acceleration_min,
                 acceleration_max,
             },
-            glitch_max: round(report.tuned.worst_um()),
+            glitch_max: rounded(report.tuned.worst_um()),
             feeds: feeds.collect(),
-            check: report.tuned.check.iter().map(rounded).collect(),
+            check: report.tuned.check.iter().map(rounded_row).collect(),
             robust: report.tuned.robust,
         }
     }
 }
 
-fn rounded(row: &RemainingGlitch) -> RemainingGlitch {
+fn rounded_row(row: &RemainingGlitch) -> RemainingGlitch {
     RemainingGlitch {
-        acceleration_mm_per_s2: round(row.acceleration_mm_per_s2),
-        glitch_off_um: round(row.glitch_off_um),
-        glitch_on_um: round(row.glitch_on_um),
-        glitch_half_stiff_um: round(row.glitch_half_stiff_um),
-        glitch_double_stiff_um: round(row.glitch_double_stiff_um),
-        glitch_uneven_um: round(row.glitch_uneven_um),
+        acceleration_mm_per_s2: rounded(row.acceleration_mm_per_s2),
+        glitch_off_um: rounded(row.glitch_off_um),
+        glitch_on_um: rounded(row.glitch_on_um),
+        glitch_half_stiff_um: rounded(row.glitch_half_stiff_um),
+        glitch_double_stiff_um: rounded(row.glitch_double_stiff_um),
+        glitch_uneven_um: rounded(row.glitch_uneven_um),
     }
 }
 

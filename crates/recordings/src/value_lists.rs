@@ -1,51 +1,73 @@
 //! Generated value lists, with remarks on their origin.
 
-use super::{TuneReport, tuned_range};
-use crate::wording::visible_line;
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
-use frictcomp_physics::circle::TunedAxis;
+use frictcomp_physics::circle::{Tuned, TunedAxis};
 
 /// The remark in a list for a build that reads fractions.
 const FRACTIONS: &str = "Outputs with decimals need the build V3.1.3132.0 or V4.29.0";
 
+/// Returns the text of a list for a build, with remarks above its head.
+fn written<'a>(
+    list: &FrictionList,
+    build: Option<CncBuild>,
+    mut remarks: Vec<&'a str>,
+    head: &ListHead<'a>,
+) -> String {
+    let points = Points::of_build(build);
+    if points == Points::Real {
+        remarks.push(FRACTIONS);
+    }
+    let remarks = &remarks;
+    write_value_list(list, points, &ListHead { remarks, ..*head })
+}
+
+/// Origin of a value list that was tuned on a plant.
+#[derive(Debug, Clone, Copy)]
+pub struct TunedFor<'a> {
+    /// The name of the plant.
+    pub plant: &'a str,
+    /// The name of the friction model.
+    pub model: &'a str,
+    /// The result of the tuning.
+    pub tuned: &'a Tuned,
+    /// The axis of the list.
+    pub axis: &'a TunedAxis,
+}
+
+/// Returns the accelerations for which lists were tuned, and the largest glitch left there.
+pub fn tuned_range(tuned: &Tuned) -> String {
+    let [least, most] = tuned.accelerations();
+    format!(
+        "Tuned for reversals with v\u{b2}/R from {least:.2} to {most:.2} mm/s\u{b2}, where at most {:.2} \u{b5}m are \
+         left",
+        tuned.worst_um()
+    )
+}
+
 /// The tuned value list of an axis of a plant, written for a build; nothing if it has none. The head
 /// gives the number and the name of the axis.
-pub fn render_tuned(
-    report: &TuneReport,
-    axis: &TunedAxis,
-    build: Option<CncBuild>,
-    head: &ListHead<'_>,
-) -> String {
-    let Some(list) = axis.list() else {
+pub fn render_tuned(made: TunedFor<'_>, build: Option<CncBuild>, head: &ListHead<'_>) -> String {
+    let Some(list) = made.axis.list() else {
         return String::new();
     };
-    let points = Points::of_build(build);
-    let made = format!(
+    let from = format!(
         "Friction compensation for the plant {}, tuned with the model {}",
-        visible_line(&report.plant),
-        report.model
+        made.plant, made.model
     );
-    let range = tuned_range(&report.tuned);
-    let [x, y] = &report.tuned.axes;
-    let whose = match axis {
+    let range = tuned_range(made.tuned);
+    let [x, y] = &made.tuned.axes;
+    let whose = match made.axis {
         both if x == y && both == x => "both axes",
         one if one == x => "its X axis",
         _ => "its Y axis",
     };
     let table = format!("The table is the friction curve of {whose}");
-    let mut remarks = vec![made.as_str(), range.as_str(), table.as_str()];
-    if axis.is_shaped {
+    let mut remarks = vec![from.as_str(), range.as_str(), table.as_str()];
+    if made.axis.is_shaped {
         remarks.push("Below 1 mm/s it is shaped for the reversals");
     }
-    if points == Points::Real {
-        remarks.push(FRACTIONS);
-    }
-    let head = ListHead {
-        remarks: &remarks,
-        ..*head
-    };
-    write_value_list(list, points, &head)
+    written(list, build, remarks, head)
 }
 
 /// Origin of an identified value list.
@@ -67,30 +89,23 @@ pub fn render_identified(
     made: IdentifiedFrom<'_>,
     build: Option<CncBuild>,
 ) -> String {
-    let axis = made
-        .axis
-        .map(|axis| format!(" of axis {}", visible_line(axis)));
+    let axis = made.axis.map(|axis| format!(" of axis {axis}"));
     let from = format!(
         "Friction{} identified from {}",
         axis.unwrap_or_default(),
-        visible_line(made.from)
+        made.from
     );
-    let unit = format!("Outputs are in {}", visible_line(made.unit));
-    let points = Points::of_build(build);
-    let faults: Vec<_> = made.faults.iter().map(|it| visible_line(it)).collect();
+    let unit = format!("Outputs are in {}", made.unit);
     let mut remarks = vec![from.as_str(), unit.as_str()];
-    remarks.extend(faults.iter().map(AsRef::as_ref));
-    if points == Points::Real {
-        remarks.push(FRACTIONS);
-    }
+    remarks.extend(made.faults.iter().map(String::as_str));
     // An axis that is not a name is a number.
     let number = made.axis.and_then(|axis| axis.parse().ok());
     let head = ListHead {
-        remarks: &remarks,
         number,
         name: made.axis.filter(|_| number.is_none()),
+        ..ListHead::default()
     };
-    write_value_list(list, points, &head)
+    written(list, build, remarks, &head)
 }
 
 /// Origin of a learned value list.
@@ -114,25 +129,18 @@ pub fn render_learned(
 ) -> String {
     let from = format!(
         "Friction compensation of axis {} for round {} of learning",
-        visible_line(made.axis),
-        made.round
+        made.axis, made.round
     );
     let predicted = format!(
         "Predicted with the plant {}: at most {:.2} \u{b5}m are left; no recording has shown it yet",
-        visible_line(made.plant),
-        made.predicted_um
+        made.plant, made.predicted_um
     );
-    let points = Points::of_build(build);
-    let mut remarks = vec![from.as_str(), predicted.as_str()];
-    if points == Points::Real {
-        remarks.push(FRACTIONS);
-    }
+    let remarks = vec![from.as_str(), predicted.as_str()];
     let head = ListHead {
-        remarks: &remarks,
         name: Some(made.axis),
         ..ListHead::default()
     };
-    write_value_list(list, points, &head)
+    written(list, build, remarks, &head)
 }
 
 /// The remark in the head of a list that names the plant on which it was tuned.
@@ -169,21 +177,16 @@ pub fn render_tuned_on_plant(
     };
     let from = format!(
         "Friction compensation of axis {}, tuned at {} on a plant fitted to recorded circles",
-        visible_line(made.axis),
+        made.axis,
         feeds(made.feeds)
     );
     let held_out = format!("Held out: {}", feeds(made.held_out));
     let plant = format!("{TUNED_ON}{}", made.plant);
     let predicted = "What it leaves is predicted; no recording has shown it yet";
-    let points = Points::of_build(build);
-    let mut remarks = vec![from.as_str(), held_out.as_str(), plant.as_str(), predicted];
-    if points == Points::Real {
-        remarks.push(FRACTIONS);
-    }
+    let remarks = vec![from.as_str(), held_out.as_str(), plant.as_str(), predicted];
     let head = ListHead {
-        remarks: &remarks,
         name: Some(made.axis),
         ..ListHead::default()
     };
-    write_value_list(list, points, &head)
+    written(list, build, remarks, &head)
 }

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::output::{Failure, Outputs, shown, write_text};
-use frictcomp_host::{FileRegistry, read_text, recordings_in, sha256_of, sha256_of_text};
-use frictcomp_recordings::commission::ValueListUsed;
-
-use frictcomp_report::learn::{
-    LearningFile, LearningRound, MeasuredFriction, Prediction, RecordedFile,
+use crate::commission::CommissionError;
+use crate::disk::{FileRegistry, Replaces, read_text, sha256_of, sha256_of_text};
+use crate::error::HostError;
+use crate::outputs::OutputFiles;
+use crate::recordings::recordings_in;
+use frictcomp_recordings::commission::{
+    LearningFile, LearningRound, MeasuredFriction, Prediction, RecordedFile, ValueListUsed,
 };
 
 /// The file that records the rounds.
@@ -44,7 +45,7 @@ impl LearningFolder {
 
     /// Opens the folder as it was left; `None` if it was not begun. Every file must still be the one from which later
     /// rounds were made.
-    pub(super) fn open(path: &Path, registry: &FileRegistry) -> Result<Option<Self>, Failure> {
+    pub(super) fn open(path: &Path, registry: &FileRegistry) -> Result<Option<Self>, HostError> {
         let json = path.join(FILE);
         if !json.exists() {
             return Ok(None);
@@ -52,11 +53,7 @@ impl LearningFolder {
         let read: Result<LearningFile, _> = serde_json::from_str(&read_text(&json)?);
         let known = |it: &LearningFile| it.schema == LearningFile::SCHEMA && !it.rounds.is_empty();
         let Some(file) = read.ok().filter(known) else {
-            let message = format!(
-                "`{}` is not a file that `commission learn` wrote",
-                shown(&json)
-            );
-            return Err(Failure::new(message).with_help("begin again in another folder"));
+            return Err(CommissionError::NotLearning(json).into());
         };
         let mut folder = Self {
             path: path.to_owned(),
@@ -74,9 +71,12 @@ impl LearningFolder {
         Ok(Some(folder))
     }
 
-    /// Returns the file that records the rounds.
-    pub(super) fn json(&self) -> PathBuf {
-        self.path.join(FILE)
+    /// Writes the file that records the rounds.
+    pub(super) fn write(&self, outputs: &mut OutputFiles) -> Result<(), HostError> {
+        let path = self.path.join(FILE);
+        outputs
+            .create(FILE, &path, Replaces::Results)?
+            .json(&self.file)
     }
 
     /// Returns the folder of a round, by its index.
@@ -101,18 +101,16 @@ impl LearningFolder {
         &mut self,
         texts: &[String; 2],
         predictions: [Option<Prediction>; 2],
-        outputs: &mut Outputs,
-    ) -> Result<(), Failure> {
+        outputs: &mut OutputFiles,
+    ) -> Result<(), HostError> {
         let at = self.file.rounds.len();
-        let folder = self.round(at);
-        std::fs::create_dir_all(&folder).map_err(|error| Failure::writing(&folder, error))?;
         for (axis, text) in texts.iter().enumerate() {
             let path = self.list(at, axis);
             if path.exists() && read_text(&path)? != *text {
-                let message = format!("`{}` already exists and is a different list", shown(&path));
-                return Err(Failure::new(message).with_help("move it to another folder"));
+                return Err(CommissionError::ListThere(path).into());
             }
-            write_text(&mut outputs.list("the list", &path)?, text)?;
+            let mut file = outputs.create_in_folder("the list", &path, Replaces::Lists)?;
+            file.bytes(text.as_bytes())?;
         }
         self.file.rounds.push(LearningRound {
             lists: [0, 1].map(|axis: usize| ValueListUsed {
@@ -138,26 +136,19 @@ impl LearningFolder {
         }
     }
 
-    fn check_lists(&self, at: usize) -> Result<(), Failure> {
+    fn check_lists(&self, at: usize) -> Result<(), HostError> {
         for (axis, used) in self.file.rounds[at].lists.iter().enumerate() {
             let path = self.list(at, axis);
             if !path.exists() || sha256_of(&path)? != used.sha256 {
-                let message = format!(
-                    "`{}` is not the list that was handed out for this round",
-                    shown(&path)
-                );
-                let help = format!(
-                    "its SHA-256 was {}; put that list back, and record the round again if another one was loaded",
-                    used.sha256
-                );
-                return Err(Failure::new(message).with_help(help));
+                let sha256 = used.sha256.clone();
+                return Err(CommissionError::OtherList { path, sha256 }.into());
             }
         }
         Ok(())
     }
 
     /// Returns the recordings in the folder of a round.
-    fn recorded(&self, at: usize, registry: &FileRegistry) -> Result<Vec<RecordedFile>, Failure> {
+    fn recorded(&self, at: usize, registry: &FileRegistry) -> Result<Vec<RecordedFile>, HostError> {
         let mut found = Vec::new();
         for path in recordings_in(&self.round(at))? {
             registry.reads("recording", &path);
@@ -171,7 +162,7 @@ impl LearningFolder {
     }
 
     /// Refuses recordings that differ from those from which the next round was made (R16.9).
-    fn check_recordings(&self, at: usize, there: &[RecordedFile]) -> Result<(), Failure> {
+    fn check_recordings(&self, at: usize, there: &[RecordedFile]) -> Result<(), HostError> {
         let kept = &self.file.rounds[at].recordings;
         if kept.is_empty() || kept == there {
             return Ok(());
@@ -181,29 +172,23 @@ impl LearningFolder {
             found.map(|it| self.round(at).join(&it.file))
         };
         let changed = other(kept, there).or_else(|| other(there, kept));
-        let message = format!(
-            "`{}` was added, changed or removed after round {} was made from the recordings",
-            changed.map_or_else(String::new, |it| shown(&it)),
-            at + 2
-        );
-        let help = format!(
-            "put the recordings back as they were, or remove the folder of round {} and later ones: they are made again",
-            at + 2
-        );
-        Err(Failure::new(message).with_help(help))
+        Err(CommissionError::ChangedRecording {
+            path: changed.unwrap_or_default(),
+            round: at + 2,
+        }
+        .into())
     }
 
     /// Refuses a recording that occurs twice: as two recordings of one list it would show no spread.
-    fn check_copies(&self) -> Result<(), Failure> {
+    fn check_copies(&self) -> Result<(), HostError> {
         let mut seen: Vec<(&RecordedFile, PathBuf)> = Vec::new();
         for (at, recordings) in self.recordings.iter().enumerate() {
             for recording in recordings {
                 let path = self.round(at).join(&recording.file);
                 let same = seen.iter().find(|(it, _)| it.sha256 == recording.sha256);
                 if let Some((_, first)) = same {
-                    let message = format!("`{}` is a copy of `{}`", shown(&path), shown(first));
-                    let help = "record each circle twice, and again in each round";
-                    return Err(Failure::new(message).with_help(help));
+                    let of = first.clone();
+                    return Err(CommissionError::RecordedTwice { path, of }.into());
                 }
                 seen.push((recording, path));
             }

@@ -4,9 +4,12 @@ use std::ops::ControlFlow;
 
 use super::circles::{Driven, RoundCircles, has};
 use super::fitting::{FittedAxis, Fitting, NoPlant};
-use crate::output::{Failure, Outputs, write_text};
+use crate::commission::CommissionError;
+use crate::disk::{Replaces, read_text, sha256_of_data};
+use crate::error::HostError;
+use crate::outputs::OutputFiles;
+use crate::workers::{in_order, processors};
 use frictcomp::text::SourceFile;
-use frictcomp_host::{in_order, processors, read_text, sha256_of_data};
 use frictcomp_physics::circle::{DriveFit, FittedDrive, ObservedCircle, PlaneAxis};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::Plant;
@@ -19,7 +22,7 @@ impl Fitting<'_> {
         (axes, feeds): (&[FittedAxis<'_>], &[f64]),
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
-        outputs: &mut Outputs,
+        outputs: &mut OutputFiles,
     ) -> Result<PlantFound, NoPlant> {
         let key = self.key(axes, off, rounds);
         if let Some(known) = self.known.iter().find(|it| it.key == key) {
@@ -67,8 +70,12 @@ impl Fitting<'_> {
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
     ) -> String {
-        let reading = self.reader.channels;
-        let first = self.plans.iter().filter(|it| it.plan.stage == Stage::Off);
+        let reading = self.of.reader.channels;
+        let first = self
+            .of
+            .plans
+            .iter()
+            .filter(|it| it.plan.stage == Stage::Off);
         let channels = first.map(|it| reading.of_circles(&it.plan));
         let channels: Vec<_> = channels.collect();
         let cycle = reading.cycle_s;
@@ -107,13 +114,9 @@ impl Fitting<'_> {
         let questioned = lists.last().unwrap_or(&without);
         for (number, (circles, lists)) in std::iter::once((off, &without)).chain(on).enumerate() {
             for driven in circles.iter().filter(|it| has(feeds, it.circles.feed)) {
-                let path = self
-                    .args
-                    .folder
-                    .join("recordings")
-                    .join(&driven.result.file);
-                let turns = self.reader.turns(&path, driven.plan, driven.radius);
-                let turns = turns.map_err(Failure::from)?;
+                let path = self.of.folder.join("recordings").join(&driven.result.file);
+                let turns = self.of.reader.turns(&path, driven.plan, driven.radius);
+                let turns = turns?;
                 let circle = self.circle(driven);
                 for (at, plane) in PlaneAxis::ALL.into_iter().enumerate() {
                     let of_axis = ObservedCircle::of(plane, (circle, lists[at].clone()), &turns);
@@ -129,9 +132,9 @@ impl Fitting<'_> {
     }
 
     /// Returns the text of the plant file.
-    fn text(&self, fitted: &[FittedDrive], (round, key): (usize, &str)) -> Result<String, Failure> {
+    fn text(&self, fitted: &[FittedDrive], (round, key): (usize, &str)) -> Result<String, NoPlant> {
         let [x, y] = fitted else {
-            return Err(Failure::new("a plant has two axes"));
+            return Err(NoPlant::Lacking("a plant has two axes".to_owned()));
         };
         let plant = Plant {
             name: "fitted".to_owned(),
@@ -145,27 +148,21 @@ impl Fitting<'_> {
     }
 
     /// Writes the plant file, under a name derived from its content.
-    fn write_plant(&self, found: &PlantFound, outputs: &mut Outputs) -> Result<(), Failure> {
-        let folder = self.args.folder.join("plants");
+    fn write_plant(&self, found: &PlantFound, outputs: &mut OutputFiles) -> Result<(), HostError> {
         let sum = found.key.get(..8).unwrap_or(&found.key);
-        let path = folder.join(format!("round-{}-{sum}.toml", found.round));
+        let name = format!("round-{}-{sum}.toml", found.round);
+        let path = self.of.folder.join("plants").join(name);
         if read_text(&path).is_ok_and(|there| there == found.toml) {
             return Ok(());
         }
-        std::fs::create_dir_all(&folder).map_err(|error| Failure::writing(&folder, error))?;
-        let mut file = outputs.file("the fitted plant", &path)?;
-        write_text(&mut file, &found.toml)?;
-        Ok(())
+        let mut file = outputs.create_in_folder("the fitted plant", &path, Replaces::Results)?;
+        file.bytes(found.toml.as_bytes())
     }
 }
 
 /// Returns the fitted plant.
-pub(super) fn plant_of(found: &PlantFound) -> Result<Plant, Failure> {
+pub(super) fn plant_of(found: &PlantFound) -> Result<Plant, HostError> {
     let source = SourceFile::new("fitted".to_owned(), found.toml.clone());
-    Plant::from_toml(source).map_err(|error| {
-        Failure::new(format!(
-            "the plant in `results.json` cannot be read: {error}"
-        ))
-        .with_help("remove `results.json`, and run it again")
-    })
+    let plant = Plant::from_toml(source);
+    Ok(plant.map_err(|error| CommissionError::FittedPlant(error.to_string()))?)
 }

@@ -3,38 +3,34 @@
 use std::path::PathBuf;
 
 use super::circles::Driven;
-use crate::args::value_list;
-use crate::commands::commission::run_args::CommissionRunArgs;
-use crate::commands::commission::sources::source_of;
-use crate::output::Failure;
+use crate::commission::Commissioning;
+use crate::disk::sha256_of;
+use crate::error::HostError;
+use crate::watch::Watch;
 use frictcomp::lists::FrictionList;
-use frictcomp_host::commission::CommissionReader;
-use frictcomp_host::{FileRegistry, sha256_of};
 use frictcomp_physics::circle::{Circle, CircleError, PlaneAxis};
 use frictcomp_physics::simulation::{DriveParameters, Plant};
 use frictcomp_recordings::commission::{
-    FrictionFound, PlanFile, PlantFound, RecordingResult, Stage, ValueListUsed, with_friction,
+    FrictionFound, PlantFound, RecordingResult, Stage, ValueListUsed, source_of, with_friction,
 };
 
 /// The inputs for fitting plants.
 pub(crate) struct Fitting<'a> {
-    pub(crate) args: &'a CommissionRunArgs,
-    pub(crate) reader: CommissionReader<'a>,
+    pub(crate) of: &'a Commissioning<'a>,
     /// The previously known plant.
     pub(crate) base: &'a Plant,
-    pub(crate) plans: &'a [PlanFile],
     pub(crate) results: &'a [RecordingResult],
     /// Plants of an earlier run.
     pub(crate) known: &'a [PlantFound],
-    pub(crate) registry: &'a FileRegistry,
+    pub(crate) watch: &'a Watch,
 }
 
 /// Why no plant was found.
 pub(super) enum NoPlant {
     /// The recordings or the lists do not yield one; everything else continues.
     Lacking(String),
-    /// The command cannot continue.
-    Failed(Failure),
+    /// The work cannot continue.
+    Failed(HostError),
 }
 
 impl From<CircleError> for NoPlant {
@@ -43,9 +39,9 @@ impl From<CircleError> for NoPlant {
     }
 }
 
-impl From<Failure> for NoPlant {
-    fn from(failure: Failure) -> Self {
-        Self::Failed(failure)
+impl From<HostError> for NoPlant {
+    fn from(error: HostError) -> Self {
+        Self::Failed(error)
     }
 }
 
@@ -61,7 +57,7 @@ pub(super) struct FittedAxis<'a> {
 impl Fitting<'_> {
     /// Returns both axes of the circles with their measured friction, or the reason against a plant.
     pub(super) fn axes(&self) -> Result<Vec<FittedAxis<'_>>, String> {
-        let first = self.plans.iter().find(|it| it.plan.stage == Stage::Off);
+        let first = self.of.plans.iter().find(|it| it.plan.stage == Stage::Off);
         let Some([x, y]) = first.map(|it| &it.plan.axes[..]) else {
             return Err("circles of two axes are planned in stage 1".to_owned());
         };
@@ -73,7 +69,7 @@ impl Fitting<'_> {
                     axis.name
                 ));
             }
-            let (source, _) = source_of(axis, self.plans, self.results);
+            let (source, _) = source_of(axis, self.of.plans, self.results);
             let (_, friction) =
                 source.ok_or_else(|| format!("the friction of {} is not known", axis.name))?;
             let fit = friction.fit.as_ref().ok_or_else(|| {
@@ -101,20 +97,20 @@ impl Fitting<'_> {
         Circle {
             radius_mm: driven.radius,
             feed_mm_per_min: driven.circles.measured_feed.unwrap_or(driven.circles.feed),
-            cycle_time_s: self.reader.channels.cycle_time_s(),
+            cycle_time_s: self.of.reader.channels.cycle_time_s(),
         }
     }
 
     /// Returns a list as it was recorded.
     pub(super) fn list(&self, used: &ValueListUsed) -> Result<FrictionList, NoPlant> {
-        Ok(value_list(&recorded_list(used)?, self.registry)?)
+        Ok(self.of.list(&recorded_list(used)?)?)
     }
 }
 
 /// Returns the file of a list, if it is still the recorded one.
 pub(super) fn recorded_list(used: &ValueListUsed) -> Result<PathBuf, NoPlant> {
     let path = PathBuf::from(&used.file);
-    if path.exists() && sha256_of(&path).map_err(Failure::from)? == used.sha256 {
+    if path.exists() && sha256_of(&path)? == used.sha256 {
         return Ok(path);
     }
     Err(NoPlant::Lacking(format!(

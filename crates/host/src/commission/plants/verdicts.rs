@@ -2,21 +2,24 @@
 
 use super::circles::{Driven, RoundCircles, common_feeds, driven_in, has};
 use super::fitting::{FittedAxis, Fitting, NoPlant, recorded_list};
-use crate::output::{Failure, Outputs};
-use frictcomp_host::read_text;
+use crate::disk::read_text;
+use crate::error::HostError;
+use crate::outputs::OutputFiles;
 use frictcomp_recordings::commission::{
-    ComparedGlitch, MissedPrediction, PlantFound, RecordedGlitch, Stage, against_plant,
+    ComparedGlitch, MissedPrediction, PlantFound, PlantVerdict, Plants, RecordedGlitch, Stage,
+    against_plant,
 };
-use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::commission::{PlantVerdict, Plants};
-use frictcomp_report::value_lists::tuned_on;
+use frictcomp_recordings::value_lists::tuned_on;
 
 impl Fitting<'_> {
     /// Returns a plant for each round whose circles are recorded, fitted to those of all rounds up to it, and lists
     /// that are tuned on the last one.
-    pub(crate) fn plants(&self, outputs: &mut Outputs) -> Result<Plants, Failure> {
+    pub(crate) fn plants(&self, outputs: &mut OutputFiles) -> Result<Plants, HostError> {
         let [off, on] = [Stage::Off, Stage::On].map(|stage| self.driven(stage));
-        let mut plants = Plants::default();
+        let mut plants = Plants {
+            is_wanted: true,
+            ..Plants::default()
+        };
         let axes = match self.axes() {
             Ok(axes) => axes,
             Err(reason) => {
@@ -36,7 +39,7 @@ impl Fitting<'_> {
             match self.plant_of_round(&axes, &off, rounds.split_at(last + 1), outputs) {
                 Ok(verdict) => plants.verdicts.push(verdict),
                 Err(NoPlant::Lacking(reason)) => plants.lacking.push(reason),
-                Err(NoPlant::Failed(failure)) => return Err(failure),
+                Err(NoPlant::Failed(error)) => return Err(error),
             }
         }
         Ok(plants)
@@ -48,7 +51,7 @@ impl Fitting<'_> {
         axes: &[FittedAxis<'_>],
         off: &[Driven<'_>],
         (fitted_to, later): (&[RoundCircles<'_>], &[RoundCircles<'_>]),
-        outputs: &mut Outputs,
+        outputs: &mut OutputFiles,
     ) -> Result<PlantVerdict, NoPlant> {
         let Some(last) = fitted_to.last() else {
             return Err(NoPlant::Lacking("no circle is recorded".to_owned()));
@@ -91,13 +94,13 @@ impl Fitting<'_> {
             compared,
             rejected,
             retired,
-            not_modelled: not_modelled([&self.base.x, &self.base.y]),
+            base: self.base.clone(),
         })
     }
 
     /// Returns the usable circles of each plan of a stage.
     fn driven(&self, stage: Stage) -> Vec<RoundCircles<'_>> {
-        let plans = self.plans.iter().enumerate();
+        let plans = self.of.plans.iter().enumerate();
         let of_stage = plans.filter(|(_, it)| it.plan.stage == stage);
         of_stage
             .map(|(at, plan)| RoundCircles {
@@ -124,7 +127,7 @@ fn missed(compared: &[ComparedGlitch]) -> [Vec<String>; 2] {
 /// Whether a list of a round was tuned on a plant.
 fn is_tuned_on(round: &RoundCircles<'_>, found: &PlantFound) -> Result<bool, NoPlant> {
     for used in round.lists().into_iter().flatten() {
-        let text = read_text(&recorded_list(used)?).map_err(Failure::from)?;
+        let text = read_text(&recorded_list(used)?)?;
         if tuned_on(&text) == Some(found.key.as_str()) {
             return Ok(true);
         }

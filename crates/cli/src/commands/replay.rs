@@ -1,24 +1,18 @@
 //! `frictcomp replay`: compares a recording of what the machine did with the dry run.
 
-mod report;
-mod shown;
-
 use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::args::{
-    ByAxis, ExecutionArgs, MachineArgs, PerAxis, ResultArgs, ResultFormat, StartArgs, Tolerance,
-    UnitArgs,
-};
-use crate::output::{Console, Failure, HtmlArgs, Outputs, exit, write_page};
+use crate::args::{ByAxis, ExecutionArgs, MachineArgs, PerAxis, StartArgs, Tolerance, UnitArgs};
+use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, exit};
 use frictcomp::interpreter::StopPolicy;
 use frictcomp::machine::Machine;
 use frictcomp::text::shown_path;
 use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
 use frictcomp_host::{FileRegistry, Input};
 use frictcomp_recordings::trace::ChannelSelection;
-use frictcomp_report::replay::document;
+use frictcomp_report::results::replay::{ReplayReport, document, render_json};
 
 /// Compare what a machine did with the dry run of its programs
 ///
@@ -81,16 +75,14 @@ pub(crate) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         input.probe()?;
         input.note(&registry);
     }
-    let mut outputs = Outputs::new(&registry, console);
-    let mut result = outputs.result(args.result.output.as_deref())?;
-    let html = args.html.page(&mut outputs)?;
+    let job = Job::new(&args.result, &registry, console)?.with_page(&args.html)?;
     let mut machines = args.machine.machines(&registry);
     machines.look_ahead(&inputs);
     let first = inputs
         .first()
         .ok_or_else(|| Failure::new("there is no program"))?;
     let loaded = machines.for_folder(first.folder())?;
-    outputs.check()?;
+    job.outputs.check()?;
     let recording = read_states(
         &args.recording,
         &args.channels(&loaded.machine)?,
@@ -105,14 +97,13 @@ pub(crate) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         tolerance: args.tolerance.map_or(TOLERANCE, |it| it.um() / 1000.0),
     };
     let replayed = replay.compare(&recording)?;
-    let report = report::report(&replayed, &recording, shown_path(&args.recording));
+    let report = ReplayReport {
+        name: shown_path(&args.recording),
+        recording: &recording,
+        replayed: &replayed,
+    };
     let document = document(&report);
-    write_page(html, &document)?;
-    result.text(&match args.result.format {
-        ResultFormat::Text => document.text(console.detail, result.look.width),
-        ResultFormat::Json => format!("{:#}\n", shown::document(&replayed)),
-    })?;
-    outputs.finish()?;
+    job.finish(&document, || render_json(&report))?;
     args.machine.say_unread(&machines, &registry, console);
     Ok(if replayed.agrees() {
         exit::CLEAN

@@ -38,15 +38,15 @@ mod workers;
 
 pub use archive::{
     ArchiveAuditor, AuditOptions, CallGraph, CalledPrograms, ChangedFile, ChangedPrograms,
-    CheckOptions, CheckedProgram, CheckedPrograms, ExecutedProgram, FoundCall, FoundPrograms,
-    GraphProgram, LeftOutFile, LeftOutFiles, MendedProgram, MissingCall, OldFile,
-    ProgramsOnMachines, Revision, UnreadVariable, WhyLeftOut, find_programs, find_startup,
-    main_programs, outline_of, unread_variables, write_new,
+    CheckOptions, CheckedProgram, CheckedPrograms, FoundCall, FoundPrograms, GraphProgram,
+    LeftOutFile, LeftOutFiles, MendedProgram, MissingCall, OldFile, ProgramsOnMachines, Revision,
+    UnreadVariable, WhyLeftOut, find_programs, find_startup, outline_of, unread_variables,
+    write_new,
 };
 pub use disk::{
     CONFIG_NAME, Disk, EncodedText, FileRegistry, FolderOptions, FolderSelection, IgnoreFiles,
     Input, Naming, NotEncodable, OpenText, Replaces, SharedMap, decode, is_program, is_source,
-    read_text, reopen, sha256_of, sha256_of_data, sha256_of_text,
+    read_text, reopen, sha256_of,
 };
 pub use error::HostError;
 pub use machines::{
@@ -61,8 +61,8 @@ pub use outputs::{
     write_mended,
 };
 pub use recordings::{
-    SignedAt, TraceError, copies_among, is_recording, read_axis, read_circles, read_commanded,
-    read_motion, read_trace, read_turns, recordings_in, refuse_copies, signatures_of, switches_of,
+    TraceError, is_recording, read_axis, read_circles, read_commanded, read_trace, read_turns,
+    recordings_in, refuse_copies,
 };
 pub use run::{
     Axes, ContourSetup, GoldenDrift, GoldenFile, GoldenKind, GoldenResults, NoDrivenContour,

@@ -21,8 +21,7 @@ use frictcomp_physics::circle::{
     Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task,
 };
 use frictcomp_physics::simulation::Plant;
-use frictcomp_recordings::value_lists::{TunedFor, render_tuned};
-use frictcomp_report::assumptions::not_modelled;
+use frictcomp_recordings::value_lists::render_tuned;
 use frictcomp_report::results::tune::{TuneReport, document, render_json};
 use frictcomp_report::{rounded, visible_line};
 
@@ -162,13 +161,11 @@ pub(crate) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         .with_picture(args.svg.as_deref())?
         .with_page(&args.html)?;
     job.outputs.check()?;
-    let model = args.model.model();
     let mut reports = Vec::new();
     for plant in plants {
-        let name = plant.name.clone();
         let task = Task {
             plant,
-            model,
+            model: args.model.model(),
             circles: circles.clone(),
             ranges: ranges(&args.free),
             reading: args.reading.reading,
@@ -184,33 +181,22 @@ pub(crate) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
                 TuningAim::Plant
             },
         };
-        reports.push(TuneReport {
-            plant: name,
-            model: model.as_str(),
-            reading: args.reading.reading.to_string(),
-            not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
-            tuned: tune(&task, &progress::watch())?,
-        });
+        let tuned = tune(&task, &progress::watch())?;
+        reports.push(TuneReport::new(&task, tuned));
     }
     if let Some(first) = reports.first() {
         let [x, y] = &first.tuned.axes;
-        let list_of = |axis| TunedFor {
-            plant: &first.plant,
-            model: first.model,
-            tuned: &first.tuned,
-            axis,
-        };
         if let Some(mut file) = list {
             write_text(
                 &mut file,
-                &render_tuned(list_of(x), args.build.cnc_build, &ListHead::default()),
+                &render_tuned(first.list_of(x), args.build.cnc_build, &ListHead::default()),
             )?;
             if x != y {
                 console.remark("Y has its own list: `--into` writes both");
             }
         }
         for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
-            let text = render_tuned(list_of(axis), args.build.cnc_build, &of_axis.head());
+            let text = render_tuned(first.list_of(axis), args.build.cnc_build, &of_axis.head());
             write_text(&mut of_axis.file, &text)?;
         }
     }

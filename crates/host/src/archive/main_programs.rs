@@ -8,18 +8,17 @@ use frictcomp::interpreter::holds_program_end;
 
 /// A program that was run from the start of the control, and what it called.
 #[derive(Debug, Clone)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct ExecutedProgram<'a> {
+pub(super) struct ExecutedProgram<'a> {
     /// The program.
-    pub input: &'a Input,
+    pub(super) input: &'a Input,
     /// The names of the files that it executed to their end, except itself.
-    pub executed_to_end: Vec<String>,
+    pub(super) executed_to_end: Vec<String>,
 }
 
 /// Returns which of the programs are main programs: all but those that have neither M02 nor M30
 /// and that a main program among them executed to their end. Programs that only call each other are
 /// main programs (R17.2).
-pub fn main_programs(programs: &[ExecutedProgram<'_>], disk: &Disk) -> Vec<bool> {
+pub(super) fn main_programs(programs: &[ExecutedProgram<'_>], disk: &Disk) -> Vec<bool> {
     let edges = edges(programs, disk);
     let mut is_called = vec![false; programs.len()];
     for (caller, called) in edges.iter().enumerate() {

@@ -22,6 +22,5 @@ pub use cures::MendedProgram;
 pub use first_look::{find_startup, outline_of, write_new};
 pub use git::{ChangedFile, OldFile, Revision};
 pub use left_out::{LeftOutFile, LeftOutFiles, WhyLeftOut};
-pub use main_programs::{ExecutedProgram, main_programs};
 pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs};

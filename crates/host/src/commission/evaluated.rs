@@ -28,7 +28,7 @@ use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified, tuned
 const RESULTS: &str = "results.json";
 
 /// Returns the file name of the plan of a round.
-pub fn plan_name(round: u16) -> String {
+pub(super) fn plan_name(round: u16) -> String {
     format!("plan-{round}.json")
 }
 
@@ -222,7 +222,7 @@ impl Commissioning<'_> {
         };
         memory_for_simulation()?;
         let fitting = Fitting {
-            of: self,
+            commissioning: self,
             base: &find_plant(name, self.registry)?,
             results,
             known,

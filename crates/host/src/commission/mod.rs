@@ -16,7 +16,7 @@ mod unused;
 
 pub use channels::CommissionChannels;
 pub use error::CommissionError;
-pub use evaluated::{Commissioning, plan_name, read_plans};
+pub use evaluated::{Commissioning, read_plans};
 pub use learn::{FirstLists, Learning};
 pub use plan::{AxisToMeasure, Planning};
 pub use reading::CommissionReader;

@@ -34,11 +34,11 @@ pub fn sha256_of(path: &Path) -> Result<String, HostError> {
 ///
 /// # Panics
 /// Data that are no JSON, such as a map whose keys are not texts.
-pub fn sha256_of_data(data: &impl Serialize) -> String {
+pub(crate) fn sha256_of_data(data: &impl Serialize) -> String {
     sha256_of_text(&serde_json::to_string(data).expect("data of keys are fields and lists"))
 }
 
 /// Returns the SHA-256 of a text in hexadecimal digits.
-pub fn sha256_of_text(text: &str) -> String {
+pub(crate) fn sha256_of_text(text: &str) -> String {
     format!("{:x}", Sha256::digest(text))
 }

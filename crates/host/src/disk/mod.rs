@@ -18,7 +18,8 @@ mod selection;
 mod shared_map;
 
 pub use decode::decode;
-pub use digest::{sha256_of, sha256_of_data, sha256_of_text};
+pub use digest::sha256_of;
+pub(crate) use digest::{sha256_of_data, sha256_of_text};
 pub use encoded_text::{EncodedText, NotEncodable};
 pub use file_kind::{CONFIG_NAME, is_program, is_source};
 pub(crate) use file_kind::{has_extension, is_known_otherwise, is_list, is_parameters, is_project};

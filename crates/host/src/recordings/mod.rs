@@ -6,11 +6,11 @@ mod switches;
 mod trace_error;
 mod traces;
 
-pub use recorded_files::{copies_among, recordings_in, refuse_copies};
-pub use signatures::{SignedAt, signatures_of};
-pub use switches::switches_of;
+pub(crate) use recorded_files::copies_among;
+pub use recorded_files::{recordings_in, refuse_copies};
+pub(crate) use signatures::{SignedAt, signatures_of};
+pub(crate) use switches::switches_of;
 pub use trace_error::TraceError;
-pub use traces::{
-    is_recording, read_axis, read_circles, read_commanded, read_motion, read_trace, read_turns,
-};
+pub(crate) use traces::read_motion;
+pub use traces::{is_recording, read_axis, read_circles, read_commanded, read_trace, read_turns};
 pub(crate) use traces::{lacks, numbers_of, position_column};

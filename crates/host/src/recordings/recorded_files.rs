@@ -9,7 +9,7 @@ use crate::error::HostError;
 const RECORDINGS: [&str; 3] = ["csv", "txt", "xml"];
 
 /// Returns the earlier recording of which each one is a copy, byte by byte: a copy proves nothing (R18.9).
-pub fn copies_among(paths: &[PathBuf]) -> Vec<Option<&Path>> {
+pub(crate) fn copies_among(paths: &[PathBuf]) -> Vec<Option<&Path>> {
     // What cannot be read is said by whoever reads it.
     let sums: Vec<Option<String>> = paths.iter().map(|it| sha256_of(it).ok()).collect();
     let earlier = |(at, sum): (usize, &Option<String>)| {

@@ -14,12 +14,11 @@ use frictcomp_recordings::trace::{
 
 /// A signature in a recording, and the time in s at which its strokes end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct SignedAt {
+pub(crate) struct SignedAt {
     /// The signature.
-    pub signature: Signature,
+    pub(crate) signature: Signature,
     /// The end of its strokes in the times of the recording.
-    pub end_s: f64,
+    pub(crate) end_s: f64,
 }
 
 /// Returns the signatures in the motion of an axis, whose channels are its position or its velocity; rows without
@@ -28,7 +27,7 @@ pub struct SignedAt {
 ///
 /// # Errors
 /// The file cannot be read, or is not a recording.
-pub fn signatures_of(
+pub(crate) fn signatures_of(
     path: &Path,
     selection: &ChannelSelection,
     cycle_s: Option<f64>,

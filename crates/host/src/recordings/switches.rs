@@ -14,7 +14,7 @@ use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice, Pic
 ///
 /// # Errors
 /// The file cannot be read, or is not a recording.
-pub fn switches_of(
+pub(crate) fn switches_of(
     path: &Path,
     selection: &ChannelSelection,
     cycle_s: Option<f64>,

@@ -320,7 +320,7 @@ pub fn read_axis(
 ///
 /// # Errors
 /// As [`read_axis`].
-pub fn read_motion(
+pub(crate) fn read_motion(
     path: &Path,
     selection: &ChannelSelection,
     cycle_s: Option<f64>,

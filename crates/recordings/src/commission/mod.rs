@@ -49,7 +49,7 @@ pub use plants::{PlantVerdict, Plants};
 pub use program::{Measurement, MeasuringProgram, PlanStep, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
 pub use results::{RecordingOutcome, RecordingResult, refuse_strangers};
-pub use round::{RecordedRound, Round, glitch_unit};
+pub use round::{RecordedRound, Round};
 pub use signature::{Signature, signature_in};
 pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};
 pub use switched::{CompensationShown, ShareOfList, Shows, TorqueOfList, torque_of_list};

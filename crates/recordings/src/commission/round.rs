@@ -34,7 +34,7 @@ pub struct Round {
 }
 
 /// The unit of the glitches of a plan.
-pub fn glitch_unit(plan: &Plan) -> &'static str {
+fn glitch_unit(plan: &Plan) -> &'static str {
     match plan.axes.first() {
         Some(axis) if axis.axis_type != AxisType::Linear => "0.001°",
         _ => "µm",

@@ -5,16 +5,16 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::circle::stiction_line;
-use crate::assumptions::not_modelled_line;
+use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::tuning;
 use crate::wording::{last_part, rounded, to_pretty, visible_line};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::RemainingGlitch;
 use frictcomp_physics::circle::Robust;
-use frictcomp_physics::circle::{Candidate, FeedResult, Method, Tuned, TunedAxis};
+use frictcomp_physics::circle::{Candidate, FeedResult, Method, Task, Tuned, TunedAxis};
 use frictcomp_physics::stiction::StictionParameters;
-use frictcomp_recordings::value_lists::tuned_range;
+use frictcomp_recordings::value_lists::{TunedFor, tuned_range};
 
 /// A tuned plant.
 #[derive(Debug, Clone)]
@@ -29,6 +29,29 @@ pub struct TuneReport {
     pub not_modelled: Vec<&'static str>,
     /// The result.
     pub tuned: Tuned,
+}
+
+impl TuneReport {
+    /// Creates the report on a task with its result.
+    pub fn new(task: &Task, tuned: Tuned) -> Self {
+        Self {
+            plant: task.plant.name.clone(),
+            model: task.model.as_str(),
+            reading: task.reading.to_string(),
+            not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
+            tuned,
+        }
+    }
+
+    /// Returns the origin of the list of an axis.
+    pub fn list_of<'a>(&'a self, axis: &'a TunedAxis) -> TunedFor<'a> {
+        TunedFor {
+            plant: &self.plant,
+            model: self.model,
+            tuned: &self.tuned,
+            axis,
+        }
+    }
 }
 
 /// The checks between the circles, and on machines that deviate from the plant (R5.29).

@@ -70,9 +70,9 @@ impl Fitting<'_> {
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
     ) -> String {
-        let reading = self.of.reader.channels;
+        let reading = self.commissioning.reader.channels;
         let first = self
-            .of
+            .commissioning
             .plans
             .iter()
             .filter(|it| it.plan.stage == Stage::Off);
@@ -114,8 +114,15 @@ impl Fitting<'_> {
         let questioned = lists.last().unwrap_or(&without);
         for (number, (circles, lists)) in std::iter::once((off, &without)).chain(on).enumerate() {
             for driven in circles.iter().filter(|it| has(feeds, it.circles.feed)) {
-                let path = self.of.folder.join("recordings").join(&driven.result.file);
-                let turns = self.of.reader.turns(&path, driven.plan, driven.radius);
+                let path = self
+                    .commissioning
+                    .folder
+                    .join("recordings")
+                    .join(&driven.result.file);
+                let turns = self
+                    .commissioning
+                    .reader
+                    .turns(&path, driven.plan, driven.radius);
                 let turns = turns?;
                 let circle = self.circle(driven);
                 for (at, plane) in PlaneAxis::ALL.into_iter().enumerate() {
@@ -151,7 +158,7 @@ impl Fitting<'_> {
     fn write_plant(&self, found: &PlantFound, outputs: &mut OutputFiles) -> Result<(), HostError> {
         let sum = found.key.get(..8).unwrap_or(&found.key);
         let name = format!("round-{}-{sum}.toml", found.round);
-        let path = self.of.folder.join("plants").join(name);
+        let path = self.commissioning.folder.join("plants").join(name);
         if read_text(&path).is_ok_and(|there| there == found.toml) {
             return Ok(());
         }

@@ -16,7 +16,8 @@ use frictcomp_recordings::commission::{
 
 /// The inputs for fitting plants.
 pub(crate) struct Fitting<'a> {
-    pub(crate) of: &'a Commissioning<'a>,
+    /// The commissioning, with its plans and its reader.
+    pub(crate) commissioning: &'a Commissioning<'a>,
     /// The previously known plant.
     pub(crate) base: &'a Plant,
     pub(crate) results: &'a [RecordingResult],
@@ -57,7 +58,11 @@ pub(super) struct FittedAxis<'a> {
 impl Fitting<'_> {
     /// Returns both axes of the circles with their measured friction, or the reason against a plant.
     pub(super) fn axes(&self) -> Result<Vec<FittedAxis<'_>>, String> {
-        let first = self.of.plans.iter().find(|it| it.plan.stage == Stage::Off);
+        let first = self
+            .commissioning
+            .plans
+            .iter()
+            .find(|it| it.plan.stage == Stage::Off);
         let Some([x, y]) = first.map(|it| &it.plan.axes[..]) else {
             return Err("circles of two axes are planned in stage 1".to_owned());
         };
@@ -69,7 +74,7 @@ impl Fitting<'_> {
                     axis.name
                 ));
             }
-            let (source, _) = source_of(axis, self.of.plans, self.results);
+            let (source, _) = source_of(axis, self.commissioning.plans, self.results);
             let (_, friction) =
                 source.ok_or_else(|| format!("the friction of {} is not known", axis.name))?;
             let fit = friction.fit.as_ref().ok_or_else(|| {
@@ -97,13 +102,13 @@ impl Fitting<'_> {
         Circle {
             radius_mm: driven.radius,
             feed_mm_per_min: driven.circles.measured_feed.unwrap_or(driven.circles.feed),
-            cycle_time_s: self.of.reader.channels.cycle_time_s(),
+            cycle_time_s: self.commissioning.reader.channels.cycle_time_s(),
         }
     }
 
     /// Returns a list as it was recorded.
     pub(super) fn list(&self, used: &ValueListUsed) -> Result<FrictionList, NoPlant> {
-        Ok(self.of.list(&recorded_list(used)?)?)
+        Ok(self.commissioning.list(&recorded_list(used)?)?)
     }
 }
 

@@ -99,10 +99,10 @@ impl Fitting<'_> {
                 feeds: &found.fitted_feeds,
                 held_out: &found.held_out,
             };
-            let text = render_tuned_on_plant(&list, from, self.of.build);
+            let text = render_tuned_on_plant(&list, from, self.commissioning.build);
             let sha256 = sha256_of_text(&text);
             let name = format!("{}-tuned", axis.name);
-            let path = self.of.write_list(&name, &text, outputs)?;
+            let path = self.commissioning.write_list(&name, &text, outputs)?;
             let on = (Some(sha256.as_str()), Some(&list));
             let predicted_um = self.predict_axis(found, axis, recorded, on)?;
             let mut against = found.fails_held_out(axis.name, &sha256, old);
@@ -137,8 +137,8 @@ impl Fitting<'_> {
 
     /// Returns the options that affect how lists are tuned.
     fn tuned_with(&self) -> String {
-        let shaping = self.of.shaping == Shaping::Allowed;
-        let build = self.of.build.map(|it| it.to_string());
+        let shaping = self.commissioning.shaping == Shaping::Allowed;
+        let build = self.commissioning.build.map(|it| it.to_string());
         sha256_of_data(&(shaping, build))
     }
 
@@ -152,8 +152,8 @@ impl Fitting<'_> {
             circles: circles.collect(),
             ranges: Ranges::default(),
             reading: Reading::default(),
-            points: Points::of_build(self.of.build),
-            shaping: self.of.shaping,
+            points: Points::of_build(self.commissioning.build),
+            shaping: self.commissioning.shaping,
             aim: if found.is_determined() {
                 TuningAim::Plant
             } else {

@@ -100,7 +100,7 @@ impl Fitting<'_> {
 
     /// Returns the usable circles of each plan of a stage.
     fn driven(&self, stage: Stage) -> Vec<RoundCircles<'_>> {
-        let plans = self.of.plans.iter().enumerate();
+        let plans = self.commissioning.plans.iter().enumerate();
         let of_stage = plans.filter(|(_, it)| it.plan.stage == stage);
         of_stage
             .map(|(at, plan)| RoundCircles {

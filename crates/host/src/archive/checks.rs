@@ -42,6 +42,7 @@ pub struct CheckOptions {
 
 /// What is done with programs that others call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CalledPrograms {
     /// They are checked in their callers, if they hold no program end and a caller executes them to their end.
     InCallers,

@@ -8,7 +8,7 @@ use crate::root;
 
 /// The rooms that each room of a package may import from. Rooms are listed in the order of the data; an import never
 /// goes down. The packages that a package may use are in its `Cargo.toml`.
-const ROOMS: [(&str, &[&str]); 29] = [
+const ROOMS: [(&str, &[&str]); 30] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -123,6 +123,7 @@ const ROOMS: [(&str, &[&str]); 29] = [
     ("identify", &["trace"]),
     ("commission", &["trace", "identify"]),
     ("evidence", &[]),
+    ("replay", &[]),
     ("value_lists", &[]),
 ];
 
@@ -162,9 +163,13 @@ const FOLDERS: [(&str, &str, &[&str]); 30] = [
     ("circle", "fitted", &["recorded", "tune"]),
     ("circle", "learn", &["recorded", "tune"]),
     ("simulation", "", &["friction"]),
-    ("host", "", &["commission", "outputs", "recordings"]),
-    ("host", "archive", &["disk", "machines", "outputs"]),
-    ("host", "ask", &["disk", "recordings", "replay"]),
+    ("host", "", &["ask", "commission", "outputs", "recordings"]),
+    ("host", "archive", &["disk", "machines", "outputs", "run"]),
+    (
+        "host",
+        "ask",
+        &["disk", "machines", "outputs", "recordings", "replay"],
+    ),
     (
         "host",
         "commission",

@@ -41,7 +41,6 @@ pub use archive::{
     CheckOptions, CheckedProgram, CheckedPrograms, FoundCall, FoundPrograms, GraphProgram,
     LeftOutFile, LeftOutFiles, MendedProgram, MissingCall, OldFile, ProgramsOnMachines, Revision,
     UnreadVariable, WhyLeftOut, find_programs, find_startup, outline_of, unread_variables,
-    write_new,
 };
 pub use disk::{
     CONFIG_NAME, Disk, EncodedText, FileRegistry, FolderOptions, FolderSelection, IgnoreFiles,
@@ -58,7 +57,7 @@ pub use machines::{
 pub use memory::memory_for_simulation;
 pub use outputs::{
     MendedFile, OutputFile, OutputFiles, clean_up_when_stopped, mend, survive_file_size_limit,
-    write_mended,
+    write_mended, write_new,
 };
 pub use recordings::{
     TraceError, is_recording, read_axis, read_circles, read_commanded, read_trace, read_turns,

@@ -1,22 +1,13 @@
 //! Changes by `check --fix`, shown by `check --diff` (R9.82).
 
 use std::fmt::Write as _;
-use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
-use std::path::Path;
-use std::sync::Arc;
 
 use clap::Args;
 
-use super::execution::ExecutionArgs;
 use crate::output::{Console, DataTarget, Failure, Failures, Printed, difference, exit, shown};
-use frictcomp::session::{ProposedFixes, SafeFixes};
 use frictcomp::text::shown_path;
-use frictcomp_host::{
-    Axes, HostError, Input, LoadedMachine, Machines, MendedFile, Naming, SingleRun, in_order, mend,
-    processors, run_alone, write_mended,
-};
-use frictcomp_report::{TextChange, command_line, render_unified};
+use frictcomp_host::{CheckOptions, Input, Machines, MendedFile, ProgramsOnMachines, write_mended};
+use frictcomp_report::{TextChange, render_unified};
 
 /// Largest number of rounds of changes, since changes may call for others.
 const MOST_PASSES: usize = 10;
@@ -36,8 +27,7 @@ pub(crate) struct FixArgs {
 pub(crate) struct MendRun<'a> {
     pub(crate) inputs: &'a [Input],
     pub(crate) machines: &'a mut Machines,
-    pub(crate) execution: &'a ExecutionArgs,
-    pub(crate) workers: Option<NonZeroUsize>,
+    pub(crate) options: &'a CheckOptions,
 }
 
 impl MendRun<'_> {
@@ -108,59 +98,10 @@ impl MendRun<'_> {
         }
     }
 
-    /// Applies the safe changes to the programs. Called programs stay as they are, unless they are
-    /// among the programs themselves.
+    /// Returns the files with their safe changes.
     fn mended(&mut self, failures: &mut Failures) -> Vec<MendedFile> {
-        let mut found = Vec::new();
-        for (name, fixes) in self.safe_fixes(failures).of_files() {
-            let Some(path) = self.path(&name) else {
-                continue;
-            };
-            match mend(path, &fixes) {
-                Ok(mended) => found.extend(mended),
-                Err(error) => failures.push(error.into()),
-            }
-        }
-        found
-    }
-
-    fn path(&self, name: &str) -> Option<&Path> {
-        self.inputs.iter().find_map(|input| match input {
-            Input::File(path) if input.name(Naming::AsGiven) == name => Some(path.as_path()),
-            _ => None,
-        })
-    }
-
-    /// Returns the safe changes that apply to every run.
-    fn safe_fixes(&mut self, failures: &mut Failures) -> SafeFixes {
-        let inputs = self.inputs.iter();
-        let loaded = inputs.map(|input| (input, self.machines.for_folder(input.folder())));
-        let jobs: Vec<_> = loaded.collect();
-        let workers = self.workers.unwrap_or_else(processors);
-        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
-        let execution = self.execution;
-        let mut fixes = SafeFixes::default();
-        let run = |(input, loaded): (&Input, Result<Arc<LoadedMachine>, HostError>)| {
-            let loaded = loaded?;
-            let alone = SingleRun {
-                options: loaded
-                    .session(execution.check())
-                    .with_wording(Some(command_line)),
-                naming: Naming::AsGiven,
-                axes: Axes::AsTheyOccur,
-            };
-            let mut proposed = ProposedFixes::default();
-            run_alone(input, &loaded, alone, &mut proposed)?;
-            Ok::<_, HostError>(proposed)
-        };
-        in_order(jobs.into_iter(), workers, run, |proposed| {
-            match proposed {
-                Ok(proposed) => fixes.add(proposed),
-                Err(error) => failures.push(Failure::from(error)),
-            }
-            ControlFlow::Continue(())
-        });
-        fixes
+        let programs = ProgramsOnMachines::new(self.inputs, self.machines);
+        failures.keep(programs.mended(self.options))
     }
 }
 

@@ -1,8 +1,7 @@
 //! Options in groups, and the values that they take.
 
 mod channels;
-mod cnc_build;
-mod cycle;
+mod control;
 mod examples;
 mod execution;
 mod fail_on;
@@ -14,13 +13,11 @@ mod mend;
 mod named_lists;
 mod per_axis;
 pub(crate) mod quantities;
-mod readings;
 pub(crate) mod settings;
 mod severities;
 mod simulated;
 mod sole_file;
 mod start;
-mod tool_radius;
 pub(crate) mod values;
 mod wildcards;
 
@@ -28,8 +25,7 @@ pub(crate) use channels::{
     AxisChannelArgs, CircleChannelArgs, FollowedChannels, MotionChannels, TorqueArgs,
     TorqueChannel, TorqueKindArgs, UnitArgs, named, refuse_alike,
 };
-pub(crate) use cnc_build::CncBuildArgs;
-pub(crate) use cycle::CycleArgs;
+pub(crate) use control::{CncBuildArgs, CurrentReadingArgs, CycleArgs, ToolArgs};
 pub(crate) use examples::with_examples;
 pub(crate) use execution::ExecutionArgs;
 pub(crate) use fail_on::{FailOn, FailOnWord, of_axis};
@@ -40,11 +36,9 @@ pub(crate) use machine::{MachineArgs, remark, undescribed_remark, value_list};
 pub(crate) use mend::{FixArgs, MendRun, differences};
 pub(crate) use named_lists::NamedLists;
 pub(crate) use per_axis::{ByAxis, PerAxis};
-pub(crate) use readings::CurrentReadingArgs;
 pub(crate) use settings::parse_width;
 pub(crate) use severities::SeverityArgs;
 pub(crate) use simulated::{ModelArgs, PlantArgs, SimulationArgs, Tolerance};
 pub(crate) use sole_file::Meant;
 pub(crate) use start::StartArgs;
-pub(crate) use tool_radius::ToolArgs;
 pub(crate) use wildcards::expanded;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::cnc_build::CncBuildArgs;
+use super::control::CncBuildArgs;
 use super::machine::outside_policy;
 use crate::output::Failure;
 use frictcomp::machine::ListsReport;

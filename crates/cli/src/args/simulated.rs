@@ -4,13 +4,12 @@ use std::str::FromStr;
 
 use clap::Args;
 
-use super::cycle::CycleArgs;
+use super::control::{CycleArgs, ToolArgs};
 use super::execution::ExecutionArgs;
 use super::machine::value_list;
 use super::per_axis::{ByAxis, PerAxis};
 use super::quantities;
 use super::start::StartArgs;
-use super::tool_radius::ToolArgs;
 use super::values;
 use crate::output::Failure;
 use frictcomp::interpreter::StopPolicy;

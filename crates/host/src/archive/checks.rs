@@ -3,20 +3,21 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::main_programs::{ExecutedProgram, main_programs};
 use crate::disk::{Disk, Input, Naming};
 use crate::error::HostError;
 use crate::machines::{LoadedMachine, Machines};
+use crate::outputs::{MendedFile, mend};
 use crate::run::{Axes, SingleRun, run_alone};
 use crate::workers::in_order;
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Severity, Wording};
 use frictcomp::interpreter::Options;
 use frictcomp::lists::AxisType;
-use frictcomp::session::{Causes, Findings};
+use frictcomp::session::{Causes, Findings, ProposedFixes, SafeFixes, Session};
 use frictcomp::timeline::{FeedMoves, ReadingsInForce, Record, Sink};
 
 /// Programs, each with the machine of its folder.
@@ -110,24 +111,65 @@ impl<'a> ProgramsOnMachines<'a> {
 
     /// Runs each program from the start of the control; also returns why one cannot be checked.
     pub fn check(self, options: &CheckOptions) -> (CheckedPrograms, Vec<HostError>) {
+        let (all, errors) = self.each(options.workers, |input, loaded| options.run(input, loaded));
+        (options.gathered(all), errors)
+    }
+
+    /// Returns the files of the programs with the changes that do not affect what the machine does; also returns why
+    /// one cannot be changed. Called programs stay as they are, unless they are among the programs themselves.
+    pub fn mended(self, options: &CheckOptions) -> (Vec<MendedFile>, Vec<HostError>) {
+        let files = self.programs.iter().filter_map(|(input, _)| match input {
+            Input::File(path) => Some((input.name(Naming::AsGiven), path.as_path())),
+            _ => None,
+        });
+        let files: BTreeMap<String, &Path> = files.collect();
+        let (all, mut errors) = self.each(options.workers, |input, loaded| {
+            let mut proposed = ProposedFixes::default();
+            options.alone(input, &loaded, &mut proposed)?;
+            Ok(proposed)
+        });
+        let mut safe = SafeFixes::default();
+        for proposed in all {
+            safe.add(proposed);
+        }
+        let mut mended = Vec::new();
+        for (name, fixes) in safe.of_files() {
+            match files.get(&*name).map(|path| mend(path, &fixes)) {
+                Some(Ok(file)) => mended.extend(file),
+                Some(Err(error)) => errors.push(error),
+                None => {}
+            }
+        }
+        (mended, errors)
+    }
+
+    /// Does work on each program, and returns the results in the order of the programs.
+    fn each<T: Send>(
+        self,
+        workers: NonZeroUsize,
+        work: impl Fn(&'a Input, Arc<LoadedMachine>) -> Result<T, HostError> + Sync,
+    ) -> (Vec<T>, Vec<HostError>) {
         let most = NonZeroUsize::new(self.programs.len()).unwrap_or(NonZeroUsize::MIN);
-        let check = |(input, loaded): (&'a Input, Result<_, _>)| options.run(input, loaded?);
+        let work = |(input, loaded): (&'a Input, Result<Arc<LoadedMachine>, _>)| {
+            let loaded = loaded?;
+            let watch = Arc::clone(&loaded.watch);
+            Ok((work(input, loaded)?, watch))
+        };
         let (mut all, mut errors) = (Vec::with_capacity(self.programs.len()), Vec::new());
         let programs = self.programs.into_iter();
-        in_order(programs, options.workers.min(most), check, |checked| {
-            let mut flow = ControlFlow::Continue(());
-            match checked {
-                Ok(checked) => {
-                    if checked.loaded.watch.is_stopped() {
-                        flow = ControlFlow::Break(());
+        in_order(programs, workers.min(most), work, |done| {
+            match done {
+                Ok((done, watch)) => {
+                    all.push(done);
+                    if watch.is_stopped() {
+                        return ControlFlow::Break(());
                     }
-                    all.push(checked);
                 }
                 Err(error) => errors.push(error),
             }
-            flow
+            ControlFlow::Continue(())
         });
-        (options.gathered(all), errors)
+        (all, errors)
     }
 }
 
@@ -138,11 +180,6 @@ impl CheckOptions {
         input: &'a Input,
         loaded: Arc<LoadedMachine>,
     ) -> Result<CheckedRun<'a>, HostError> {
-        let alone = SingleRun {
-            options: loaded.session(self.run).with_wording(self.wording),
-            naming: Naming::AsGiven,
-            axes: Axes::AsTheyOccur,
-        };
         let mut findings = Findings::default();
         let mut uncompensated = Vec::new();
         let mut rests_on = ReadingsInForce::default();
@@ -157,7 +194,7 @@ impl CheckOptions {
             }
             findings.record(record)
         };
-        let session = run_alone(input, &loaded, alone, &mut sink)?;
+        let session = self.alone(input, &loaded, &mut sink)?;
         let unknown = session.unknown();
         let unknown = unknown.map(|(axis, kind)| (axis.to_owned(), kind));
         let returned = session.interpreter().returned_files();
@@ -177,6 +214,20 @@ impl CheckOptions {
             loaded,
             findings,
         })
+    }
+
+    fn alone(
+        &self,
+        input: &Input,
+        loaded: &LoadedMachine,
+        sink: &mut dyn Sink,
+    ) -> Result<Session, HostError> {
+        let alone = SingleRun {
+            options: loaded.session(self.run).with_wording(self.wording),
+            naming: Naming::AsGiven,
+            axes: Axes::AsTheyOccur,
+        };
+        run_alone(input, loaded, alone, sink)
     }
 
     /// Returns the programs that count on their own, with their messages.

@@ -1,8 +1,6 @@
 //! What a folder shows about the machine of its programs, before it has a configuration
 //! (R9.73).
 
-use std::collections::BTreeSet;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
@@ -13,7 +11,6 @@ use crate::disk::{
 };
 use crate::error::HostError;
 use crate::machines::{ListsOnDisk, check_list_file, read_list};
-use crate::outputs::{AtomicFile, Placed, take_away_left};
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::{ListKind, is_xml};
 use frictcomp::machine::{Configuration, NoLists, Outline, check_list};
@@ -49,26 +46,6 @@ pub fn outline_of(
     }
     check_startup(&path)?;
     Ok(Outline::Startup(seen))
-}
-
-/// Creates a file as a whole; an existing one stays.
-///
-/// # Errors
-/// The file already exists, or cannot be written.
-pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
-    let mut placed = Placed::default();
-    let written = AtomicFile::begin(target).and_then(|mut file| {
-        take_away_left(&file, &mut BTreeSet::new());
-        file.write_all(text.as_bytes())?;
-        file.take_free_place()?;
-        placed.add(&file, target);
-        Ok(())
-    });
-    written.map_err(|error| match error.kind() {
-        io::ErrorKind::AlreadyExists => HostError::AlreadyThere(target.to_owned()),
-        _ => HostError::write(target, error),
-    })?;
-    placed.settle()
 }
 
 /// Returns the start-up list or the TwinCAT project below a folder, recognised by its content.

@@ -19,7 +19,7 @@ pub use checks::{
     CalledPrograms, CheckOptions, CheckedProgram, CheckedPrograms, ProgramsOnMachines,
 };
 pub use cures::MendedProgram;
-pub use first_look::{find_startup, outline_of, write_new};
+pub use first_look::{find_startup, outline_of};
 pub use git::{ChangedFile, OldFile, Revision};
 pub use left_out::{LeftOutFile, LeftOutFiles, WhyLeftOut};
 pub use unread::{UnreadVariable, unread_variables};

@@ -1,10 +1,11 @@
 //! Changes to files that leave everything else as it is (R9.82).
 
-use std::io::Write;
+use std::collections::BTreeSet;
+use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::atomic_file::{AtomicFile, Placed};
+use super::atomic_file::{AtomicFile, Placed, take_away_left};
 use crate::disk::{EncodedText, decode, read_bytes, read_text};
 use crate::error::HostError;
 use frictcomp::diagnostic::{Fix, edits};
@@ -112,5 +113,25 @@ pub fn write_mended<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> Resu
     for (path, mut file) in unfinished {
         placed.take_place(&mut file, path)?;
     }
+    placed.settle()
+}
+
+/// Creates a file as a whole; an existing one stays.
+///
+/// # Errors
+/// The file already exists, or cannot be written.
+pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
+    let mut placed = Placed::default();
+    let written = AtomicFile::begin(target).and_then(|mut file| {
+        take_away_left(&file, &mut BTreeSet::new());
+        file.write_all(text.as_bytes())?;
+        file.take_free_place()?;
+        placed.add(&file, target);
+        Ok(())
+    });
+    written.map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => HostError::AlreadyThere(target.to_owned()),
+        _ => HostError::write(target, error),
+    })?;
     placed.settle()
 }

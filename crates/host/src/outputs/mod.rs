@@ -6,10 +6,10 @@ mod in_use;
 mod interrupt;
 mod mend;
 
-pub(crate) use atomic_file::{AtomicFile, Placed, take_away_left, target};
+pub(crate) use atomic_file::target;
 pub(crate) use files::json_text;
 pub use files::{OutputFile, OutputFiles};
 pub(crate) use in_use::{device, told};
 pub use interrupt::{clean_up_when_stopped, survive_file_size_limit};
 pub(crate) use mend::read_encoded;
-pub use mend::{MendedFile, mend, write_mended};
+pub use mend::{MendedFile, mend, write_mended, write_new};

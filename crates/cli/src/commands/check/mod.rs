@@ -132,11 +132,11 @@ fn check(
     machines.look_ahead(&inputs);
     let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.listing.output.as_deref())?;
+    let options = args.options();
     let mut bench = MendRun {
         inputs: &inputs,
         machines: &mut machines,
-        execution: &args.execution,
-        workers: args.jobs,
+        options: &options,
     };
     if args.fixes.diff {
         outputs.check()?;
@@ -154,7 +154,7 @@ fn check(
     let mut listing = args.listing.lister(target)?;
     let mut baseline = args.baseline.open(&registry, &mut outputs)?;
     outputs.check()?;
-    let checked = failures.keep(programs.check(&args.options()));
+    let checked = failures.keep(programs.check(&options));
     let in_callers = checked.in_callers;
     list_all(checked, &mut listing, &mut baseline);
     found.left_out.forget_read(&registry);

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::args::{
     ByAxis, CircleChannelArgs, CncBuildArgs, CurrentReadingArgs, CycleArgs, ModelArgs, PerAxis,
+    value_list,
 };
 use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, exit, progress};
 use frictcomp_host::FileRegistry;
@@ -59,7 +60,7 @@ pub(crate) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
     let mut job = Job::new(&args.result, &registry, console)?.with_page(&args.html)?;
     let learning = Learning {
         folder: &args.folder,
-        first: args.first()?,
+        first: args.first(&registry)?,
         plant: &args.plant,
         model: args.model.model(),
         reading: args.reading.reading,
@@ -84,8 +85,8 @@ pub(crate) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
 const AXES: [&str; 2] = ["X", "Y"];
 
 impl LearnArgs {
-    /// Returns the lists with which learning begins.
-    fn first(&self) -> Result<Option<FirstLists<'_>>, Failure> {
+    /// Returns the lists with which learning begins, and reports where one has remarks.
+    fn first(&self, registry: &FileRegistry) -> Result<Option<FirstLists<'_>>, Failure> {
         if self.friction.is_empty() {
             return Ok(None);
         }
@@ -98,6 +99,9 @@ impl LearnArgs {
             [] => friction,
             given => both("--value-list", given)?,
         };
+        for path in [friction, lists].concat() {
+            value_list(path, registry)?;
+        }
         Ok(Some(FirstLists { friction, lists }))
     }
 }

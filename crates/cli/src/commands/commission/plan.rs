@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::args::{ByAxis, MachineArgs, PerAxis, quantities, value_list};
-use crate::output::{Console, Failure, Outputs, ResultArgs, ResultFormat, exit, shown};
+use crate::output::{Console, Failure, Job, ResultArgs, exit, shown};
 use frictcomp_host::commission::{AxisToMeasure, Planning};
 use frictcomp_host::{FileRegistry, sha256_of};
 use frictcomp_recordings::commission::{FreeTravel, ValueListUsed};
 use frictcomp_report::results::commission::{
-    render_json, render_program, render_readme, render_text,
+    plan_document, render_json, render_program, render_readme,
 };
-use frictcomp_report::{fitted, visible_line};
+use frictcomp_report::visible_line;
 
 /// Write the NC programs that measure friction, and a page for the operator
 ///
@@ -97,18 +97,12 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
     let mut machines = args.machine.machines(&registry);
     let loaded = machines.for_folder(Path::new("."))?;
     let report = planning.plan(&loaded)?;
-    let mut outputs = Outputs::new(&registry, console);
-    let mut target = outputs.result(args.result.output.as_deref())?;
+    let mut job = Job::new(&args.result, &registry, console)?;
     let programs = report.plan.programs.iter();
     let programs = programs.map(|it| (it.file.clone(), render_program(&report, it)));
     let pages = [("README.txt".to_owned(), render_readme(&report))];
-    planning.write(&report, programs.chain(pages), outputs.files())?;
-    outputs.check()?;
-    target.text(&match args.result.format {
-        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
-        ResultFormat::Json => render_json(&report),
-    })?;
-    outputs.finish()?;
+    planning.write(&report, programs.chain(pages), job.outputs.files())?;
+    job.finish(&plan_document(&report), || render_json(&report))?;
     Ok(exit::CLEAN)
 }
 

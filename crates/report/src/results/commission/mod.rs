@@ -13,4 +13,4 @@ pub use acceptance::Acceptance;
 pub use program::render_program;
 pub use readme::render_readme;
 pub use results::{document, render_results_json};
-pub use summary::{render_json, render_text};
+pub use summary::{plan_document, render_json};

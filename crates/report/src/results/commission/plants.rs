@@ -15,13 +15,13 @@ use crate::wording::visible_line;
 
 /// A plant as JSON.
 #[derive(Serialize)]
-pub(super) struct PlantRecord<'a> {
+pub(super) struct FittedPlantRecord<'a> {
     #[serde(flatten)]
     verdict: &'a PlantVerdict,
     not_modelled: Vec<&'static str>,
 }
 
-impl<'a> PlantRecord<'a> {
+impl<'a> FittedPlantRecord<'a> {
     pub(super) fn of(verdict: &'a PlantVerdict) -> Self {
         Self {
             verdict,

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::acceptance::{Acceptance, push_acceptance};
 use super::picture::glitches_by_feed;
-use super::plants::{PlantRecord, lacking, push_plants};
+use super::plants::{FittedPlantRecord, lacking, push_plants};
 use super::words::{number, told};
 use crate::document::{Document, Headline, Standing, Table};
 use crate::wording::{counted, to_pretty, visible_line};
@@ -242,7 +242,7 @@ struct ResultsDocument<'a> {
     said: &'a [String],
     missing: Vec<String>,
     axes: &'a [AxisVerdict],
-    plants: Vec<PlantRecord<'a>>,
+    plants: Vec<FittedPlantRecord<'a>>,
     no_plant: Vec<&'a str>,
     rounds: &'a [Round],
 }
@@ -258,7 +258,12 @@ pub fn render_results_json(report: &ResultsReport) -> String {
         said: &report.said,
         missing: report.missing(),
         axes: &report.axes,
-        plants: report.fitted.verdicts.iter().map(PlantRecord::of).collect(),
+        plants: report
+            .fitted
+            .verdicts
+            .iter()
+            .map(FittedPlantRecord::of)
+            .collect(),
         no_plant: lacking(&report.fitted),
         rounds: &report.rounds,
     })

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::words::{number, told};
-use crate::document::{Headline, Standing, Table};
+use crate::document::{Document, Headline, Standing, Table};
 use crate::wording::{counted, to_pretty, visible_line};
 use frictcomp_recordings::commission::{MeasuringProgram, PlanFile, PlanReport, Stage};
 
@@ -37,9 +37,10 @@ pub fn render_json(report: &PlanReport) -> String {
 }
 
 /// The programs with their times, and their basis.
-pub fn render_text(report: &PlanReport) -> String {
+pub fn plan_document(report: &PlanReport) -> Document<'static> {
     let plan = &report.plan;
-    let mut out = format!("{}\n\n", headline(report));
+    let mut out = Document::new("Measuring programs", headline(report));
+    out.push_str("\n");
     let mut table = Table::default()
         .left("program")
         .right("time")
@@ -49,7 +50,8 @@ pub fn render_text(report: &PlanReport) -> String {
         let file = visible_line(&program.file);
         table.row(&[&file, &minutes(program.time_s), &visible_line(&what)]);
     }
-    let _ = writeln!(out, "{table}");
+    out.table(table);
+    out.push_str("\n");
     for axis in &plan.axes {
         let (dynamics, unit) = (axis.dynamics, axis.unit());
         let _ = writeln!(

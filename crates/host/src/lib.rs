@@ -27,7 +27,6 @@ pub mod conformance;
 mod disk;
 mod error;
 mod machines;
-mod memory;
 mod outputs;
 mod recordings;
 pub mod replay;
@@ -54,7 +53,6 @@ pub use machines::{
     check_list_file, find_plant, is_configuration, nearest_config, read_list, read_value_list,
     switched_axes,
 };
-pub use memory::memory_for_simulation;
 pub use outputs::{
     MendedFile, OutputFile, OutputFiles, clean_up_when_stopped, mend, survive_file_size_limit,
     write_mended, write_new,
@@ -70,4 +68,4 @@ pub use run::{
 };
 pub use simulations::{compare, learn, tune};
 pub use watch::{Done, LineTracker, Passes, Progress, Reached, Watch, Watcher};
-pub use workers::{in_order, processors};
+pub use workers::{in_order, memory_for_simulation, processors};

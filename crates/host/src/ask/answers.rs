@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::axis::AskedAxis;
+use super::control::AskedAxis;
 use super::programs::{TAG, fingerprint};
 use frictcomp::readings::{Alternative, Question, Way};
 use frictcomp_recordings::evidence::{Answer, AnswerVerdict};

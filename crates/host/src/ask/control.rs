@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::answers::{UnreadAnswer, read_answers};
-use super::axis::AskedAxis;
 use super::programs::{ask, readme};
 use super::recording::{RecordedQuestions, read_recorded_answers};
 use super::written::{AnsweredReading, date_of, with_findings};
@@ -265,4 +264,20 @@ pub struct RecordedAnswers {
     pub channels: ChannelSelection,
     /// The CNC cycle in s, if it is given.
     pub cycle_s: Option<f64>,
+}
+
+/// The axis under test.
+#[derive(Debug, Clone)]
+pub struct AskedAxis {
+    /// Its name.
+    pub name: String,
+    /// Its logical number, P-AXIS-00016; without it axis exchange is not asked.
+    pub number: Option<u32>,
+    /// Its place among the axes of the channel, from 0.
+    pub index: usize,
+    /// The build of the control.
+    pub build: Option<CncBuild>,
+    /// Permitted travel in mm or degrees, from the present position in the positive direction and
+    /// back.
+    pub travel: f64,
 }

@@ -6,7 +6,6 @@
 //! used: ten unread ones stop the control (507845131).
 
 mod answers;
-mod axis;
 mod control;
 mod motion;
 mod programs;
@@ -14,5 +13,4 @@ mod recording;
 mod written;
 
 pub use answers::UnreadAnswer;
-pub use axis::AskedAxis;
-pub use control::{AskError, AskedControl, ReadAnswers, RecordedAnswers, TRAVEL};
+pub use control::{AskError, AskedAxis, AskedControl, ReadAnswers, RecordedAnswers, TRAVEL};

@@ -5,7 +5,7 @@ use std::hash::Hasher;
 
 use fnv::FnvHasher;
 
-use super::axis::AskedAxis;
+use super::control::AskedAxis;
 use super::motion::motion;
 use frictcomp::readings::{Question, Way};
 

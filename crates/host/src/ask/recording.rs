@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::axis::AskedAxis;
+use super::control::AskedAxis;
 use crate::disk::Disk;
 use crate::error::HostError;
 use crate::recordings::{TraceError, lacks, position_column, read_trace};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::reading::CommissionReader;
-use super::recorded::RecordedProgram;
-use super::unused::UnusedRecording;
+use super::reading::RecordedProgram;
+use super::reading::UnusedRecording;
 use crate::disk::Disk;
 use crate::error::HostError;
 use crate::recordings::read_axis;

@@ -1,6 +1,5 @@
 //! Commissioning in a folder: the program of each recording, what it shows, and what follows from all (R16.2).
 
-mod channels;
 mod closer;
 mod error;
 mod evaluated;
@@ -9,16 +8,12 @@ mod learn;
 mod plan;
 mod plants;
 mod reading;
-mod recorded;
 mod results;
 mod trend;
-mod unused;
 
-pub use channels::CommissionChannels;
 pub use error::CommissionError;
 pub use evaluated::{Commissioning, read_plans};
 pub use learn::{FirstLists, Learning};
 pub use plan::{AxisToMeasure, Planning};
-pub use reading::CommissionReader;
+pub use reading::{CommissionChannels, CommissionReader, UnusedRecording};
 pub use trend::DatedRecordings;
-pub use unused::UnusedRecording;

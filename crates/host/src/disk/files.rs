@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::decode::decode;
+use super::input::OpenText;
 use super::input::reopen;
 use super::memory_disk::MemoryDisk;
-use super::open_text::OpenText;
 use super::paths::{FolderEntry, normal, or_here, relative};
 use super::read::{open_regular, read_bytes};
 use super::shared_map::SharedMap;

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use super::decode::decode;
 use super::fixed_length::FixedLengthReader;
 use super::lines::LineReader;
-use super::open_text::OpenText;
 use super::read::{read_text, read_whole};
 use super::registry::{FileRegistry, PROGRAM};
 use crate::error::HostError;
@@ -267,6 +266,17 @@ fn refuse_other_files(path: &Path, head: &str) -> Result<(), HostError> {
         }),
         None => Ok(()),
     }
+}
+
+/// A text, and the file that it stands in for, whose content may differ or which may not
+/// exist.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct OpenText {
+    /// Path of the file.
+    pub path: PathBuf,
+    /// The text as shown in the editor.
+    pub text: Arc<String>,
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::open_text::OpenText;
+use super::input::OpenText;
 use super::paths::{FolderEntry, normal};
 
 /// Texts by their paths from the root on, and the folders that these paths name.

@@ -1,10 +1,10 @@
-//! The axes that programs name, found before they run (R9.74).
+//! The axes that programs name or switch, found before they run (R9.74).
 
 use std::collections::BTreeSet;
 use std::fs::File;
 
 use crate::disk::{Input, whole_lines};
-use frictcomp::syntax::{NamedAxes, Scan};
+use frictcomp::syntax::{NamedAxes, Scan, SwitchedAxes};
 
 /// The letters that are axes where no machine is described (R2.20).
 const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
@@ -82,6 +82,28 @@ impl AxesAhead {
 /// Whether a program can name such an axis: in capital letters, and not `ALL`.
 pub(crate) fn may_be_axis(name: &str) -> bool {
     name != "ALL" && !name.contains(|letter: char| letter.is_ascii_lowercase())
+}
+
+/// Returns the axes whose friction compensation the programs switch, sorted. What cannot be read is reported
+/// when it is run; the content of a pipe is not known yet.
+pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<String> {
+    let mut found = Vec::new();
+    for input in inputs {
+        let mut scan = Scan::new(SwitchedAxes::default());
+        match input {
+            Input::File(path) if path.is_file() => {
+                if let Ok(file) = File::open(path) {
+                    let _ = whole_lines(file, |piece| scan.feed(piece));
+                }
+            }
+            Input::Open(open) => scan.feed(open.text.as_bytes()),
+            Input::File(_) | Input::Stdin => {}
+        }
+        found.extend(scan.question.0);
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
 }
 
 #[cfg(test)]

@@ -8,14 +8,13 @@ mod discovery;
 mod finder;
 mod list_files;
 mod parameter_files;
-mod switched_axes;
 
 pub use allowed_roots::{AllowedRoots, OutsidePolicy};
 pub use assumed::UnusedAxes;
 pub(crate) use axes_ahead::AxesAhead;
+pub use axes_ahead::switched_axes;
 pub use both_versions::{MachineOfVersions, MachineOwner};
 pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
 pub use finder::{ProgramFinder, SearchPath};
 pub use list_files::{ListsOnDisk, read_list};
 pub use parameter_files::{check_list_file, find_plant, is_configuration, read_value_list};
-pub use switched_axes::switched_axes;

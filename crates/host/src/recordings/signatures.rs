@@ -1,4 +1,4 @@
-//! The programs in a recording, identified by their signatures (R16.1).
+//! The programs in a recording, identified by their signatures (R16.1), and the switches of compensation (R16.9).
 
 use std::path::Path;
 
@@ -6,8 +6,9 @@ use super::trace_error::TraceError;
 use super::traces::read_trace;
 use crate::disk::Disk;
 use crate::error::HostError;
-use frictcomp_physics::current::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};
+use frictcomp_physics::current::{POSITION_UNITS_PER_MM, Switched, VELOCITY_UNITS_PER_MM_PER_S};
 use frictcomp_recordings::commission::{Signature, signature_in};
+use frictcomp_recordings::identify::state_channel;
 use frictcomp_recordings::trace::{
     ChannelQuantity, ChannelSelection, Choice, Pick, SelectError, TimeSource,
 };
@@ -77,4 +78,45 @@ pub(crate) fn signatures_of(
         end_s: aligned.times_s.get(sample).copied().unwrap_or_default(),
     };
     Ok(found.map(at).collect())
+}
+
+/// Returns the times in s at which the channel of the compensation of an axis changes, with its state from then on, the
+/// first sample included; empty where the recording has none. Rows without times are `cycle_s` apart.
+///
+/// # Errors
+/// The file cannot be read, or is not a recording.
+pub(crate) fn switches_of(
+    path: &Path,
+    selection: &ChannelSelection,
+    cycle_s: Option<f64>,
+) -> Result<Vec<(f64, Switched)>, HostError> {
+    let mut state: Option<Pick> = None;
+    let recording = read_trace(path, &Disk::default(), |channels| {
+        state = state_channel(selection, channels);
+        let time = selection.find(ChannelQuantity::Time, channels)?;
+        Ok(Choice {
+            values: state.iter().map(|pick| pick.channel).collect(),
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::default()
+        })
+    })?;
+    let Some(state) = state else {
+        return Ok(Vec::new());
+    };
+    let Ok(aligned) = recording.align(&[state], cycle_s) else {
+        return Ok(Vec::new());
+    };
+    let samples = aligned.columns.first().map_or(&[][..], Vec::as_slice);
+    let mut switches: Vec<(f64, Switched)> = Vec::new();
+    for (&time_s, &value) in aligned.times_s.iter().zip(samples) {
+        let now = if value == 0.0 {
+            Switched::Off
+        } else {
+            Switched::On
+        };
+        if switches.last().is_none_or(|(_, last)| *last != now) {
+            switches.push((time_s, now));
+        }
+    }
+    Ok(switches)
 }

@@ -1,9 +1,4 @@
-//! Invisible characters, made visible or escaped (R9.76).
-//!
-//! Programs, lists, file names and messages of the operating system are not ours. A terminal obeys
-//! control characters, a log takes a line end for a new message, and characters that change the
-//! direction of writing show a different text from the one that the control reads. All bytes that
-//! leave the tool go through this file.
+//! Characters that could deceive: invisible ones, made visible or escaped (R9.76), and those of markup.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -87,6 +82,25 @@ pub(crate) fn is_command(text: &str) -> bool {
     text.starts_with("::") || text.starts_with("##")
 }
 
+/// Appends a text with the characters of markup escaped and invisible characters made visible.
+///
+/// Control characters become their pictures (`␀`); characters that turn the direction of writing
+/// or take no room become `⟨U+202E⟩`, so that the text that is shown is the one that the control reads.
+pub(crate) fn push_escaped(out: &mut String, text: &str) {
+    for letter in text.chars() {
+        match letter {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\t' | '\n' => out.push(letter),
+            letter if is_hidden(letter) => push_picture(out, letter),
+            letter => out.push(letter),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -108,5 +122,28 @@ mod tests {
             "\u{27e8}U+009B\u{27e9}\u{27e8}U+202E\u{27e9}\u{27e8}U+2028\u{27e9}\u{2421}"
         );
         assert_eq!(visible("Übergröße 漢 ◄"), "Übergröße 漢 ◄");
+    }
+
+    fn escaped(text: &str) -> String {
+        let mut out = String::new();
+        push_escaped(&mut out, text);
+        out
+    }
+
+    #[test]
+    fn markup_is_inert() {
+        assert_eq!(
+            escaped("<script>alert('\"&')</script>]]>"),
+            "&lt;script&gt;alert(&#39;&quot;&amp;&#39;)&lt;/script&gt;]]&gt;"
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_seen_is_shown() {
+        assert_eq!(
+            escaped("a\0b\u{202e}c\u{7f}\u{ffff}"),
+            "a\u{2400}b\u{27e8}U+202E\u{27e9}c\u{2421}\u{27e8}U+FFFF\u{27e9}"
+        );
+        assert_eq!(escaped("Übergröße 漢\t"), "Übergröße 漢\t");
     }
 }

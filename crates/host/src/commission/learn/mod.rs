@@ -2,7 +2,6 @@
 
 mod folder;
 mod recorded;
-mod start;
 
 use std::path::Path;
 
@@ -10,10 +9,10 @@ use super::error::CommissionError;
 use crate::disk::{Disk, FileRegistry, Replaces, read_text};
 use crate::error::HostError;
 use crate::machines::{find_plant, read_value_list};
-use crate::memory::memory_for_simulation;
 use crate::outputs::OutputFiles;
 use crate::simulations::learn;
 use crate::watch::Watch;
+use crate::workers::memory_for_simulation;
 use folder::LearningFolder;
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, Points};

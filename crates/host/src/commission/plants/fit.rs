@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::circles::{Driven, RoundCircles, has};
+use super::fitting::{Driven, RoundCircles, has};
 use super::fitting::{FittedAxis, Fitting, NoPlant};
 use crate::commission::CommissionError;
 use crate::disk::{Replaces, read_text, sha256_of_data};

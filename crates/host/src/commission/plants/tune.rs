@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::circles::{Driven, RoundCircles, has};
 use super::fit::plant_of;
+use super::fitting::{Driven, RoundCircles, has};
 use super::fitting::{FittedAxis, Fitting, NoPlant};
 use crate::disk::{read_text, sha256_of_data, sha256_of_text};
 use crate::error::HostError;

@@ -1,6 +1,6 @@
 //! The plant of each round, and what the recordings show about it.
 
-use super::circles::{Driven, RoundCircles, common_feeds, driven_in, has};
+use super::fitting::{Driven, RoundCircles, common_feeds, driven_in, has};
 use super::fitting::{FittedAxis, Fitting, NoPlant, recorded_list};
 use crate::disk::read_text;
 use crate::error::HostError;

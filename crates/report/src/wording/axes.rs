@@ -1,10 +1,12 @@
-//! The feed moves without friction compensation, in words (R13.12).
+//! The motion of axes in words: feed moves without friction compensation (R13.12), assumed limits, glitches.
 
 use std::fmt::Write as _;
 
 use super::strings::grouped;
 use frictcomp::lists::AxisType;
 use frictcomp::timeline::FeedMoves;
+use frictcomp_physics::contour::{ContourReversal, GlitchFigure};
+use frictcomp_physics::motion::AssumedLimits;
 
 /// The feed moves of an axis without compensation, as the text after its name: ` off during 155 feed
 /// moves, the longest 812 mm` (R13.12). `None` if there are none.
@@ -45,6 +47,57 @@ pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String>
 fn plain_number(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// One line for all axes with the same assumed limits: their values, and the keys that set them (R5.2,
+/// R11.23).
+pub fn assumed_limits<'a>(axes: impl IntoIterator<Item = &'a AssumedLimits>) -> Vec<String> {
+    let mut assumed: Vec<([String; 2], Vec<&str>)> = Vec::new();
+    for axis in axes {
+        let words = words(axis);
+        match assumed.iter_mut().find(|(known, _)| *known == words) {
+            Some((_, names)) => names.push(&axis.axis),
+            None => assumed.push((words, vec![&axis.axis])),
+        }
+    }
+    let line = |([limits, keys], names): &([String; 2], Vec<&str>)| {
+        format!(
+            "limits assumed for {}: {limits}; give those of the machine in `frictcomp.toml`, with {keys}",
+            names.join(" ")
+        )
+    };
+    assumed.iter().map(line).collect()
+}
+
+/// The values, and the keys.
+fn words(axis: &AssumedLimits) -> [String; 2] {
+    let units = match axis.axis_type {
+        AxisType::Linear => ["mm/min", "m/s²", "m/s³"],
+        _ => ["°/min", "°/s²", "°/s³"],
+    };
+    let parts = [
+        (axis.max_velocity, "`max_velocity`"),
+        (axis.max_acceleration, "`max_acceleration`"),
+        (axis.max_jerk, "`max_jerk`"),
+    ];
+    let parts = parts.into_iter().zip(units);
+    let (values, keys): (Vec<String>, Vec<&str>) = parts
+        .filter_map(|((value, key), unit)| Some((format!("{:.0} {unit}", value?), key)))
+        .unzip();
+    let keys = match keys.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        keys => keys.join(""),
+    };
+    [values.join(", "), keys]
+}
+
+/// The glitch as programmed, or the reason why it has no figure: "along the path".
+pub(crate) fn glitch_in_words(reversal: &ContourReversal) -> String {
+    match reversal.figure {
+        GlitchFigure::Measured => format!("{:.1} µm", reversal.glitch_um.programmed),
+        GlitchFigure::AlongPath => "along the path".to_owned(),
+        GlitchFigure::Missing => "too near to a stop or a corner for a figure".to_owned(),
+    }
 }
 
 #[cfg(test)]

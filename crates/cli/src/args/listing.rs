@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::fail_on::SeverityArgs;
 use super::fail_on::{FailOn, FailOnWord};
-use super::severities::SeverityArgs;
 use super::values;
 use crate::output::{Console, DataTarget, Failure, Printed, RecordsFormat};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use clap::Args;
 
+use super::fail_on::SeverityArgs;
 use super::settings::{self, SetVariable};
-use super::severities::SeverityArgs;
 use crate::output::{Console, Failure, Terminal};
 use frictcomp::diagnostic::{CodeFilter, Severity};
 use frictcomp::lists::FrictionList;

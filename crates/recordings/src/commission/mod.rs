@@ -5,7 +5,6 @@
 //! or degrees a minute. Each program begins with a [`signature`](signature_in) that its recording carries.
 
 mod actual;
-mod at_feed;
 mod compared;
 mod error;
 mod evaluated;
@@ -21,7 +20,6 @@ mod plants;
 mod program;
 mod request;
 mod results;
-mod room;
 mod round;
 mod runs;
 mod signature;

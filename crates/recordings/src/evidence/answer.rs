@@ -1,4 +1,4 @@
-//! Answers of a control to the questions that the documents leave open.
+//! Conclusions from recordings, and answers of a control to the questions that the documents leave open.
 
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Alternative, Question};
@@ -59,4 +59,38 @@ pub fn drop_answered(answers: &mut Vec<Answer>) {
     let found: Vec<Question> = found.map(|it| it.question).collect();
     answers.retain(|it| decided(it) || !found.contains(&it.question));
     answers.sort_by_key(|it| it.question);
+}
+
+/// Conclusion on one question from a recording.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Conclusion {
+    /// The question.
+    pub question: Question,
+    /// The reading that the recording shows; `None` if it decides nothing.
+    pub reading: Option<Alternative>,
+    /// The evidence for it, or the reason why there is none.
+    pub words: String,
+}
+
+impl Conclusion {
+    /// Returns the conclusion that nothing is decided, with a reason.
+    pub fn none(question: Question, reason: impl Into<String>) -> Self {
+        Self {
+            question,
+            reading: None,
+            words: reason.into(),
+        }
+    }
+
+    pub(super) fn of(question: Question, shown: Result<(Alternative, String), String>) -> Self {
+        match shown {
+            Ok((reading, words)) => Self {
+                question,
+                reading: Some(reading),
+                words,
+            },
+            Err(reason) => Self::none(question, reason),
+        }
+    }
 }

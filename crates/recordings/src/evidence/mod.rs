@@ -11,10 +11,8 @@ mod fit;
 mod recorded;
 mod stroke;
 mod switching;
-mod verdict;
 
-pub use answer::{Answer, AnswerVerdict, contradicted, drop_answered};
+pub use answer::{Answer, AnswerVerdict, Conclusion, contradicted, drop_answered};
 pub use currents::judge_currents;
 pub use recorded::{EvidenceRecording, Samples};
 pub use switching::{LOOK_AHEAD_PARTS, WITH_MOTION_PARTS, judge_look_ahead, judge_with_motion};
-pub use verdict::Conclusion;

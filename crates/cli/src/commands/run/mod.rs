@@ -1,7 +1,6 @@
 //! `frictcomp run`: programs one after the other in one session of the control.
 
 mod listeners;
-mod quiet;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -26,8 +25,7 @@ use frictcomp_report::{
     Blocks, Positions, Report, Runs, TextOptions, TimelineFormat, TimelineOptions, View,
     command_line, concise_line,
 };
-use listeners::{Listeners, SharedReport};
-use quiet::Quiet;
+use listeners::{Listeners, Quiet, SharedReport};
 
 /// Show what is active, block by block, and what is left at the end
 ///

@@ -3,7 +3,7 @@
 
 use frictcomp::machine::{Configuration, check_list};
 use frictcomp_fuzz::Files;
-use frictcomp_report::lists::render_parameters;
+use frictcomp_report::results::lists::render_parameters;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|input: &str| {

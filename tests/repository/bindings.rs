@@ -194,7 +194,7 @@ fn the_hook_takes_every_program_that_the_command_takes() {
     let (_, endings) = hooks.split_once(r"(?i)\.(").expect("letters of any case");
     let (endings, _) = endings.split_once(")$").expect("an end");
     let endings: BTreeSet<&str> = endings.split('|').collect();
-    let kinds = read("crates/host/src/file_kind.rs");
+    let kinds = read("crates/host/src/disk/file_kind.rs");
     let (_, known) = kinds
         .split_once("EXTENSIONS: [&str; 10] =")
         .expect("the endings");

@@ -13,7 +13,7 @@ use frictcomp::machine::{
     Axis, AxisSet, Configuration, ListsReport, Parameterisation, check_configuration, check_list,
 };
 use frictcomp::text::SourceFile;
-use frictcomp_report::lists::render_parameters;
+use frictcomp_report::results::lists::render_parameters;
 
 use super::fixes::{Texts, mended};
 use super::runs::{advice, message};

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{AxisAudit, ProgramAudit};
-use frictcomp::text::shown_path;
 use frictcomp_host::{
     ArchiveAuditor, AuditOptions, FileRegistry, HostError, Input, MachineOptions, Machines,
 };
-use frictcomp_report::audit::{AuditReport, MachineAudit, records};
 use frictcomp_report::counted;
+use frictcomp_report::results::audit::{AuditReport, MachineAudit, records};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
@@ -82,16 +81,8 @@ fn audited(job: AuditJob, stop: &Stop) -> Result<Audited, Failure> {
     if let Some(failure) = Failure::of_several(errors) {
         return Err(failure);
     }
-    let machines = auditor.machines().iter().zip(archives);
-    let machines = machines.map(|(loaded, archive)| {
-        let origin = loaded.origin.as_deref();
-        MachineAudit::new(origin.map(shown_path), &loaded.machine, archive)
-    });
     Ok(Audited {
-        report: AuditReport {
-            machines: machines.collect(),
-            not_checked: None,
-        },
+        report: AuditReport::new(auditor.described(), archives, None),
         said: said(&auditor),
     })
 }
@@ -122,15 +113,11 @@ impl AuditJob {
 
 /// The errors that keep the control from accepting its lists, and the remark that no machine is described.
 pub(crate) fn said(auditor: &ArchiveAuditor) -> GivenMessages {
-    let undescribed = auditor.programs().iter().filter_map(|(input, machine)| {
-        let loaded = &auditor.machines()[*machine];
-        (!loaded.machine.is_described()).then_some(input)
-    });
     let machines = auditor.machines().iter();
     let errors = machines.flat_map(|loaded| loaded.errors().map(PyMessage::of));
     GivenMessages {
         messages: errors.collect(),
-        remark: remark_without_machine(undescribed),
+        remark: remark_without_machine(auditor.undescribed()),
         ..GivenMessages::default()
     }
 }

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use frictcomp::interpreter::{Motions, Options};
-use frictcomp::session::SessionOptions;
 use frictcomp_host::{
     ContourSetup, Disk, FileRegistry, LoadedMachine, MachineOptions, Naming, drive_contour,
     find_plant, read_value_list,
@@ -14,8 +13,10 @@ use frictcomp_physics::contour::{ContourLimits, ContourOptions};
 use frictcomp_physics::motion::PlannerOptions;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_report::Detail;
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, contour_remarks, render_json};
 use frictcomp_report::pictures::ContourPicture;
+use frictcomp_report::results::contour::{
+    ContourRecorder, ContourSubject, contour_remarks, render_json,
+};
 use frictcomp_report::svg::Frame;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -172,9 +173,8 @@ impl ContourJob {
                 self.max_cycles.unwrap_or(usual.max_cycles),
                 loaded,
             )?,
-            session: SessionOptions::from(self.run.with_motions(Motions::Taken))
-                .with_levels(loaded.levels.clone())
-                .with_settings(loaded.settings.clone())
+            session: loaded
+                .session(self.run.with_motions(Motions::Taken))
                 .with_start(positions(&self.start, loaded)?),
             naming: Naming::AsGiven,
         })

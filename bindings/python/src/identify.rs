@@ -15,11 +15,11 @@ use frictcomp_recordings::identify::{
     IdentifyOptions, ListRequest, ListRequestError, identify as find,
 };
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
-use frictcomp_report::identify::{IdentifyReport, render_json};
-use frictcomp_report::on_circles::{self, OnCirclesReport};
+use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified};
 use frictcomp_report::pictures::friction_curve;
+use frictcomp_report::results::identify::on_circles::{self, OnCirclesReport};
+use frictcomp_report::results::identify::{IdentifyReport, render_json};
 use frictcomp_report::svg::Frame;
-use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 

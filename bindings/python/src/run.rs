@@ -1,7 +1,6 @@
 //! `frictcomp.run`: programs one after the other in one session.
 
 use frictcomp::interpreter::{Options, StopPolicy};
-use frictcomp::session::SessionOptions;
 use frictcomp::{diagnostic::Diagnostic, session::Session};
 use frictcomp_host::{
     self, MachineOptions, Naming, RunContext, expect_axes, open_session, run_programs,
@@ -72,9 +71,7 @@ impl RunJob {
         let inputs = &self.programs.inputs;
         self.programs.probe()?;
         let loaded = machine_of(self.machine, &self.programs, self.start.axes())?;
-        let mut options = SessionOptions::from(self.run)
-            .with_levels(loaded.levels.clone())
-            .with_settings(loaded.settings.clone());
+        let mut options = loaded.session(self.run);
         if !loaded.machine.is_described() {
             options = options.with_switched(switched_axes(inputs));
         }

@@ -19,12 +19,11 @@ use frictcomp_physics::circle::{
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::circle::{CircleReport, ListOrigin, picture, render_json};
+use frictcomp_recordings::value_lists::render_tuned;
 use frictcomp_report::pictures;
+use frictcomp_report::results::circle::{CircleReport, ListOrigin, picture, render_json};
+use frictcomp_report::results::tune::{TuneReport, render_json as render_tune};
 use frictcomp_report::svg::Frame;
-use frictcomp_report::tune::{TuneReport, render_json as render_tune};
-use frictcomp_report::value_lists::render_tuned;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -219,7 +218,7 @@ impl PyTuned {
         let has_lists = axes.iter().all(|axis| axis.list().is_some());
         let head = ListHead::default();
         let lists = axes.each_ref().map(|axis| {
-            [None, Some(FRACTIONS)].map(|build| render_tuned(&report, axis, build, &head))
+            [None, Some(FRACTIONS)].map(|build| render_tuned(report.list_of(axis), build, &head))
         });
         let reports = std::slice::from_ref(&report);
         Self {
@@ -276,7 +275,6 @@ pub(crate) fn tune(
     interruptible(py, move |stop| {
         memory_for_simulation()?;
         let plant = find_plant(&plant, &FileRegistry::default())?;
-        let name = plant.name.clone();
         let task = Task {
             plant,
             model,
@@ -296,13 +294,8 @@ pub(crate) fn tune(
             },
         };
         let watch = Watch::by(Arc::new(stop.clone()));
-        Ok(PyTuned::of(TuneReport {
-            plant: name,
-            model: model.as_str(),
-            reading: reading.to_string(),
-            not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
-            tuned: search(&task, &watch).map_err(Failure::of_circle)?,
-        }))
+        let tuned = search(&task, &watch).map_err(Failure::of_circle)?;
+        Ok(PyTuned::of(TuneReport::new(&task, tuned)))
     })
 }
 

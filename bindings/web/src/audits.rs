@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use frictcomp::audit::AxisAudit;
 use frictcomp::interpreter::Options;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, LeftOutFiles, Machines};
-use frictcomp_report::audit::{AuditReport, MachineAudit, Word};
 use frictcomp_report::html::render_audit;
+use frictcomp_report::results::audit::{AuditReport, MachineAudit, Word};
 use serde::Serialize;
 
 use crate::dropped::{Dropped, Kind};
@@ -99,12 +99,8 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
         let (auditor, errors) = ArchiveAuditor::new(inputs, &mut machines, options);
         let (archives, unread) = auditor.audit();
         failures.extend(errors.into_iter().chain(unread).map(Refusal::from));
-        let audits = auditor.machines().iter().zip(archives);
-        report.machines.extend(audits.map(|(loaded, archive)| {
-            let origin = loaded.origin.as_deref();
-            let origin = origin.map(|it| it.display().to_string());
-            MachineAudit::new(origin, &loaded.machine, archive)
-        }));
+        let of_group = AuditReport::new(auditor.described(), archives, None);
+        report.machines.extend(of_group.machines);
     }
     Audited { report, failures }
 }

@@ -7,8 +7,8 @@ use frictcomp_host::{Watch, compare};
 use frictcomp_physics::circle::{Circle, CircularTest, Method};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Preset};
-use frictcomp_report::circle::{CircleReport, ListOrigin, document};
 use frictcomp_report::html::render_document;
+use frictcomp_report::results::circle::{CircleReport, ListOrigin, document};
 use serde::{Deserialize, Serialize};
 
 use crate::drawn_report::DrawnReport;

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use frictcomp::diagnostic::UnknownName;
-use frictcomp::session::SessionOptions;
+use frictcomp::interpreter::Options;
 use frictcomp_host::{ContourSetup, LoadedMachine, Naming, NoDrivenContour, Watch, drive_contour};
 use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_report::Detail;
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
+use frictcomp_report::results::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp_report::svg::Frame;
 use serde::{Deserialize, Serialize};
 
@@ -89,9 +89,8 @@ fn setup(loaded: &LoadedMachine, settings: &ContourSettings) -> Result<ContourSe
         value_lists: Vec::new(),
         model: FrictionModel::default(),
         planner: usual.with_cycle_s(cycle_s).with_max_cycles(MOST_CYCLES),
-        session: SessionOptions::default()
-            .with_levels(loaded.levels.clone())
-            .with_settings(loaded.settings.clone())
+        session: loaded
+            .session(Options::default())
             .with_start(settings.start.clone())
             .with_wording(Some(page)),
         naming: Naming::AsGiven,

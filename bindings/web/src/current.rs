@@ -3,9 +3,8 @@
 use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, State};
-use frictcomp::interpreter::Motions;
+use frictcomp::interpreter::{Motions, Options};
 use frictcomp::machine::Machine;
-use frictcomp::session::SessionOptions;
 use frictcomp_host::{Axes, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{
     CurrentCycle, CurrentOptions, CurrentSink, FollowError, ProgramCurrents, axes_to_follow,
@@ -110,9 +109,8 @@ pub(crate) fn answer(
     };
     let options = CurrentOptions::from(planner);
     let mut currents = ProgramCurrents::new(&loaded.machine, &followed, options, drawing);
-    let mut session = SessionOptions::default()
-        .with_levels(loaded.levels.clone())
-        .with_settings(loaded.settings.clone())
+    let mut session = loaded
+        .session(Options::default())
         .with_start(start)
         .with_wording(Some(page));
     session.run = session.run.with_motions(Motions::Taken);

@@ -2,8 +2,8 @@
 
 use frictcomp::lists::Parameter;
 use frictcomp::machine::AcceptedList;
-use frictcomp_report::lists::cells;
 use frictcomp_report::pictures::value_curves;
+use frictcomp_report::results::lists::cells;
 use frictcomp_report::svg::Frame;
 use serde::Serialize;
 

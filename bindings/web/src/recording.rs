@@ -10,9 +10,9 @@ use frictcomp_physics::current::Reading;
 use frictcomp_recordings::identify::{Predictor, verify_followed};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
 use frictcomp_report::Detail;
-use frictcomp_report::circle::{self, CircleReport};
-use frictcomp_report::trace::{self, TraceReport};
-use frictcomp_report::verify::{self, VerifyReport};
+use frictcomp_report::results::circle::{self, CircleReport};
+use frictcomp_report::results::trace::{self, TraceReport};
+use frictcomp_report::results::verify::{self, VerifyReport};
 use serde::{Deserialize, Serialize};
 
 use crate::drawn_report::DrawnReport;

@@ -8,7 +8,6 @@ use frictcomp::diagnostic::Wording;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::EndedBy;
 use frictcomp::interpreter::{Limits, Options, StopPolicy};
-use frictcomp::session::SessionOptions;
 use frictcomp::text::LineSource;
 use frictcomp_host::{Axes, Disk, LoadedMachine, Naming, SingleRun, run_alone};
 use frictcomp_report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
@@ -176,10 +175,7 @@ fn alone(loaded: &LoadedMachine, settings: &RunSettings, wording: Wording) -> Si
     let limits = limits.with_blocks(settings.max_blocks.unwrap_or(limits.blocks));
     let run = Options::default().with_stop(stop).with_limits(limits);
     SingleRun {
-        options: SessionOptions::from(run)
-            .with_levels(loaded.levels.clone())
-            .with_settings(loaded.settings.clone())
-            .with_wording(Some(wording)),
+        options: loaded.session(run).with_wording(Some(wording)),
         naming: Naming::AsGiven,
         axes: Axes::Ahead,
     }

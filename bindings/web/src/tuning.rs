@@ -7,9 +7,8 @@ use frictcomp_host::{Watch, tune};
 use frictcomp_physics::circle::{Circle, Ranges, Shaping, Task, TuningAim};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
-use frictcomp_report::assumptions::not_modelled;
-use frictcomp_report::tune::{TuneReport, document};
-use frictcomp_report::value_lists::render_tuned;
+use frictcomp_recordings::value_lists::render_tuned;
+use frictcomp_report::results::tune::{TuneReport, document};
 use serde::{Deserialize, Serialize};
 
 use crate::circle::preset;
@@ -46,7 +45,7 @@ pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let [axis, _] = &report.tuned.axes;
     Ok(json(&TuningAnswer {
         drawn: DrawnReport::from(&document(std::slice::from_ref(&report))),
-        list: render_tuned(&report, axis, None, &ListHead::default()),
+        list: render_tuned(report.list_of(axis), None, &ListHead::default()),
     }))
 }
 
@@ -61,10 +60,9 @@ fn tuned(settings: &TuneSettings) -> Result<TuneReport, Refusal> {
         feed_mm_per_min,
         ..Circle::default()
     });
-    let model = FrictionModel::default();
     let task = Task {
         plant: preset(&settings.plant)?.plant(),
-        model,
+        model: FrictionModel::default(),
         circles: circles.collect(),
         ranges: Ranges::default(),
         reading: Reading::default(),
@@ -75,11 +73,5 @@ fn tuned(settings: &TuneSettings) -> Result<TuneReport, Refusal> {
     let watch = Watch::by(Arc::new(Page));
     let tuned = tune(&task, &watch)
         .map_err(|error| Refusal::new(error.to_string()).with_help(error.help()))?;
-    Ok(TuneReport {
-        plant: settings.plant.clone(),
-        model: model.as_str(),
-        reading: Reading::default().to_string(),
-        not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
-        tuned,
-    })
+    Ok(TuneReport::new(&task, tuned))
 }

@@ -1,4 +1,4 @@
-//! The command line: files, arguments, exit status. One file per command.
+//! The command line: files, arguments, exit status. Each command is a file or a folder of `commands`.
 //!
 //! Takes the arguments and returns the exit status, for a process that continues:
 //!
@@ -6,74 +6,10 @@
 //! assert_eq!(frictcomp_cli::status(["frictcomp", "explain", "no such word"].map(Into::into)), 2);
 //! ```
 
-mod ask;
-mod audit;
-mod baseline;
-mod channels;
-mod check;
-mod circle;
-mod cnc_build;
-mod code_page;
-mod commission;
-mod completions;
-mod config;
-mod conformance;
-mod console;
-mod contour;
-mod current;
-mod cycle;
-mod dap;
-mod diff;
-mod diff_git;
-mod drive;
-mod examples;
-mod execution;
-mod exit;
-mod explain;
-mod fail_on;
-mod failure;
-mod failures;
-mod folders;
-mod golden;
-mod groups;
-mod html;
-mod identify;
-mod init;
-mod listeners;
-mod listing;
-mod lists;
-mod lsp;
-mod machine;
-mod man;
-mod mend;
+mod args;
+mod commands;
 mod moved;
-mod named_lists;
-mod outputs;
-mod painted;
-mod per_axis;
-mod piped;
-mod progress;
-mod quantities;
-mod quiet;
-mod readings;
-mod replay;
-mod result;
-mod run;
-mod settings;
-mod severities;
-mod show;
-mod simulated;
-mod sole_file;
-mod start;
-mod stiction;
-mod tool_radius;
-mod trace;
-mod tune;
-mod values;
-mod verify;
-mod vocabulary;
-mod watch;
-mod wildcards;
+mod output;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -81,12 +17,15 @@ use std::process::ExitCode;
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-pub use explain::{NoPage, page_about};
+pub use commands::explain::{NoPage, page_about};
 
-use code_page::{CodePage, Encoded};
-use console::{Color, Console, OutputContents};
-use failure::Failure;
-use sole_file::Meant;
+use args::{Meant, expanded, in_groups, parse_width, with_examples};
+use commands::{
+    ask, audit, check, circle, commission, completions, config, conformance, contour, current, dap,
+    diff, drive, explain, golden, identify, init, lists, lsp, man, replay, run, show, stiction,
+    trace, tune, verify,
+};
+use output::{CodePage, Color, Console, Encoded, Failure, OutputContents, broken_pipe, exit};
 
 use frictcomp::syntax::bound_reading;
 use frictcomp_host::{Replaces, clean_up_when_stopped, survive_file_size_limit};
@@ -102,7 +41,7 @@ struct Arguments {
     #[arg(help_heading = "Terminal")]
     color: Color,
     /// Width of text in columns; by default that of the terminal, else `COLUMNS`, else 100
-    #[arg(long, global = true, value_name = "N", value_parser = settings::parse_width)]
+    #[arg(long, global = true, value_name = "N", value_parser = parse_width)]
     #[arg(help_heading = "Terminal")]
     width: Option<usize>,
     /// Let an output take the place of a program, a list or frictcomp.toml
@@ -165,7 +104,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let mut arguments: Vec<OsString> = arguments.into_iter().collect();
     if cfg!(windows) {
-        arguments = wildcards::expanded(arguments);
+        arguments = expanded(arguments);
     }
     let tool = moved::with_moved(description());
     let is_command = |word: &str| tool.find_subcommand(word).is_some();
@@ -271,7 +210,7 @@ fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
         None => error.print(),
     };
     let flushed = printed.and_then(|()| std::io::stdout().flush());
-    match flushed.map_err(piped::broken_pipe) {
+    match flushed.map_err(broken_pipe) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Console::new(Color::Auto, None).explain(&Failure::output(error));
             exit::FAILED
@@ -286,10 +225,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Check(args) => check::run(args, console),
         Command::Audit(args) => audit::run(args, console),
         Command::Golden(args) => golden::run(args, console),
-        Command::Diff(args) => match args.revision() {
-            Some(revision) => diff_git::run(args, revision, console),
-            None => diff::run(args, console),
-        },
+        Command::Diff(args) => diff::run(args, console),
         Command::Show(command) => show::run(command, console),
         Command::Lists(args) => lists::run(args, console),
         Command::Drive(args) => drive::run(args, console),
@@ -317,7 +253,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
 
 /// Returns the description of the command line, for completions and the manual page.
 fn description() -> clap::Command {
-    groups::in_groups(examples::with_examples(Arguments::command()))
+    in_groups(with_examples(Arguments::command()))
 }
 
 #[cfg(test)]

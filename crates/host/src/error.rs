@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::in_use::{device, told};
-use super::trace_error::TraceError;
+use crate::ask::AskError;
+use crate::commission::CommissionError;
+use crate::outputs::{device, told};
+use crate::recordings::TraceError;
 use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp::text::shown_path;
 use frictcomp_physics::simulation::{Preset, UnknownPreset};
@@ -252,6 +254,12 @@ pub enum HostError {
     /// A recorded trace that cannot be read.
     #[error(transparent)]
     Trace(#[from] TraceError),
+    /// A control that cannot be asked.
+    #[error(transparent)]
+    Ask(#[from] AskError),
+    /// A commissioning that cannot go on.
+    #[error(transparent)]
+    Commission(#[from] CommissionError),
     /// A memory limit that is too low for a simulation.
     #[error("not enough memory: a simulation needs {mebibytes} MiB")]
     Memory {
@@ -281,7 +289,8 @@ impl HostError {
         match self {
             Self::Configuration { diagnostics, .. }
             | Self::ValueList { diagnostics, .. }
-            | Self::Plant { diagnostics, .. } => diagnostics,
+            | Self::Plant { diagnostics, .. }
+            | Self::Ask(AskError::Machine(diagnostics)) => diagnostics,
             _ => &[],
         }
     }
@@ -354,6 +363,10 @@ impl HostError {
                 });
             }
             Self::Trace(error) => return error.help(),
+            Self::Ask(AskError::Contradiction(_)) => {
+                "give the files of one control, and one at a time to see which it is"
+            }
+            Self::Commission(error) => return error.help(),
             Self::Memory { .. } => {
                 "close other programs, or raise the limit of the shell (`ulimit -v`)"
             }

@@ -2,8 +2,9 @@
 //!
 //! A [`trace::TraceReader`] takes the bytes of a recording from Scope, SINUMERIK or a plain table and
 //! returns its channels with their times. [`identify`] finds friction curves and value lists in them, and
-//! judges a value list by them. [`commission`] plans the programs that are recorded. [`evidence`] judges the
-//! questions that the documents leave open.
+//! judges a value list by them. [`commission`] plans the programs that are recorded. [`replay`] holds a recording of states beside
+//! the dry run. [`evidence`] judges the
+//! questions that the documents leave open. [`value_lists`] writes lists with remarks on their origin.
 //!
 //! ```
 //! use frictcomp_recordings::trace::{Choice, TraceReader};
@@ -18,4 +19,6 @@
 pub mod commission;
 pub mod evidence;
 pub mod identify;
+pub mod replay;
 pub mod trace;
+pub mod value_lists;

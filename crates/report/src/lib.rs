@@ -16,73 +16,26 @@
 //! # Ok::<(), std::string::FromUtf8Error>(())
 //! ```
 
-mod advice;
 pub mod assumptions;
-pub mod audit;
-pub mod circle;
-pub mod commission;
-pub mod compare;
-pub mod configuration;
-pub mod contour;
-mod csv;
-pub mod current;
-mod diagnostics;
 mod document;
-pub mod drives;
-mod escape;
-mod feed_moves;
-mod glitch;
 pub mod html;
-pub mod identify;
-mod json;
-pub mod learn;
-mod limits;
-pub mod lists;
 mod messages;
-mod ndjson;
-mod of_axes;
-pub mod on_circles;
-mod output;
 pub mod pictures;
-mod records;
-pub mod replay;
-pub mod schema;
-pub mod states;
-pub mod stiction;
-mod strings;
+pub mod results;
 pub mod svg;
-mod text;
-mod timeline_format;
-pub mod trace;
-pub mod trend;
-pub mod tune;
-mod unified;
-pub mod value_lists;
-pub mod verify;
-mod view;
-mod visible;
+mod timeline;
 mod wording;
 
-pub use csv::{Csv, Positions};
-pub use diagnostics::wrap;
-pub use diagnostics::{Detail, FALLBACK_WIDTH, Look, Paint, fitted, render};
 pub use document::{Document, Headline, ShownDocument, Standing, Table};
-pub use feed_moves::feed_moves_text;
-pub use json::Json;
-pub use limits::assumed_limits;
-pub use messages::concise_line;
-pub use messages::{Listing, ListingFormat, ProgramResult, Tally};
-pub use ndjson::Ndjson;
-pub use of_axes::of_axes;
-pub use output::Report;
-pub use strings::counted;
-pub use text::{MessageExtent, Runs, Text, TextOptions, headline};
-pub use timeline_format::{TimelineFormat, TimelineOptions};
-pub use unified::{TextChange, render_unified};
-pub use view::{Blocks, View};
-pub use visible::visible_line;
-pub use visible::{leading, visible};
-pub use wording::command_line;
+pub use messages::{Listing, ListingFormat, ProgramResult, Tally, concise_line};
+pub use timeline::{
+    Blocks, Csv, Json, MessageExtent, Ndjson, Positions, Report, Runs, Text, TextOptions,
+    TimelineFormat, TimelineOptions, View, headline,
+};
+pub use wording::{
+    Detail, FALLBACK_WIDTH, Look, Paint, TextChange, assumed_limits, command_line, counted,
+    feed_moves_text, fitted, leading, render, render_unified, rounded, visible, visible_line, wrap,
+};
 
 #[cfg(test)]
 mod tests;

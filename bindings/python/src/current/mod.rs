@@ -10,7 +10,6 @@ use std::path::PathBuf;
 
 use frictcomp::interpreter::{Motions, Options};
 use frictcomp::machine::Parameterisation;
-use frictcomp::session::SessionOptions;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
     Axes, Disk, FileRegistry, LoadedMachine, MachineOptions, Naming, SingleRun, read_value_list,
@@ -184,9 +183,8 @@ impl ProgramsJob {
 
     fn alone(&self, loaded: &LoadedMachine) -> Result<SingleRun, Failure> {
         Ok(SingleRun {
-            options: SessionOptions::from(self.run.with_motions(Motions::Taken))
-                .with_levels(loaded.levels.clone())
-                .with_settings(loaded.settings.clone())
+            options: loaded
+                .session(self.run.with_motions(Motions::Taken))
                 .with_start(positions(&self.start, loaded)?),
             naming: Naming::AsGiven,
             axes: Axes::AsTheyOccur,

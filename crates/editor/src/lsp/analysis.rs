@@ -194,10 +194,7 @@ pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions
     let run = Options::default()
         .with_stop(StopPolicy::CheckAll)
         .with_limits(limits(max_blocks));
-    SessionOptions::from(run)
-        .with_levels(loaded.levels.clone())
-        .with_settings(loaded.settings.clone())
-        .with_wording(Some(editor))
+    loaded.session(run).with_wording(Some(editor))
 }
 
 /// The budgets of a program in an editor: the more blocks are checked, the longer loops and calls may

@@ -13,17 +13,16 @@ use super::view::RequestView;
 use super::wording::editor;
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::interpreter::Options;
-use frictcomp::session::SessionOptions;
-use frictcomp::text::{LineSource, shown_path};
+use frictcomp::text::LineSource;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
     ArchiveAuditor, AuditOptions, Axes, Disk, FileRegistry, Input, MachineOptions, Machines,
     Naming, OpenText, SingleRun, find_programs, run_alone,
 };
-use frictcomp_report::audit::{AuditReport, MachineAudit};
 use frictcomp_report::html::{
     GivenForRun, RunDigest, RunInputs, Sources, render_audit, render_run,
 };
+use frictcomp_report::results::audit::AuditReport;
 
 /// The timeline of a program as an HTML report.
 pub(super) const SHOW_TIMELINE: &str = "frictcomp.showTimeline";
@@ -96,9 +95,8 @@ fn timeline(view: &RequestView, subject: &CommandSubject) -> Result<CommandResul
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let loaded = machines.for_folder(input.folder())?;
     let alone = SingleRun {
-        options: SessionOptions::default()
-            .with_levels(loaded.levels.clone())
-            .with_settings(loaded.settings.clone())
+        options: loaded
+            .session(Options::default())
             .with_wording(Some(editor)),
         naming: Naming::AsGiven,
         axes: Axes::Ahead,
@@ -157,20 +155,8 @@ fn audit(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, 
     if let Some(error) = errors.into_iter().next() {
         return Err(error.into());
     }
-    let audits = auditor
-        .machines()
-        .iter()
-        .zip(archives)
-        .map(|(loaded, archive)| {
-            let origin = loaded.origin.as_deref();
-            MachineAudit::new(origin.map(shown_path), &loaded.machine, archive)
-        });
-    let audits: Vec<MachineAudit> = audits.collect();
     found.left_out.forget_read(&unheard);
-    let report = AuditReport {
-        machines: audits,
-        not_checked: found.left_out.in_words(),
-    };
+    let report = AuditReport::new(auditor.described(), archives, found.left_out.in_words());
     let mut page = Vec::new();
     render_audit(&report, &mut Texts(disk), &mut page)
         .map_err(|error| Refusal::Failed(error.to_string()))?;

@@ -24,8 +24,8 @@ use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::{FrictionModel, Preset};
 use frictcomp_report::Detail;
-use frictcomp_report::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp_report::pictures::{ContourPicture, FollowedContour};
+use frictcomp_report::results::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp_report::svg::Frame;
 
 /// Cycles of the control that are driven as the user types: half an hour of cycles of 1 ms.

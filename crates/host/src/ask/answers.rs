@@ -2,48 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::axis::AskedAxis;
+use super::control::AskedAxis;
 use super::programs::{TAG, fingerprint};
-use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Alternative, Question, Way};
-
-/// The answer to one question on one axis.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Answer {
-    /// The question.
-    pub question: Question,
-    /// The axis that was asked.
-    pub axis: String,
-    /// The build for which the programs were written.
-    pub build: Option<CncBuild>,
-    /// Conclusion from the answer.
-    pub verdict: AnswerVerdict,
-    /// Evidence for the conclusion, or the reason for none.
-    pub evidence: String,
-}
-
-/// Conclusion from an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum AnswerVerdict {
-    /// The control follows the reading.
-    Reading(Alternative),
-    /// The answer does not decide the question.
-    Undecidable,
-}
-
-impl Answer {
-    /// Returns `confirmed`, `refuted`, `answered` where nothing was assumed, or `not decidable`.
-    pub fn word(&self) -> &'static str {
-        match (self.verdict, self.question.facts().assumed) {
-            (AnswerVerdict::Undecidable, _) => "not decidable",
-            (AnswerVerdict::Reading(_), None) => "answered",
-            (AnswerVerdict::Reading(found), Some(assumed)) if found == assumed => "confirmed",
-            (AnswerVerdict::Reading(_), Some(_)) => "refuted",
-        }
-    }
-}
+use frictcomp_recordings::evidence::{Answer, AnswerVerdict};
 
 /// The values of one run, by their words; the last value of a word counts.
 type Values = BTreeMap<String, String>;
@@ -71,7 +33,7 @@ pub struct UnreadAnswer {
 /// Reads the answers in a text, in the order of the questions, and the lines that are marked as answers
 /// but cannot be read. `axis` returns what else is known of an axis by its
 /// name, as when the programs were written.
-pub fn read_answers(
+pub(super) fn read_answers(
     text: &str,
     axis: impl Fn(&str) -> AskedAxis,
 ) -> (Vec<Answer>, Vec<UnreadAnswer>) {

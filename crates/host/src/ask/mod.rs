@@ -6,14 +6,11 @@
 //! used: ten unread ones stop the control (507845131).
 
 mod answers;
-mod axis;
+mod control;
 mod motion;
 mod programs;
 mod recording;
 mod written;
 
-pub use answers::{Answer, AnswerVerdict, UnreadAnswer, read_answers};
-pub use axis::AskedAxis;
-pub use programs::{AskedFile, ask, readme};
-pub use recording::{RecordedQuestions, read_recorded_answers};
-pub use written::{AnsweredReading, InvalidToml, date_of, with_findings};
+pub use answers::UnreadAnswer;
+pub use control::{AskError, AskedAxis, AskedControl, ReadAnswers, RecordedAnswers, TRAVEL};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::axis::AskedAxis;
+use super::control::AskedAxis;
 use frictcomp::readings::Question;
 use frictcomp_recordings::evidence::{LOOK_AHEAD_PARTS, WITH_MOTION_PARTS};
 

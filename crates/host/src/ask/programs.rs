@@ -5,7 +5,7 @@ use std::hash::Hasher;
 
 use fnv::FnvHasher;
 
-use super::axis::AskedAxis;
+use super::control::AskedAxis;
 use super::motion::motion;
 use frictcomp::readings::{Question, Way};
 
@@ -17,14 +17,13 @@ const NO_BUILD: &str = "?";
 
 /// A program that asks a question.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct AskedFile {
+pub(super) struct AskedFile {
     /// Its question.
-    pub question: Question,
+    pub(super) question: Question,
     /// Its name.
-    pub name: String,
+    pub(super) name: String,
     /// Its text.
-    pub text: String,
+    pub(super) text: String,
 }
 
 /// Instructions for a question, in plain words.
@@ -42,7 +41,7 @@ pub(super) struct Script {
 
 /// Returns the programs for a question, none where there is nothing to run. The last one restores
 /// the state at the start of the control.
-pub fn ask(question: Question, axis: &AskedAxis) -> Vec<AskedFile> {
+pub(super) fn ask(question: Question, axis: &AskedAxis) -> Vec<AskedFile> {
     let Some(script) = script(question, axis) else {
         return Vec::new();
     };
@@ -350,7 +349,7 @@ fn objects(axis: &AskedAxis) -> String {
 }
 
 /// Returns the text to go with the programs: the whole procedure, and the notes that need no program.
-pub fn readme(axis: &AskedAxis) -> String {
+pub(super) fn readme(axis: &AskedAxis) -> String {
     let mut text = String::from(
         "Programs that test on the control what its documents leave open.\n\n\
          The head of each program says what it tests, what moves, and what to do before and after.\n\

@@ -2,18 +2,17 @@
 
 use std::path::Path;
 
-use super::answers::{Answer, AnswerVerdict};
-use super::axis::AskedAxis;
+use super::control::AskedAxis;
 use crate::disk::Disk;
 use crate::error::HostError;
+use crate::recordings::{TraceError, lacks, position_column, read_trace};
 use crate::replay::axis_of;
-use crate::trace_error::TraceError;
-use crate::traces::{lacks, position_column, read_trace};
 use frictcomp::machine::{Machine, Parameterisation};
 use frictcomp::readings::{Question, Way};
 use frictcomp::text::shown_path;
 use frictcomp_recordings::evidence::{
-    Conclusion, EvidenceRecording, Samples, judge_currents, judge_look_ahead, judge_with_motion,
+    Answer, AnswerVerdict, Conclusion, EvidenceRecording, Samples, judge_currents,
+    judge_look_ahead, judge_with_motion,
 };
 use frictcomp_recordings::trace::{
     Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, CncObject, Pick, SelectError,
@@ -22,16 +21,15 @@ use frictcomp_recordings::trace::{
 
 /// The recorded axis and its channels.
 #[derive(Debug, Clone, Copy)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct RecordedQuestions<'a> {
+pub(super) struct RecordedQuestions<'a> {
     /// The axis.
-    pub axis: &'a AskedAxis,
+    pub(super) axis: &'a AskedAxis,
     /// Its machine.
-    pub machine: &'a Machine,
+    pub(super) machine: &'a Machine,
     /// The channels named by the user.
-    pub selection: &'a ChannelSelection,
+    pub(super) selection: &'a ChannelSelection,
     /// The CNC cycle, where it is known.
-    pub cycle_s: Option<f64>,
+    pub(super) cycle_s: Option<f64>,
 }
 
 /// The channels of an axis.
@@ -57,10 +55,7 @@ const NO_CURRENT: &str = "the recording has no channel with the additive current
     `0x120300:0x<axis>010B`, `frict_comp.output`, or name the channel with `torque`";
 
 /// Reads the answers to every question that a recording can answer.
-///
-/// # Errors
-/// The file cannot be read, is not a recording, or lacks times or motion.
-pub fn read_recorded_answers(
+pub(super) fn read_recorded_answers(
     path: &Path,
     asked: RecordedQuestions<'_>,
 ) -> Result<Vec<Answer>, HostError> {

@@ -2,38 +2,27 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use thiserror::Error;
-use toml_edit::{DocumentMut, InlineTable, Item, Table, value};
+use toml_edit::{DocumentMut, InlineTable, Item, Table, TomlError, value};
 
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Alternative, Question};
 
 /// An answer recorded in the configuration.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct AnsweredReading {
+pub(super) struct AnsweredReading {
     /// The question.
-    pub question: Question,
+    pub(super) question: Question,
     /// The reading that the control follows.
-    pub reading: Alternative,
+    pub(super) reading: Alternative,
     /// The build of the control; without it nothing is confirmed.
-    pub build: Option<CncBuild>,
+    pub(super) build: Option<CncBuild>,
     /// The date of the answer.
-    pub date: String,
+    pub(super) date: String,
 }
 
-/// A text that is not valid TOML: the place, and what is wrong there.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct InvalidToml(String);
-
 /// Returns the text of a configuration with answers in `[reading]` and `[confirmed]`; everything else stays.
-///
-/// # Errors
-/// The text is not valid TOML.
-pub fn with_findings(text: &str, findings: &[AnsweredReading]) -> Result<String, InvalidToml> {
-    let parsed = text.parse::<DocumentMut>();
-    let mut document = parsed.map_err(|error| InvalidToml(error.to_string()))?;
+pub(super) fn with_findings(text: &str, findings: &[AnsweredReading]) -> Result<String, TomlError> {
+    let mut document = text.parse::<DocumentMut>()?;
     for finding in findings {
         let rule = finding.question.facts().rule;
         let reading = finding.question.name_of(finding.reading);
@@ -64,7 +53,7 @@ fn table<'a>(document: &'a mut DocumentMut, name: &str) -> &'a mut Item {
 }
 
 /// Returns the date of a moment in universal time, `2026-01-31`.
-pub fn date_of(moment: SystemTime) -> String {
+pub(super) fn date_of(moment: SystemTime) -> String {
     let seconds = moment
         .duration_since(UNIX_EPOCH)
         .map_or(0, |it| it.as_secs());

@@ -3,12 +3,10 @@
 use std::path::Path;
 
 use super::reading::CommissionReader;
-use crate::digest::sha256_of;
-use crate::disk::Disk;
+use crate::disk::{Disk, FileRegistry, sha256_of};
 use crate::error::HostError;
-use crate::parameter_files::read_value_list;
-use crate::registry::FileRegistry;
-use crate::traces::{read_axis, read_motion};
+use crate::machines::read_value_list;
+use crate::recordings::{read_axis, read_motion};
 use frictcomp_recordings::commission::{
     CirclesFound, FollowedPosition, Plan, PlanFile, RecordingResult, ShareOfList, Stage,
     ValueListUsed, recorded_apart, torque_of_list,

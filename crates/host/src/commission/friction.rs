@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::reading::CommissionReader;
-use super::recorded::RecordedProgram;
-use super::unused::UnusedRecording;
+use super::reading::RecordedProgram;
+use super::reading::UnusedRecording;
 use crate::disk::Disk;
 use crate::error::HostError;
-use crate::traces::read_axis;
+use crate::recordings::read_axis;
 use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, actual_elsewhere};
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyOptions, Measured, RequestedPoints, Track, identify,

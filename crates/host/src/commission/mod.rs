@@ -1,13 +1,19 @@
-//! The recordings of a commissioning: the program of each, and what it shows (R16.2).
+//! Commissioning in a folder: the program of each recording, what it shows, and what follows from all (R16.2).
 
-mod channels;
 mod closer;
+mod error;
+mod evaluated;
 mod friction;
+mod learn;
+mod plan;
+mod plants;
 mod reading;
-mod recorded;
 mod results;
-mod unused;
+mod trend;
 
-pub use channels::CommissionChannels;
-pub use reading::CommissionReader;
-pub use unused::UnusedRecording;
+pub use error::CommissionError;
+pub use evaluated::{Commissioning, read_plans};
+pub use learn::{FirstLists, Learning};
+pub use plan::{AxisToMeasure, Planning};
+pub use reading::{CommissionChannels, CommissionReader, UnusedRecording};
+pub use trend::DatedRecordings;

@@ -1,22 +1,23 @@
-//! A recording, identified by its signature, and the result of its program.
+//! The recordings of a commissioning: their channels, the program of each by its signature, and the result of it.
 
 use std::path::{Path, PathBuf};
 
-use super::channels::CommissionChannels;
-use super::recorded::RecordedProgram;
-use super::unused::UnusedRecording;
+use serde::Serialize;
+use thiserror::Error;
+
 use crate::disk::Disk;
 use crate::error::HostError;
-use crate::signatures::{SignedAt, signatures_of};
-use crate::switches::switches_of;
-use crate::traces::{read_circles, read_motion, read_turns};
-use frictcomp_physics::circle::{CommandedCircle, PathCentre, RecordedCircle};
+use crate::recordings::{
+    SignedAt, read_circles, read_motion, read_turns, signatures_of, switches_of,
+};
+use frictcomp_physics::circle::{Circle, CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
-    CirclesFound, FollowedPosition, MeasuredAxis, Measurement, Plan, RecordedStrokes,
-    RecordingOutcome, Stage, StrokesFound,
+    CirclesFound, FollowedPosition, MeasuredAxis, Measurement, MeasuringProgram, NotFollowed, Plan,
+    RecordedStrokes, RecordingOutcome, Stage, StrokesFound,
 };
-use frictcomp_recordings::identify::AxisRecording;
+use frictcomp_recordings::identify::{AxisRecording, IdentifyError, TorqueKind, TraceFinding};
+use frictcomp_recordings::trace::ChannelSelection;
 
 /// Reads the recordings of a commissioning.
 #[derive(Debug, Clone, Copy)]
@@ -250,5 +251,155 @@ impl CommissionReader<'_> {
         Ok(RecordingOutcome::Circles(CirclesFound::of(
             &recording, feed, radius,
         )))
+    }
+}
+
+/// A recorded program with its plan.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RecordedProgram<'a> {
+    pub(super) program: &'a MeasuringProgram,
+    pub(super) plan: &'a Plan,
+    /// The end of its signature in s.
+    pub(super) from_s: f64,
+}
+
+impl RecordedProgram<'_> {
+    /// Returns the state to which the program switches compensation.
+    pub(super) fn wanted(self) -> Switched {
+        match self.plan.stage {
+            Stage::Off => Switched::Off,
+            Stage::On => Switched::On,
+        }
+    }
+}
+
+/// Why a recording of a commissioning is not used: one sentence in lower case.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum UnusedRecording {
+    /// It cannot be read, or lacks channels.
+    #[error(transparent)]
+    Host(#[from] HostError),
+    /// No friction is found in it.
+    #[error("{error}")]
+    Friction {
+        /// The reason.
+        error: IdentifyError,
+        /// Findings about its channels.
+        findings: Vec<TraceFinding>,
+    },
+    /// Its axis does not follow its commands, or the following error is missing.
+    #[error(transparent)]
+    NotFollowed(#[from] NotFollowed),
+    /// A motor of a gantry, with the reason.
+    #[error("{motor}: {reason}")]
+    Motor {
+        /// Name of the motor.
+        motor: String,
+        /// The reason.
+        reason: Box<UnusedRecording>,
+    },
+    /// The torque of the other motors of a gantry has no channels of their own.
+    #[error("their torque is not read")]
+    NoTorques,
+    /// A motor of a gantry that was recorded at other times than the first one.
+    #[error("that of {motor} has other samples than that of {axis}")]
+    OtherSamples {
+        /// Name of the motor.
+        motor: String,
+        /// Name of the first one.
+        axis: String,
+    },
+    /// Its program moves an axis that the plan does not have.
+    #[error("its axis is not in the plan")]
+    NoAxis,
+    /// A number that belongs to no program.
+    #[error("it carries the number {0}, which no plan in this folder has")]
+    NoProgram(u16),
+    /// No signature, and its program is not named.
+    #[error("it has no signature")]
+    NoSignature {
+        /// Name of the file.
+        file: String,
+    },
+    /// Strokes of another program than the one that is named.
+    #[error("its strokes give the number {found}, but it is said to be {said}")]
+    OtherProgram {
+        /// The number of its strokes.
+        found: u16,
+        /// The number that is given.
+        said: u16,
+    },
+    /// Several programs in one recording.
+    #[error("it holds several programs, {}: record each alone", numbers(.0))]
+    Several(Vec<u16>),
+    /// The channels of two axes are exchanged.
+    #[error(
+        "the strokes at its start are not those of `{0}`: the channels of two axes are swapped"
+    )]
+    Swapped(String),
+}
+
+fn numbers(numbers: &[u16]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(u16::to_string).collect();
+    numbers.join(", ")
+}
+
+/// The channels of the recordings of a commissioning, and what the user says about them.
+#[derive(Debug, Clone, Default, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct CommissionChannels {
+    /// The channels of each axis and of each other motor of a gantry.
+    pub axes: Vec<(String, ChannelSelection)>,
+    /// Whether the torque of each motor has a channel of its own.
+    pub has_each_torque: bool,
+    /// The CNC cycle in s, if it is known.
+    pub cycle_s: Option<f64>,
+    /// The kind of the recorded torque, if it is known.
+    pub torque_kind: Option<TorqueKind>,
+    /// Recordings without a signature, with the numbers of their programs.
+    pub roles: Vec<(String, u16)>,
+}
+
+impl CommissionChannels {
+    /// Returns the channels of an axis with its actual position or its following error.
+    pub(super) fn followed(&self, axis: &str) -> ChannelSelection {
+        let own = self.axes.iter().find(|it| it.0 == axis);
+        own.map_or_else(
+            || ChannelSelection {
+                axis: Some(axis.to_owned()),
+                ..ChannelSelection::default()
+            },
+            |it| it.1.clone(),
+        )
+    }
+
+    /// Returns the channels of an axis.
+    pub(super) fn selection(&self, axis: &str) -> ChannelSelection {
+        ChannelSelection {
+            actual_position: None,
+            following_error: None,
+            ..self.followed(axis)
+        }
+    }
+
+    /// Returns the channels of circles, whose positions are the actual ones.
+    pub fn of_circles(&self, plan: &Plan) -> [ChannelSelection; 2] {
+        [0, 1].map(|at| {
+            let Some(axis) = plan.axes.get(at) else {
+                return ChannelSelection::default();
+            };
+            let followed = self.followed(&axis.name);
+            ChannelSelection {
+                position: followed.actual_position,
+                actual_position: None,
+                ..followed
+            }
+        })
+    }
+
+    /// Returns the CNC cycle in s.
+    pub fn cycle_time_s(&self) -> f64 {
+        self.cycle_s.unwrap_or(Circle::default().cycle_time_s)
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::reading::CommissionReader;
-use crate::digest::{sha256_of, sha256_of_data};
+use crate::disk::{sha256_of, sha256_of_data};
 use crate::error::HostError;
 use crate::watch::{Done, Watch};
 use frictcomp_recordings::commission::{Plan, PlanFile, RecordingOutcome, RecordingResult};

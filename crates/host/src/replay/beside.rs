@@ -3,85 +3,16 @@
 use std::sync::Arc;
 
 use super::course::{AxisCourse, AxisSwitch, Course, CourseStep};
-use super::recorded::{RecordedAxis, RecordedChange};
+use frictcomp_recordings::replay::{
+    Disagreement, MatchedChange, RecordedAxis, RecordedChange, ReplayPlace, ReplayedAxis,
+    ReplayedBy,
+};
 
 /// Number of blocks that may pass between two samples.
 const MAX_BETWEEN: usize = 1000;
 
 /// Number of blocks of the dry run at which a recording may begin that are tried.
 const MAX_BEGINS: usize = 100;
-
-/// A block, identified by its place.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct ReplayPlace {
-    /// Path of the file.
-    pub file: Arc<str>,
-    /// The line, from 1.
-    pub line: u32,
-}
-
-frictcomp::words! {
-    /// Evidence that a change of the machine matches that of the dry run.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    #[non_exhaustive]
-    pub enum ReplayedBy {
-        /// The line of the program.
-        Line = "line",
-        /// The block number.
-        Block = "block",
-        /// The position of the axis.
-        Position = "position",
-        /// The order of the changes alone.
-        Order = "order",
-    }
-}
-
-/// A change on which machine and dry run agree.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct MatchedChange {
-    /// The block of the dry run.
-    pub at: ReplayPlace,
-    /// The time of the recording in seconds.
-    pub t_s: f64,
-    /// Whether friction compensation is active from then on.
-    pub active: bool,
-    /// Evidence that both match.
-    pub by: ReplayedBy,
-}
-
-/// The first place where machine and dry run disagree.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Disagreement {
-    /// The block; `None` before the first one.
-    pub at: Option<ReplayPlace>,
-    /// The time of the recording in seconds.
-    pub t_s: f64,
-    /// Recorded state: `active` or `inactive`.
-    pub recorded: &'static str,
-    /// State of the dry run: `active`, `inactive` or `unknown`.
-    pub dry_run: &'static str,
-    /// The reason in words.
-    pub why: String,
-    /// The rules of the open questions on which the block depends.
-    pub rests_on: Vec<&'static str>,
-    /// Unknown values on which the state of the dry run depends.
-    pub unknown: Vec<String>,
-}
-
-/// An axis of the recording.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct ReplayedAxis {
-    /// Its name.
-    pub name: String,
-    /// The changes on which both agree, before the first disagreement if there is one.
-    pub changes: Vec<MatchedChange>,
-    /// The first disagreement.
-    pub disagreement: Option<Disagreement>,
-}
 
 /// Criteria for the comparison.
 #[derive(Debug, Clone, Copy)]
@@ -94,37 +25,39 @@ pub(super) struct Measure {
     pub(super) of_start: &'static [&'static str],
 }
 
-impl ReplayedAxis {
-    /// Compares an axis of the recording with the dry run.
-    pub(super) fn of(recorded: &RecordedAxis, course: &Course, measure: Measure) -> Self {
-        let mut axis = Self {
-            name: recorded.name.clone(),
-            changes: Vec::new(),
-            disagreement: None,
-        };
-        let dry_run = course.axes.iter().find(|it| it.name == recorded.name);
-        axis.disagreement = match dry_run {
-            None => Some(Disagreement {
-                at: None,
-                t_s: 0.0,
-                recorded: word(Some(recorded.start)),
-                dry_run: word(None),
-                why: "neither the programs nor the machine name the axis".to_owned(),
-                rests_on: Vec::new(),
-                unknown: Vec::new(),
-            }),
-            Some(dry_run) => {
-                let pair = AxisBeside {
-                    recorded,
-                    dry_run,
-                    course,
-                    measure,
-                };
-                pair.compare(&mut axis.changes)
-            }
-        };
-        axis
-    }
+/// Compares an axis of the recording with the dry run.
+pub(super) fn replayed_axis(
+    recorded: &RecordedAxis,
+    course: &Course,
+    measure: Measure,
+) -> ReplayedAxis {
+    let mut axis = ReplayedAxis {
+        name: recorded.name.clone(),
+        changes: Vec::new(),
+        disagreement: None,
+    };
+    let dry_run = course.axes.iter().find(|it| it.name == recorded.name);
+    axis.disagreement = match dry_run {
+        None => Some(Disagreement {
+            at: None,
+            t_s: 0.0,
+            recorded: word(Some(recorded.start)),
+            dry_run: word(None),
+            why: "neither the programs nor the machine name the axis".to_owned(),
+            rests_on: Vec::new(),
+            unknown: Vec::new(),
+        }),
+        Some(dry_run) => {
+            let pair = AxisBeside {
+                recorded,
+                dry_run,
+                course,
+                measure,
+            };
+            pair.compare(&mut axis.changes)
+        }
+    };
+    axis
 }
 
 /// A sample at an end of the recording.

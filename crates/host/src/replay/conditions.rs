@@ -6,6 +6,7 @@ use frictcomp::interpreter::WayCondition;
 use frictcomp::machine::Setting;
 use frictcomp::session::SessionOptions;
 use frictcomp::syntax::SkipLevels;
+use frictcomp_recordings::replay::TriedCondition;
 
 /// Largest number of combinations of answers that are tried.
 pub(super) const MAX_WAYS: usize = 64;
@@ -24,20 +25,6 @@ enum ConditionKey {
     Skip(u8),
     /// A comparison as written.
     Text(Arc<str>),
-}
-
-/// A condition with the answer that was tried.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct TriedCondition {
-    /// Path of the file.
-    pub file: Arc<str>,
-    /// The line, from 1.
-    pub line: u32,
-    /// The condition as written, or `skip level 1 is off`.
-    pub condition: String,
-    /// Whether it is true.
-    pub holds: bool,
 }
 
 impl Condition {

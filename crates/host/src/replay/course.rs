@@ -5,12 +5,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::conditions::Condition;
-use super::recorded::RecordedAxis;
-use crate::discovery::LoadedMachine;
-use crate::dry_run::{Programs, RunContext, expect_axes, run_programs};
+use crate::disk::{Input, Naming};
 use crate::error::HostError;
-use crate::input::{Input, Naming};
-use crate::switched_axes::switched_axes;
+use crate::machines::{LoadedMachine, switched_axes};
+use crate::run::{Programs, RunContext, expect_axes, run_programs};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::interpreter::{EndedBy, PositionFrame};
@@ -19,6 +17,7 @@ use frictcomp::session::{Session, SessionOptions};
 use frictcomp::syntax::ast::{Address, Block, Item, Word};
 use frictcomp::syntax::parse_block;
 use frictcomp::timeline::{Record, Row, StateView};
+use frictcomp_recordings::replay::RecordedAxis;
 
 /// Largest number of executed blocks; they are kept until the recording is compared with them.
 const MAX_STEPS: usize = 4_000_000;

@@ -7,10 +7,6 @@ mod course;
 mod recorded;
 mod replayed;
 
-pub use beside::{Disagreement, MatchedChange, ReplayPlace, ReplayedAxis, ReplayedBy};
-pub use conditions::TriedCondition;
 pub(crate) use recorded::axis_of;
-pub use recorded::{
-    RecordedAxis, RecordedChange, RecordedGap, ReplayChannels, StateRecording, read_states,
-};
-pub use replayed::{Replay, Replayed};
+pub use recorded::{ReplayChannels, read_states};
+pub use replayed::Replay;

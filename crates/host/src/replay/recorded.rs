@@ -4,11 +4,11 @@ use std::path::Path;
 
 use crate::disk::Disk;
 use crate::error::HostError;
-use crate::trace_error::TraceError;
-use crate::traces::{lacks, numbers_of, position_column, read_trace};
+use crate::recordings::{TraceError, lacks, numbers_of, position_column, read_trace};
 use frictcomp::machine::Machine;
 use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_recordings::identify::{StatedAxis, stated_axis};
+use frictcomp_recordings::replay::{RecordedAxis, RecordedChange, RecordedGap, StateRecording};
 use frictcomp_recordings::trace::{
     Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Clock, NotAligned, Pick,
     SelectError, TimeSource, TraceRecording,
@@ -29,63 +29,6 @@ pub struct ReplayChannels {
     pub block: Option<String>,
     /// The channel of the program's running number, from 1.
     pub program: Option<String>,
-}
-
-/// Recording of all axes.
-#[derive(Debug, Clone)]
-pub struct StateRecording {
-    /// Each axis whose state was recorded.
-    pub axes: Vec<RecordedAxis>,
-    /// The longest stretch without samples, if there is one.
-    pub gap: Option<RecordedGap>,
-    /// Whether blocks were recorded by block numbers instead of lines.
-    pub(super) by_number: bool,
-}
-
-/// A stretch of a recording in which samples are missing.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct RecordedGap {
-    /// The time of the last sample before it, in seconds.
-    pub at_s: f64,
-    /// Its length in seconds.
-    pub length_s: f64,
-}
-
-/// Recording of an axis.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct RecordedAxis {
-    /// Its name.
-    pub name: String,
-    /// Whether friction compensation was active at the first sample.
-    pub start: bool,
-    /// The time of the first sample in seconds.
-    pub start_s: f64,
-    /// Its changes in their order.
-    pub changes: Vec<RecordedChange>,
-    /// The time of the last sample in seconds.
-    pub end_s: f64,
-    /// The lines, or block numbers, of the first and the last sample.
-    pub blocks: Option<[i64; 2]>,
-    /// The running numbers of the program at the first and the last sample.
-    pub programs: Option<[i64; 2]>,
-}
-
-/// A recorded change of a state, with values from the sample before it and its own.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct RecordedChange {
-    /// The time of its first sample in seconds.
-    pub t_s: f64,
-    /// Whether friction compensation is active from then on.
-    pub active: bool,
-    /// The lines, or block numbers.
-    pub blocks: Option<[i64; 2]>,
-    /// The running numbers of the program.
-    pub programs: Option<[i64; 2]>,
-    /// The positions of the axis in mm or degrees.
-    pub positions: Option<[f64; 2]>,
 }
 
 /// The channels that were found.

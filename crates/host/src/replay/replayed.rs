@@ -1,14 +1,14 @@
 //! Comparison of a recording with the dry run of its programs.
 
-use super::beside::{Measure, ReplayedAxis};
-use super::conditions::{AssumedAnswers, MAX_WAYS, TriedCondition};
+use super::beside::{Measure, replayed_axis};
+use super::conditions::{AssumedAnswers, MAX_WAYS};
 use super::course::{Course, is_open};
-use super::recorded::{RecordedGap, StateRecording};
-use crate::discovery::LoadedMachine;
+use crate::disk::Input;
 use crate::error::HostError;
-use crate::input::Input;
+use crate::machines::LoadedMachine;
 use frictcomp::readings::Question;
 use frictcomp::session::SessionOptions;
+use frictcomp_recordings::replay::{Replayed, StateRecording, TriedCondition};
 
 /// Programs to compare with a recording.
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -21,60 +21,6 @@ pub struct Replay<'a> {
     pub options: SessionOptions,
     /// Tolerance of positions, in mm or degrees.
     pub tolerance: f64,
-}
-
-/// Result of the comparison.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Replayed {
-    /// Each axis of the recording.
-    pub axes: Vec<ReplayedAxis>,
-    /// The conditions decided by the recording.
-    pub decided: Vec<TriedCondition>,
-    /// Number of combinations of answers to the conditions of the programs that were tried, and of
-    /// those that agree with the recording.
-    pub ways: [usize; 2],
-    /// Why the dry run does not reach the end of the programs.
-    pub stopped: Option<String>,
-    /// Why no answers were tried although there are conditions.
-    pub untried: Option<String>,
-    /// The axes that the programs switch and whose states were not recorded.
-    pub unrecorded: Vec<String>,
-    /// The longest stretch without samples: a change that is undone within it is not seen.
-    pub gap: Option<RecordedGap>,
-}
-
-impl Replayed {
-    /// Whether the recording and the dry run agree on every axis and to the end.
-    pub fn agrees(&self) -> bool {
-        self.stopped.is_none() && self.axes.iter().all(|it| it.disagreement.is_none())
-    }
-
-    /// Whether they agree only with some answers to the conditions of the programs.
-    pub fn is_conditional(&self) -> bool {
-        let [tried, fitting] = self.ways;
-        self.agrees() && fitting < tried
-    }
-
-    /// Notes the answers on which the disagreements depend.
-    fn rest_on(&mut self, tried: &[TriedCondition]) {
-        let axes = self.axes.iter_mut();
-        for found in axes.filter_map(|it| it.disagreement.as_mut()) {
-            let words = tried.iter().map(|it| {
-                let answer = if it.holds { "" } else { "not " };
-                format!(
-                    "{}:{}: taken here: {answer}{}",
-                    it.file, it.line, it.condition
-                )
-            });
-            found.unknown.extend(words);
-        }
-    }
-
-    /// Returns the number of changes on which they agree.
-    pub fn changes(&self) -> usize {
-        self.axes.iter().map(|it| it.changes.len()).sum()
-    }
 }
 
 impl Replay<'_> {
@@ -109,7 +55,7 @@ impl Replay<'_> {
         for answers in &all {
             let options = answers.options(&self.options);
             let mut tried = self.beside(recording, &Course::of(self.inputs, self.loaded, options)?);
-            tried.rest_on(&answers.to(&conditions));
+            rest_on(&mut tried, &answers.to(&conditions));
             let score = if tried.agrees() {
                 fitting.push(answers.to(&conditions));
                 usize::MAX
@@ -146,7 +92,7 @@ impl Replay<'_> {
         let axes = recording.axes.iter();
         Replayed {
             axes: axes
-                .map(|axis| ReplayedAxis::of(axis, course, measure))
+                .map(|axis| replayed_axis(axis, course, measure))
                 .collect(),
             decided: Vec::new(),
             ways: [1, 1],
@@ -165,4 +111,19 @@ fn common(fitting: &[Vec<TriedCondition>]) -> Vec<TriedCondition> {
     };
     let in_all = |tried: &&TriedCondition| others.iter().all(|it| it.contains(tried));
     first.iter().filter(in_all).cloned().collect()
+}
+
+/// Notes the answers on which the disagreements depend.
+fn rest_on(replayed: &mut Replayed, tried: &[TriedCondition]) {
+    let axes = replayed.axes.iter_mut();
+    for found in axes.filter_map(|it| it.disagreement.as_mut()) {
+        let words = tried.iter().map(|it| {
+            let answer = if it.holds { "" } else { "not " };
+            format!(
+                "{}:{}: taken here: {answer}{}",
+                it.file, it.line, it.condition
+            )
+        });
+        found.unknown.extend(words);
+    }
 }

@@ -203,7 +203,7 @@ fn averaged_in(recorded: &[&RecordingOutcome], axis: usize) -> Option<f64> {
 
 /// States how the circles or strokes of a round were recorded otherwise than those off, for each axis: averaged, later,
 /// in another scale, or with a step at each reversal (R16.14, R16.18). They are not compared then.
-pub fn recorded_otherwise(
+pub(super) fn recorded_otherwise(
     names: &[&str],
     off: &[&RecordingOutcome],
     on: &[&RecordingOutcome],

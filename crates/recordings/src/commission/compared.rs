@@ -1,11 +1,10 @@
 //! Recorded glitches off and on, each axis, each direction, each feed for itself (R16.12).
 
-use frictcomp_physics::circle::{GlitchOrder, MeasuredGlitch};
 use serde::{Deserialize, Serialize};
 
-use super::at_feed::{AtFeed, GlitchPlace};
 use super::request::MeasuredAxis;
 use super::results::RecordingResult;
+use frictcomp_physics::circle::{Direction, GlitchOrder, MeasuredGlitch};
 
 /// Recorded glitches at a feed with compensation off and on: in µm, or 0.001° of a rotary axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -115,7 +114,7 @@ fn taken(
 /// first. Programs are recognised by their numbers. Of several recordings those count that were driven at the feed of
 /// the program, otherwise those next to it; of those the smallest glitch without and the largest with compensation,
 /// for each axis and direction.
-pub fn before_after(
+pub(super) fn before_after(
     results: &[RecordingResult],
     axes: &[MeasuredAxis],
     (is_off, is_on): (impl Fn(u16) -> bool, impl Fn(u16) -> bool),
@@ -156,4 +155,47 @@ pub fn before_after(
         Some(BeforeAfter::of(feed, first.driven, places.collect()))
     };
     feeds.into_iter().filter_map(at).collect()
+}
+
+/// A measured speed is the planned one within this part.
+pub(super) const ON_FEED: f64 = 0.02;
+
+/// Two recordings are compared if the feeds that were driven differ by less than this part: v²/R by 5 %.
+const SAME_FEED: f64 = 0.025;
+
+/// A recording represents its planned feed if it was driven at no less than this part of it …
+const SLOWEST: f64 = 0.8;
+
+/// … and at no more than this.
+const FASTEST: f64 = 1.25;
+
+/// The glitches of a recording at a feed.
+#[derive(Debug, Clone)]
+pub(super) struct AtFeed {
+    /// The planned feed.
+    pub(super) feed: f64,
+    pub(super) driven: f64,
+    /// The glitch of each axis, by its place in the plan, in each direction of travel, if it has one.
+    pub(super) glitches: Vec<(GlitchPlace, MeasuredGlitch)>,
+}
+
+/// An axis, by its place in the plan, and the direction of travel on a circle.
+pub(super) type GlitchPlace = (usize, Option<Direction>);
+
+impl AtFeed {
+    pub(super) fn is_near(&self) -> bool {
+        (SLOWEST..=FASTEST).contains(&(self.driven / self.feed))
+    }
+
+    /// The deviation from the planned feed as a part of it; 0 within 2 %.
+    pub(super) fn beside(&self) -> f64 {
+        let part = (self.driven / self.feed - 1.0).abs();
+        if part <= ON_FEED { 0.0 } else { part }
+    }
+
+    /// Whether another recording of the planned feed was driven at about the same feed.
+    pub(super) fn is_driven_as(&self, other: &Self) -> bool {
+        self.feed.total_cmp(&other.feed).is_eq()
+            && (other.driven / self.driven - 1.0).abs() < SAME_FEED
+    }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::actual::{FollowedPosition, averaged_samples};
-use super::at_feed::{AtFeed, ON_FEED};
+use super::compared::{AtFeed, ON_FEED};
 use super::following::COARSEST_S;
 use super::switched::CompensationShown;
 use crate::identify::{Fit, Identified, Track, along, count};

@@ -6,8 +6,7 @@ use super::compared::{BeforeAfter, PlaceCompared};
 
 /// A round of lists, recorded off and on.
 #[derive(Debug, Clone, Copy)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct JudgedRound<'a> {
+pub(super) struct JudgedRound<'a> {
     /// The planned feeds.
     pub feeds: &'a [f64],
     /// The recorded ones.
@@ -20,7 +19,7 @@ pub struct JudgedRound<'a> {
 
 /// Reasons against the lists of a round, each axis, direction and feed for itself: more is left than without them or
 /// than with those accepted last, a feed is not recorded, or nothing shows that they were on.
-pub fn feeds_against(round: &JudgedRound<'_>) -> Vec<String> {
+pub(super) fn feeds_against(round: &JudgedRound<'_>) -> Vec<String> {
     let mut against = Vec::new();
     let at = |recorded: &'_ [BeforeAfter], feed: f64| {
         let mut recorded = recorded.iter();

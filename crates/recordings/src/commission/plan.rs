@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::error::PlanError;
 use super::program::MeasuringProgram;
 use super::request::{Installed, MeasuredAxis, PlanRequest};
-use super::room::Room;
+use super::runs::Room;
 use super::runs::{RoomPrograms, circle_radius};
 use super::signature::Signature;
 use frictcomp::lists::AxisType;

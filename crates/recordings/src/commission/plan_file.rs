@@ -42,3 +42,28 @@ impl PlanFile {
         plans.iter().find(|it| it.has(number))
     }
 }
+
+/// A plan with its basis.
+#[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct PlanReport {
+    /// The programs.
+    pub plan: Plan,
+    /// The value lists of stage 2.
+    pub lists: Vec<ValueListUsed>,
+    /// The file that describes the machine, as it is shown.
+    pub machine: String,
+    /// Axes whose ramps are those of the control's defaults.
+    pub assumed_jerk: Vec<String>,
+}
+
+impl PlanReport {
+    /// The content of `plan.json`.
+    pub fn file(&self) -> PlanFile {
+        PlanFile {
+            schema: PlanFile::SCHEMA,
+            plan: self.plan.clone(),
+            lists: self.lists.clone(),
+        }
+    }
+}

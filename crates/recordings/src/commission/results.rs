@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::actual::FollowedPosition;
-use super::at_feed::AtFeed;
+use super::compared::AtFeed;
 use super::found::{CirclesFound, FrictionFound};
 use super::strokes::StrokesFound;
 use super::switched::CompensationShown;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::actual::FollowedPosition;
-use super::at_feed::ON_FEED;
+use super::compared::ON_FEED;
 use super::following::{Following, NotFollowed, PassedReversal};
 use super::switched::CompensationShown;
 use crate::identify::{Track, count};

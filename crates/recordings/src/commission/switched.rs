@@ -43,8 +43,7 @@ pub struct TorqueOfList {
 
 /// What recordings of an axis say about a state of its compensation.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum SwitchedAs {
+pub(super) enum SwitchedAs {
     /// They show it.
     Shown,
     /// They show another state, in words.
@@ -85,8 +84,7 @@ impl Shows {
 
 /// The recordings of an axis in both stages, and its fitted plant.
 #[derive(Debug, Clone, Copy)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct StagesOfAxis<'a> {
+pub(super) struct StagesOfAxis<'a> {
     /// Name of the axis.
     pub axis: &'a str,
     /// The SHA-256 of its list.
@@ -133,7 +131,7 @@ pub fn torque_of_list(
 impl StagesOfAxis<'_> {
     /// Whether all of the list was on in the round: by the torque, otherwise by the fitted plant. A torque that holds
     /// less proves nothing where a plant does.
-    pub fn was_on(&self) -> SwitchedAs {
+    pub(super) fn was_on(&self) -> SwitchedAs {
         if self.torque_shows_on() {
             return SwitchedAs::Shown;
         }
@@ -158,7 +156,7 @@ impl StagesOfAxis<'_> {
 
     /// Whether no part of the list was on in stage 1: by a recorded state, by a torque that shows the list where it was
     /// on, or by the fitted plant.
-    pub fn was_off(&self) -> SwitchedAs {
+    pub(super) fn was_off(&self) -> SwitchedAs {
         let axis = self.axis;
         if let Some(words) = self.plant.and_then(PlantAxis::other_friction_off) {
             return SwitchedAs::Otherwise(words);

@@ -1,9 +1,9 @@
 //! The readings of the additive current, from its recording (R4.2, R4.3, R4.5 to R4.7).
 
+use super::answer::Conclusion;
 use super::doubts::{no_difference, not_moved, unseen};
 use super::fit::{Counted, Explained, Model};
 use super::recorded::{CycleMotion, EvidenceRecording};
-use super::verdict::Conclusion;
 use frictcomp::diagnostic::ReadableNumber;
 use frictcomp::lists::FrictionList;
 use frictcomp::readings::{Alternative, Question};

@@ -4,15 +4,15 @@
 //! if the recorded current follows one combination, and deviates from every combination with its other
 //! reading by more than noise.
 
+mod answer;
 mod currents;
 mod doubts;
 mod fit;
 mod recorded;
 mod stroke;
 mod switching;
-mod verdict;
 
+pub use answer::{Answer, AnswerVerdict, Conclusion, contradicted, drop_answered};
 pub use currents::judge_currents;
 pub use recorded::{EvidenceRecording, Samples};
 pub use switching::{LOOK_AHEAD_PARTS, WITH_MOTION_PARTS, judge_look_ahead, judge_with_motion};
-pub use verdict::Conclusion;

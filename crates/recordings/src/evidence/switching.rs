@@ -1,8 +1,8 @@
 //! Where a COMP command acts in a motion (R1.9), and whether it stops the path (R1.57).
 
+use super::answer::Conclusion;
 use super::recorded::EvidenceRecording;
 use super::stroke::{StrokeOut, StrokeSwitch};
-use super::verdict::Conclusion;
 use frictcomp::readings::{Alternative, Question};
 
 /// The blocks in which the program of R1.9 moves, as parts of its stroke: the command off precedes them,

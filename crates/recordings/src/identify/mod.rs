@@ -49,5 +49,8 @@ pub(crate) use statistics::{count, median, moving_average, noise_of, samples_in}
 pub use support::RequestedPoints;
 pub use timing::{ActingShare, Timing};
 pub use track::{Track, TrackError};
-pub use trend::{FrictionChange, FrictionLevels, FrictionParameter, Level, friction_changes};
+pub use trend::{
+    DatedFriction, FrictionChange, FrictionLevels, FrictionParameter, Level, TrendReport,
+    friction_changes,
+};
 pub use verify::{CONTACT_MM, Predictor, Reversal, ScaleRange, Verified, verify, verify_followed};

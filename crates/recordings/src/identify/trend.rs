@@ -143,3 +143,33 @@ pub fn friction_changes(levels: &[FrictionLevels]) -> Vec<FrictionChange> {
     changes.sort_by_key(|it| it.to);
     changes
 }
+
+/// The friction of an axis on some dates.
+#[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct TrendReport {
+    /// The axis, if it is named.
+    pub axis: Option<String>,
+    /// The unit of the friction.
+    pub unit: String,
+    /// The recordings in the order of their dates.
+    pub dates: Vec<DatedFriction>,
+    /// The changes between them.
+    pub changes: Vec<FrictionChange>,
+    /// Files that give no friction, each with its reason.
+    pub left_out: Vec<(String, String)>,
+}
+
+/// The friction of one recording.
+#[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct DatedFriction {
+    /// The date, `2026-03-01`.
+    pub date: String,
+    /// The days since 1970-01-01.
+    pub day: f64,
+    /// Name of the file.
+    pub file: String,
+    /// The parameters.
+    pub levels: FrictionLevels,
+}

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::visible::{leading, visible_line};
+use crate::wording::{leading, visible_line};
 
 /// Whether a result is as it should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]

@@ -14,9 +14,8 @@ pub use shown::ShownDocument;
 pub(crate) use shown::{CaptionedTable, DocumentBlock, blocks};
 pub use table::Table;
 
-use crate::diagnostics::{Detail, fitted};
-use crate::svg::{BandChart, Frame, LineChart, PlaneChart, PolarChart};
-use crate::visible::visible_line;
+use super::svg::{BandChart, Frame, LineChart, PlaneChart, PolarChart};
+use crate::wording::{Detail, fitted, visible_line};
 use frictcomp_recordings::identify::TraceFinding;
 
 /// A result: the verdict, then sections.

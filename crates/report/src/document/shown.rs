@@ -6,8 +6,7 @@ use std::fmt::{self, Display};
 use serde::{Serialize, Serializer};
 
 use super::{Document, DocumentPart, DocumentSection, DrawnFigure, Headline, SectionExtent, Table};
-use crate::diagnostics::Detail;
-use crate::visible::visible_line;
+use crate::wording::{Detail, visible_line};
 use frictcomp_recordings::identify::TraceFinding;
 
 /// A document in the extent that is asked for. A terminal shows it as it is displayed, the page without installation

@@ -12,9 +12,9 @@ use super::page::{Page, PagePart};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, with_code};
 use super::source::Sources;
 use crate::assumptions::rests_on_text;
-use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
 use crate::document::Headline;
-use crate::strings::counted;
+use crate::results::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use crate::wording::counted;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
 
 const FINDINGS: PagePart = PagePart::new("findings", "Findings");

@@ -10,8 +10,8 @@ use super::page::PagePart;
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable};
 use super::reversed::ReversedFiles;
 use super::source::Sources;
-use crate::contour::{ContourRecorder, ContourSubject, document};
 use crate::pictures::ContourPicture;
+use crate::results::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{ContourReversal, ProgramContour};
 

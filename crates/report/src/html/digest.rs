@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::track::{SpanStart, StateTrack};
 use super::ways::{Ways, WaysIndex};
-use crate::lists::selector_origin;
+use crate::results::lists::selector_origin;
 use crate::svg::StartUpRelation;
 use frictcomp::comp::{AxisIndex, Change, CncBuild, Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};

@@ -5,10 +5,10 @@ use maud::{Markup, html};
 use super::digest::{AxisDigest, RunDigest};
 use super::given::RunInputs;
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
-use crate::lists::cells;
 use crate::pictures::value_curve;
-use crate::strings::counted;
+use crate::results::lists::cells;
 use crate::svg::Frame;
+use crate::wording::counted;
 use frictcomp::lists::{AxisType, Parameter};
 use frictcomp::machine::{AxisSet, Parameterisation};
 

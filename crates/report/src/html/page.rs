@@ -7,7 +7,7 @@ use maud::{Markup, PreEscaped, html};
 use super::parts::with_code;
 use crate::document::Headline;
 use crate::svg;
-use crate::visible::visible;
+use crate::wording::visible;
 
 /// Number of bytes of markup gathered before they are written.
 const CHUNK: usize = 64 * 1024;

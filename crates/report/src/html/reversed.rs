@@ -8,7 +8,7 @@ use maud::{Markup, html};
 use super::page::Page;
 use super::parts::line_id;
 use super::source::{SourceText, Sources};
-use crate::strings::counted;
+use crate::wording::counted;
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{ContourReversal, GlitchFigure};
 use frictcomp_physics::motion::Movement;

@@ -8,8 +8,8 @@ use super::digest::{ProgramDigest, RunDigest};
 use super::page::Page;
 use super::parts::{figure, line_id};
 use super::track::{StateSpan, StateTrack};
-use crate::strings::counted;
 use crate::svg::{Band, BandChart, BandRow, ChartAxis, Frame};
+use crate::wording::counted;
 use frictcomp::comp::Kind;
 
 /// Writes a chart for each program.

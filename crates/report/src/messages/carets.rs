@@ -1,7 +1,7 @@
 //! Source lines with carets, in the manner of rustc.
 
-use crate::diagnostics::{Look, fitted, render};
 use crate::document::Headline;
+use crate::wording::{Look, fitted, render};
 use frictcomp::diagnostic::Diagnostic;
 
 use super::message_format::MessageFormat;

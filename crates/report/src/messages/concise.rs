@@ -2,8 +2,7 @@
 
 use frictcomp::diagnostic::Diagnostic;
 
-use crate::strings::integer;
-use crate::visible::{leading, visible_line};
+use crate::wording::{integer, leading, visible_line};
 
 use super::message_format::MessageFormat;
 

@@ -1,6 +1,6 @@
 //! The formats of messages: each is a file and a row of the table.
 
-use crate::diagnostics::Look;
+use crate::wording::Look;
 
 use super::carets::Carets;
 use super::concise::Concise;

@@ -2,8 +2,7 @@
 
 use frictcomp::diagnostic::{Diagnostic, Severity};
 
-use crate::strings::integer;
-use crate::visible::visible;
+use crate::wording::{integer, visible};
 
 use super::message_format::MessageFormat;
 

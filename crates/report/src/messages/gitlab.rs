@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::hash::Hasher;
 
-use crate::strings::append_json;
+use crate::wording::append_json;
 use fnv::FnvHasher;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use serde::Serialize;

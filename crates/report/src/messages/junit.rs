@@ -8,8 +8,7 @@ use frictcomp::diagnostic::{Diagnostic, Severity};
 
 use super::message_format::MessageFormat;
 use super::tally::Tally;
-use crate::escape::push_escaped;
-use crate::visible::visible_line;
+use crate::wording::{push_escaped, visible_line};
 
 /// The messages of each examined file.
 #[derive(Debug, Default)]

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
-use crate::diagnostics::Look;
 use crate::document::Headline;
-use crate::output::Output;
+use crate::timeline::Output;
+use crate::wording::Look;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::timeline::ReadingsInForce;
 

@@ -6,8 +6,8 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::document::Headline;
-use crate::json;
-use crate::strings::append_json;
+use crate::timeline::json;
+use crate::wording::append_json;
 
 use super::message_format::MessageFormat;
 use super::tally::Tally;

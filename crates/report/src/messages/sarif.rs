@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::text::Place;
 
-use crate::strings::to_pretty;
+use crate::wording::to_pretty;
 
 use super::message_format::MessageFormat;
 use super::tally::Tally;

@@ -6,7 +6,7 @@ use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::timeline::ReadingsInForce;
 
 use crate::document::{Headline, Standing};
-use crate::strings::counted;
+use crate::wording::counted;
 
 /// Result of one program, the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::glitch::glitch_in_words;
 use crate::svg::{
     Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PlaneChart, PlaneMark,
     PlanePoint, Series, StartUpRelation, Stroke,
 };
+use crate::wording::glitch_in_words;
 use frictcomp::comp::State;
 use frictcomp::interpreter::PositionFrame;
 use frictcomp_physics::contour::{ContourPoint, ContourReversal};

@@ -1,9 +1,9 @@
 //! Friction in several states, and over the years.
 
-use crate::states::StatesReport;
+use crate::results::identify::states::StatesReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
-use crate::trend::TrendReport;
 use frictcomp_recordings::identify::FrictionParameter;
+use frictcomp_recordings::identify::TrendReport;
 
 /// Friction over speed, a curve for each state.
 pub fn friction_states(report: &StatesReport) -> LineChart {

@@ -1,6 +1,6 @@
 //! An identified friction curve: speeds with their errors, the curve, and the residuals.
 
-use crate::identify::IdentifyReport;
+use crate::results::identify::IdentifyReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 
 /// Friction over speed: the pairs with their errors, the curve, the points of the list; below it the

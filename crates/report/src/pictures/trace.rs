@@ -1,7 +1,7 @@
 //! The channels of a trace over time.
 
+use crate::results::trace::TraceReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
-use crate::trace::TraceReport;
 
 /// Maximum number of drawn channels.
 const MOST: usize = 12;

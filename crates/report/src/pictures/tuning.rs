@@ -1,8 +1,8 @@
 //! The gain from tuning, over the acceleration at a reversal.
 
+use crate::results::tune::{TuneReport, title};
 use crate::svg::{ChartAxis, CurveLooks, Drawn, LineChart, Panel, Series};
-use crate::tune::{TuneReport, title};
-use crate::visible::last_part;
+use crate::wording::last_part;
 use frictcomp_physics::circle::FeedResult;
 
 /// The glitch before and after tuning over v²/R, on which it depends, and its change with less and more

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use unicode_width::UnicodeWidthStr;
 
 use super::frame::{Frame, style};
-use crate::escape::push_escaped;
+use crate::wording::push_escaped;
 
 /// The width of every chart in units of the picture.
 pub(super) const WIDTH: f64 = 860.0;

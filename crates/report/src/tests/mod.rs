@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use player::{OFF, ON, Player, about, machine, play};
 use proptest::prelude::*;
 
-use super::*;
+use crate::*;
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::Code;
 use frictcomp::machine::Machine;

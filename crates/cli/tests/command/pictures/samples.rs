@@ -8,11 +8,11 @@ use frictcomp::machine::AcceptedList;
 use frictcomp_physics::circle::{FeedResult, Tuned, TunedAxis};
 use frictcomp_physics::current::{AdditiveCurrent, Reading};
 use frictcomp_report::pictures::{AxisPlot, AxisSample, CurrentPlot, tuning, value_curve};
+use frictcomp_report::results::tune::TuneReport;
 use frictcomp_report::svg::{
     Band, BandChart, BandRow, BandState, ChartAxis, LineChart, PolarChart, PolarPanel, PolarSeries,
     StartUpRelation,
 };
-use frictcomp_report::tune::TuneReport;
 
 pub(super) fn list() -> FrictionList {
     let points = [

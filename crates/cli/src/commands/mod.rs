@@ -1,0 +1,29 @@
+//! The commands, a file or a folder each.
+
+pub(crate) mod ask;
+pub(crate) mod audit;
+pub(crate) mod check;
+pub(crate) mod circle;
+pub(crate) mod commission;
+pub(crate) mod completions;
+pub(crate) mod config;
+pub(crate) mod conformance;
+pub(crate) mod contour;
+pub(crate) mod current;
+pub(crate) mod dap;
+pub(crate) mod diff;
+pub(crate) mod drive;
+pub(crate) mod explain;
+pub(crate) mod golden;
+pub(crate) mod identify;
+pub(crate) mod init;
+pub(crate) mod lists;
+pub(crate) mod lsp;
+pub(crate) mod man;
+pub(crate) mod replay;
+pub(crate) mod run;
+pub(crate) mod show;
+pub(crate) mod stiction;
+pub(crate) mod trace;
+pub(crate) mod tune;
+pub(crate) mod verify;

@@ -1,0 +1,122 @@
+//! The open questions, what is assumed, and what a control answered, `ask`.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+
+use crate::document::{Document, Headline, Standing};
+use crate::wording::{counted, visible_line};
+use frictcomp::comp::CncBuild;
+use frictcomp::machine::Machine;
+use frictcomp::readings::{Basis, Question};
+use frictcomp_recordings::evidence::{Answer, AnswerVerdict};
+
+/// The questions with the readings in force on a machine; `build` is that of its control.
+pub fn document(machine: &Machine, build: Option<CncBuild>) -> Document<'static> {
+    let mut out = Document::new("Open questions", headline(machine, build));
+    out.push_str("\n");
+    for question in Question::ALL {
+        let facts = question.facts();
+        let _ = writeln!(out, "{} {}", facts.rule, facts.question);
+        let _ = writeln!(out, "  reading: {}", basis(question, machine, build));
+        let _ = writeln!(out, "  depends on it: {}", facts.depends);
+        let _ = writeln!(out, "  asked by {}: {}", facts.way.as_str(), facts.how);
+    }
+    out
+}
+
+/// The questions as JSON.
+pub fn render_json(machine: &Machine, build: Option<CncBuild>) -> String {
+    let questions = Question::ALL.into_iter();
+    let questions: Vec<Value> = questions.map(|it| record(it, machine)).collect();
+    let headline = headline(machine, build);
+    let list = json!({ "schema": 1, "headline": headline, "questions": questions });
+    format!("{list:#}\n")
+}
+
+/// The answers of a control; a reason for several undecidable ones is given once.
+pub fn answers_document(answers: &[Answer]) -> Document<'static> {
+    let undecided = |it: &&Answer| it.verdict == AnswerVerdict::Undecidable;
+    let undecided = answers.iter().filter(undecided).count();
+    let answered = match answers.len() - undecided {
+        0 => "no question answered".to_owned(),
+        answered => format!("{} answered", counted(answered, "question")),
+    };
+    let left = match undecided {
+        0 => String::new(),
+        left => format!(", {left} left open"),
+    };
+    let headline = Headline::new(Standing::Plain, format!("{answered}{left}"));
+    let mut out = Document::new("Answers of the control", headline);
+    out.push_str("\n");
+    let is_alike = |one: &Answer, other: &Answer| {
+        one.verdict == AnswerVerdict::Undecidable
+            && one.verdict == other.verdict
+            && (&one.axis, one.build, &one.evidence) == (&other.axis, other.build, &other.evidence)
+    };
+    for alike in answers.chunk_by(is_alike) {
+        let answer = &alike[0];
+        let question = answer.question;
+        let rules: Vec<_> = alike.iter().map(|it| it.question.facts().rule).collect();
+        let reading = match answer.verdict {
+            AnswerVerdict::Reading(reading) => format!(": {}", question.name_of(reading)),
+            AnswerVerdict::Undecidable => String::new(),
+        };
+        let build = answer.build.map_or(String::new(), |it| format!(" on {it}"));
+        let _ = writeln!(out, "{} {}{reading}", rules.join(", "), answer.word());
+        let _ = writeln!(
+            out,
+            "  axis {}{build}: {}",
+            visible_line(&answer.axis),
+            visible_line(&answer.evidence)
+        );
+    }
+    out
+}
+
+/// Returns the basis of the reading in force, in words.
+fn basis(question: Question, machine: &Machine, build: Option<CncBuild>) -> String {
+    let readings = &machine.readings;
+    let name = readings.name(question);
+    match readings.basis(question, build) {
+        Basis::Confirmed(it) => format!("{name}, confirmed on {} ({})", it.build, it.date),
+        Basis::Selected => format!("{name}, selected, not confirmed on this build"),
+        Basis::Assumed if readings.of(question).is_none() => "open, taken as unknown".to_owned(),
+        Basis::Assumed => format!("{name}, assumed"),
+    }
+}
+
+/// Returns the verdict: how many questions the control has answered.
+fn headline(machine: &Machine, build: Option<CncBuild>) -> Headline {
+    let bases = Question::ALL.map(|it| machine.readings.basis(it, build));
+    let confirmed = bases.iter().filter(|it| matches!(it, Basis::Confirmed(_)));
+    let selected = bases.iter().filter(|it| matches!(it, Basis::Selected));
+    let (confirmed, selected) = (confirmed.count(), selected.count());
+    let assumed = bases.len() - confirmed - selected;
+    let cure = if confirmed < bases.len() {
+        "; `frictcomp ask write` writes the programs that ask the control"
+    } else {
+        ""
+    };
+    let text = format!(
+        "{}: {confirmed} confirmed, {selected} selected, {assumed} assumed{cure}",
+        counted(bases.len(), "question")
+    );
+    Headline::new(Standing::Plain, text)
+}
+
+fn record(question: Question, machine: &Machine) -> Value {
+    let facts = question.facts();
+    let confirmation = machine.readings.confirmation(question);
+    json!({
+        "rule": facts.rule,
+        "question": facts.question,
+        "readings": facts.readings,
+        "assumed": facts.assumed_name(),
+        "reading": machine.readings.name(question),
+        "confirmed": confirmation.map(|it| json!({ "build": it.build.to_string(), "date": it.date })),
+        "way": facts.way.as_str(),
+        "depends": facts.depends,
+        "how": facts.how,
+    })
+}

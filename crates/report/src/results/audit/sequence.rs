@@ -1,0 +1,105 @@
+//! The effect of a given order, program by program (R10.6).
+
+use std::fmt::Write as _;
+
+use serde_json::{Map, Value, json};
+
+use super::subject::axis_name;
+use crate::assumptions::rests_on_text;
+use crate::wording::{Detail, visible_line};
+use frictcomp::audit::{Step, StepAxis};
+use frictcomp::timeline::SCHEMA;
+
+/// The programs of the order, one line each, and the readings on which their states rest.
+pub fn sequence_text(steps: &[Step], detail: Detail) -> String {
+    let lines = steps.iter().map(step_line);
+    let last = detail.full(steps.last()).flatten();
+    let rests_on = last.and_then(|last| rests_on_text(&last.rests_on));
+    let lines = lines.chain(rests_on).map(|line| line + "\n");
+    lines.collect()
+}
+
+fn step_line(step: &Step) -> String {
+    let mut line = format!("{}:", visible_line(&step.file));
+    let mut parts = Vec::new();
+    for axis in &step.axes {
+        let mut part = String::new();
+        let name = axis_name(&axis.axis, axis.kind);
+        let name = visible_line(&name);
+        if axis.start != axis.end {
+            let (start, end) = (axis.start.as_str(), axis.end.as_str());
+            let _ = write!(part, "{name} {start} → {end}");
+            if let Some(by) = &axis.by {
+                let _ = write!(part, " at {}", place(step, &by.file, by.line));
+            }
+        } else if axis.end != axis.start_up {
+            let _ = write!(part, "{name} stays {}", axis.end.as_str());
+        }
+        if let Some(possible) = &axis.possible {
+            let words = possible.in_words(&step.file);
+            let _ = write!(part, " ({})", visible_line(&words));
+        }
+        if let Some(away) = moves_away(step, axis) {
+            if part.is_empty() {
+                let _ = write!(part, "{name}");
+            } else {
+                part.push(',');
+            }
+            part.push_str(&away);
+        }
+        if !part.is_empty() {
+            parts.push(part);
+        }
+    }
+    if parts.is_empty() {
+        parts.push("every axis in its start-up state".to_owned());
+    }
+    let _ = write!(line, " {}", parts.join("; "));
+    if let Some(reason) = &step.stopped {
+        let code = reason
+            .code
+            .map_or(String::new(), |code| format!("{code}: "));
+        let _ = write!(line, "; stops, {code}{}", visible_line(&reason.message));
+    }
+    line
+}
+
+fn moves_away(step: &Step, axis: &StepAxis) -> Option<String> {
+    let away = axis.away.as_ref()?;
+    let place = place(step, &away.site.file, away.site.line);
+    let mut text = format!(
+        " moves outside its start-up state at {place} ({})",
+        away.motion.as_str()
+    );
+    if let Some(program) = &axis.left_by {
+        let _ = write!(text, ", left so by {}", visible_line(program));
+    }
+    Some(text)
+}
+
+fn place(step: &Step, file: &str, line: u32) -> String {
+    if file == step.file {
+        format!("line {line}")
+    } else {
+        format!("{}:{line}", visible_line(file))
+    }
+}
+
+/// The steps as records; the first one has `schema`.
+pub fn sequence_records(steps: &[Step]) -> Vec<Value> {
+    let records = steps.iter().enumerate().map(|(at, step)| {
+        let mut record = json!(step);
+        record["record"] = "step".into();
+        record["position"] = (at + 1).into();
+        let axes = step
+            .axes
+            .iter()
+            .map(|axis| (axis_name(&axis.axis, axis.kind), json!(axis)));
+        record["axes"] = Value::Object(axes.collect::<Map<String, Value>>());
+        if at == 0 {
+            record["schema"] = SCHEMA.into();
+        }
+        record
+    });
+    records.collect()
+}

@@ -1,0 +1,290 @@
+//! The subject of the report: archives by machine, and the words for effects of programs.
+
+use std::path::Path;
+
+use crate::document::{Headline, Standing};
+use crate::wording::counted;
+use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
+use frictcomp::comp::Kind;
+use frictcomp::machine::Machine;
+use frictcomp::text::shown_path;
+use frictcomp::timeline::ReadingsInForce;
+
+/// Archives by machine, with what was found in each.
+#[derive(Debug, Clone, Default)]
+pub struct AuditReport {
+    /// The machines, each with its programs.
+    pub machines: Vec<MachineAudit>,
+    /// The programs that were not looked at, counted by kind (R18.5).
+    pub not_checked: Option<String>,
+}
+
+/// The programs of one machine.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct MachineAudit {
+    /// The configuration or start-up list of the machine, if there is one.
+    pub origin: Option<String>,
+    /// The programs.
+    pub archive: Archive,
+    /// Effects of all programs together.
+    pub findings: Vec<AxisFinding>,
+    /// The readings on which these effects rest.
+    pub rests_on: ReadingsInForce,
+    /// The lines that assume friction compensation of axes, in words (R18.2).
+    pub assumption: Option<String>,
+}
+
+impl AuditReport {
+    /// Creates the report on the archive of each machine, with the file that describes it.
+    pub fn new<'a>(
+        machines: impl Iterator<Item = (Option<&'a Path>, &'a Machine)>,
+        archives: Vec<Archive>,
+        not_checked: Option<String>,
+    ) -> Self {
+        let machines = machines.zip(archives).map(|((origin, machine), archive)| {
+            MachineAudit::new(origin.map(shown_path), machine, archive)
+        });
+        Self {
+            machines: machines.collect(),
+            not_checked,
+        }
+    }
+}
+
+impl MachineAudit {
+    /// Finds the effects of the programs of a machine together.
+    fn new(origin: Option<String>, machine: &Machine, archive: Archive) -> Self {
+        let archive = archive.without_unswitched();
+        Self {
+            findings: archive.findings(),
+            rests_on: ReadingsInForce::of(archive.rests_on(), machine),
+            assumption: machine.assumption(),
+            origin,
+            archive,
+        }
+    }
+}
+
+/// "33 programs leave X off, 262 run with it off"; `of_machine` tells the axis from that of another machine.
+fn cause(finding: &AxisFinding, of_machine: &str) -> String {
+    let counts = [finding.leavers.len(), finding.inheritors.len()];
+    let verb = |count, one: &'static str, several| if count == 1 { one } else { several };
+    let away = if finding.on_at_start_up { "off" } else { "on" };
+    let programs = if counts[0] == 1 {
+        "program"
+    } else {
+        "programs"
+    };
+    format!(
+        "{} {programs} {} {}{of_machine} {away}, {} {} with it {away}",
+        counts[0],
+        verb(counts[0], "leaves", "leave"),
+        axis_name(&finding.axis, finding.kind),
+        counts[1],
+        verb(counts[1], "runs", "run"),
+    )
+}
+
+/// Axes that the verdict names; further ones are counted.
+const NAMED: usize = 3;
+
+impl AuditReport {
+    /// The verdict: how many programs leave an axis away from its start-up state, and how many run with it
+    /// (R10.2, R18.23).
+    pub fn headline(&self) -> Headline {
+        let programs = counted(self.programs(), "program");
+        let mut said = self.causes();
+        let more = said.len().saturating_sub(NAMED);
+        said.truncate(NAMED);
+        if more > 0 {
+            said.push(format!("and {more} more of the axes"));
+        }
+        let (standing, text) = if self.findings().next().is_none() {
+            let text = format!("{programs}: no axis is configured for friction compensation");
+            (Standing::Open, text)
+        } else if !said.is_empty() {
+            (Standing::Bad, said.join("; "))
+        } else if self.possible_hazards() > 0 {
+            let text = format!(
+                "{programs}: in some order, one may move an axis that another left away from its start-up state"
+            );
+            (Standing::Open, text)
+        } else if self.has_unknown() {
+            let text = format!("{programs}: of some it is not known what they leave or inherit");
+            (Standing::Open, text)
+        } else {
+            let text = format!(
+                "{programs}: in no order does one move an axis that another left away from its start-up state"
+            );
+            (Standing::Good, text)
+        };
+        let assumptions = self.assumptions().map(str::to_owned);
+        Headline::new(standing, text).assuming(assumptions)
+    }
+
+    /// Returns the hazards of each axis in words, with its machine where several have an axis of its name.
+    fn causes(&self) -> Vec<String> {
+        let named = self.machines.iter().flat_map(|machine| {
+            let hazards = machine.findings.iter().filter(|it| it.hazards() > 0);
+            hazards.map(move |it| (machine, it))
+        });
+        let named: Vec<(&MachineAudit, &AxisFinding)> = named.collect();
+        let is_alone = |finding: &AxisFinding| {
+            let same = named
+                .iter()
+                .filter(|(_, it)| (&it.axis, it.kind) == (&finding.axis, finding.kind));
+            same.count() == 1
+        };
+        let said = named.iter().map(|(machine, finding)| {
+            let origin = self.origin_among_several(machine);
+            let origin = origin.filter(|_| !is_alone(finding));
+            let of_machine = origin.map_or(String::new(), |it| format!(" ({it})"));
+            cause(finding, &of_machine)
+        });
+        said.collect()
+    }
+
+    pub(super) fn findings(&self) -> impl Iterator<Item = &AxisFinding> {
+        self.machines.iter().flat_map(|machine| &machine.findings)
+    }
+
+    /// The readings on which the findings rest.
+    pub(crate) fn rests_on(&self) -> ReadingsInForce {
+        let mut all = ReadingsInForce::default();
+        for machine in &self.machines {
+            all.extend(machine.rests_on.clone());
+        }
+        all
+    }
+
+    /// The assumptions about axes on which the findings rest.
+    pub(crate) fn assumptions(&self) -> impl Iterator<Item = &str> {
+        self.machines
+            .iter()
+            .filter_map(|it| it.assumption.as_deref())
+    }
+
+    /// The hazards of all axes.
+    pub fn hazards(&self) -> u64 {
+        let hazards = self.findings().map(AxisFinding::hazards);
+        hazards.fold(0, u64::saturating_add)
+    }
+
+    /// The possible hazards of all axes.
+    pub fn possible_hazards(&self) -> u64 {
+        let hazards = self.findings().map(AxisFinding::possible_hazards);
+        hazards.fold(0, u64::saturating_add)
+    }
+
+    /// Whether the effect of some program on some axis is not known.
+    pub(crate) fn has_unknown(&self) -> bool {
+        self.findings().any(|finding| !finding.unknown.is_empty())
+    }
+
+    /// Whether something has to be corrected, or is not known.
+    pub fn has_warnings(&self) -> bool {
+        self.findings().any(AxisFinding::is_worth_a_warning)
+    }
+
+    /// The axes and kinds for which the effect of a program is not known, or only on some ways.
+    pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
+        let programs = self.machines.iter().flat_map(|it| it.archive.programs());
+        let axes = programs.flat_map(|program| &program.axes);
+        let unknown =
+            axes.filter(|axis| axis.effect == ProgramEffect::Unknown || axis.possible.is_some());
+        unknown.map(|axis| (axis.axis.as_str(), axis.kind))
+    }
+
+    /// Returns the number of audited programs.
+    pub fn programs(&self) -> usize {
+        let programs = self.machines.iter().map(|it| it.archive.programs().len());
+        programs.sum()
+    }
+
+    /// The machine's name if there are several machines.
+    pub(super) fn origin_among_several<'a>(&self, machine: &'a MachineAudit) -> Option<&'a str> {
+        let several = self.machines.len() > 1;
+        several.then(|| machine.origin.as_deref().unwrap_or("no configuration"))
+    }
+}
+
+frictcomp::words! {
+    /// Effect of a program on an axis, as one word; the most dangerous comes first.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum Word {
+        /// It moves the axis as it finds it, and leaves it away from its start-up state.
+        Both = "both",
+        /// It leaves the axis away from its start-up state.
+        Leaves = "leaves",
+        /// It does so on some ways.
+        Depends = "depends",
+        /// It is not known offline.
+        Unknown = "unknown",
+        /// It moves the axis in the state that it finds.
+        Inherits = "inherits",
+        /// It may move the axis in the state that it finds.
+        Perhaps = "perhaps",
+        /// It leaves the axis in its start-up state, and does not move it before that.
+        StartUp = "start-up",
+        /// It neither takes the axis away from its start-up state nor moves it before it is set.
+        Keeps = "keeps",
+    }
+}
+
+impl Word {
+    /// Returns the word for the effect of a program on an axis.
+    pub fn of(axis: &AxisAudit) -> Self {
+        match axis.effect {
+            _ if axis.leaves_away() && axis.is_inheritor() => Self::Both,
+            ProgramEffect::Depends if axis.leaves_away() => Self::Depends,
+            _ if axis.leaves_away() => Self::Leaves,
+            _ if axis.is_unknown() => Self::Unknown,
+            _ if axis.is_inheritor() => Self::Inherits,
+            _ if axis.may_inherit() => Self::Perhaps,
+            ProgramEffect::Keeps | ProgramEffect::Depends => Self::Keeps,
+            _ => Self::StartUp,
+        }
+    }
+
+    /// Returns the meaning.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Both => {
+                "moves the axis as it finds it, and leaves it away from its start-up state"
+            }
+            Self::Leaves => "leaves the axis away from its start-up state",
+            Self::Depends => {
+                "leaves the axis away from its start-up state, depending on a condition below"
+            }
+            Self::Unknown => "it is not known offline what the program leaves or inherits",
+            Self::Inherits => "moves the axis in the state that it finds",
+            Self::Perhaps => "may move the axis in the state that it finds",
+            Self::StartUp => {
+                "leaves the axis in its start-up state, and does not move it before that"
+            }
+            Self::Keeps => {
+                "neither takes the axis away from its start-up state nor moves it before it is set"
+            }
+        }
+    }
+}
+
+/// An axis, with its kind if that is not friction compensation.
+pub(crate) fn axis_name(axis: &str, kind: Kind) -> String {
+    if kind == Kind::Frict {
+        axis.to_owned()
+    } else {
+        format!("{axis} {}", kind.as_str())
+    }
+}
+
+/// Whether a column of a table has any content: a kind that no program switches is left out.
+pub(crate) fn is_shown(machine: &MachineAudit, finding: &AxisFinding) -> bool {
+    let programs = machine.archive.programs();
+    finding.kind == Kind::Frict
+        || programs
+            .iter()
+            .any(|program| program.axes[finding.at].effect != ProgramEffect::Keeps)
+}

@@ -1,0 +1,16 @@
+//! Commissioning: the measuring programs and the instructions for the operator.
+
+mod acceptance;
+mod picture;
+mod plants;
+mod program;
+mod readme;
+mod results;
+mod summary;
+mod words;
+
+pub use acceptance::Acceptance;
+pub use program::render_program;
+pub use readme::render_readme;
+pub use results::{document, render_results_json};
+pub use summary::{plan_document, render_json};

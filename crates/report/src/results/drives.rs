@@ -1,0 +1,112 @@
+//! The torque interface of drives, `drive`.
+
+use std::fmt::{self, Write};
+
+use serde_json::{Value, json};
+
+use crate::document::{Headline, Standing, Table};
+use crate::wording::{listed, visible_line};
+use frictcomp::drive_interface::{DriveReport, Presence, Signal};
+
+/// Returns the verdict on the drives of the axes with friction compensation.
+pub fn drives_headline(reports: &[DriveReport]) -> Headline {
+    let named = |of: fn(&Presence) -> bool| {
+        let reports = reports
+            .iter()
+            .filter(|it| it.configured && of(&it.additive_torque));
+        let names: Vec<&str> = reports.map(|it| it.axis.as_str()).collect();
+        listed(&names)
+    };
+    let reached = named(|it| matches!(it, Presence::Present { .. }));
+    let missed = named(|it| matches!(it, Presence::Missing { .. }));
+    let open = named(|it| matches!(it, Presence::Unknown { .. }));
+    let standing = match (&missed, &open) {
+        (Some(_), _) => Standing::Bad,
+        (None, Some(_)) => Standing::Open,
+        (None, None) => Standing::Good,
+    };
+    let parts = [
+        (missed, "does not reach the drive of"),
+        (open, "may not reach the drive of"),
+        (reached, "reaches the drive of"),
+    ];
+    let parts = parts
+        .into_iter()
+        .filter_map(|(axes, how)| Some(format!("{how} {}", axes?)));
+    let parts: Vec<String> = parts.collect();
+    if parts.is_empty() {
+        return Headline::new(
+            Standing::Open,
+            "no drive of an axis with friction compensation is described",
+        );
+    }
+    Headline::new(
+        standing,
+        format!("the compensation torque {}", parts.join("; it ")),
+    )
+}
+
+/// Writes what is known about the drive of each axis.
+///
+/// # Errors
+/// Only those of `out`.
+pub fn render_drives(reports: &[DriveReport], out: &mut dyn Write) -> fmt::Result {
+    for (at, report) in reports.iter().enumerate() {
+        if at > 0 {
+            writeln!(out)?;
+        }
+        render_drive(report, out)?;
+    }
+    Ok(())
+}
+
+/// Returns the evidence on the drive of an axis as a record.
+pub fn drive_record(report: &DriveReport) -> Value {
+    let mut record = json!(report);
+    if let Value::Object(keys) = &mut record {
+        keys.insert("record".to_owned(), "drive".into());
+    }
+    record
+}
+
+fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
+    let name = match report.axis.as_str() {
+        "" => "without a name".into(),
+        name => visible_line(name),
+    };
+    let kind = match report.drive_type {
+        Some(kind) => format!("drive type {}", kind.as_str()),
+        None => "drive type not given, the control takes simulation".to_owned(),
+    };
+    let simulated = if report.simulated {
+        ", switched to simulation"
+    } else {
+        ""
+    };
+    let configured = if report.configured {
+        ""
+    } else {
+        "; friction compensation is not configured"
+    };
+    writeln!(out, "axis {name} ({kind}{simulated}{configured})")?;
+    let mut rows = Table::plain(["signal", "presence"]);
+    let presences = [&report.additive_torque, &report.actual_torque];
+    for (signal, presence) in Signal::ALL.iter().zip(presences) {
+        let (word, why) = match presence {
+            Presence::Present { evidence } => ("present", evidence.to_string()),
+            Presence::Missing { evidence } => ("missing", evidence.to_string()),
+            Presence::Unknown { reason } => ("unknown", reason.clone()),
+            Presence::NotApplicable => ("none", "no drive takes or gives a torque here".to_owned()),
+        };
+        let signal = format!("  {}", signal.as_str());
+        let told = format!("{word:<8} {}", visible_line(&why));
+        rows.row(&[&signal, &told]);
+    }
+    let (numerator, denominator) = (report.scale.numerator, report.scale.denominator);
+    rows.row(&[&"  torque scaling", &format!("{numerator}/{denominator}")]);
+    if let Some(largest) = report.largest_torque {
+        let percent = format!("{:.1} % of the rated torque", largest / 10.0);
+        rows.row(&[&"  largest compensation", &percent]);
+    }
+    write!(out, "{rows}")
+}

@@ -1,0 +1,129 @@
+//! Bytes on their way to a writer.
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use frictcomp::timeline::Sink;
+
+/// Number of bytes gathered before they are written.
+const CHUNK: usize = 64 * 1024;
+
+/// A timeline format whose output can be ended.
+pub trait Report: Sink {
+    /// Writes what is complete before the next record. Formats that fold or hold back records keep
+    /// those.
+    fn flush(&mut self) -> ControlFlow<()>;
+
+    /// Writes what is still held back.
+    ///
+    /// # Errors
+    /// The first error of the writer, except a closed pipe.
+    fn finish(&mut self) -> io::Result<()>;
+
+    /// Whether the reader closed the pipe.
+    fn is_closed(&self) -> bool;
+}
+
+/// A format that gathers its bytes before it writes them.
+pub(crate) trait Gathered: Sink {
+    /// Destination of the bytes.
+    type Writer: Write;
+
+    /// The bytes on their way.
+    fn output(&self) -> &Output<Self::Writer>;
+
+    /// The bytes on their way.
+    fn output_mut(&mut self) -> &mut Output<Self::Writer>;
+
+    /// Whether the gathered bytes may be written before the next record.
+    fn may_go_out(&self) -> bool {
+        true
+    }
+
+    /// Gathers what was held back, and the end of the document.
+    fn close(&mut self) {}
+}
+
+impl<F: Gathered> Report for F {
+    fn flush(&mut self) -> ControlFlow<()> {
+        if self.may_go_out() {
+            self.output_mut().flush()
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.close();
+        self.output_mut().finish()
+    }
+
+    fn is_closed(&self) -> bool {
+        self.output().is_closed()
+    }
+}
+
+/// Bytes on their way to a writer, in chunks.
+#[derive(Debug)]
+pub(crate) struct Output<W> {
+    writer: W,
+    pub(crate) bytes: Vec<u8>,
+    failure: Option<io::Error>,
+}
+
+impl<W: Write> Output<W> {
+    pub(crate) fn new(writer: W) -> Self {
+        Self {
+            writer,
+            bytes: Vec::with_capacity(CHUNK + CHUNK / 4),
+            failure: None,
+        }
+    }
+
+    /// Writes if a chunk is full.
+    pub(crate) fn settle(&mut self) -> ControlFlow<()> {
+        if self.bytes.len() >= CHUNK {
+            return self.flush();
+        }
+        self.verdict()
+    }
+
+    /// Writes everything.
+    pub(crate) fn flush(&mut self) -> ControlFlow<()> {
+        if self.failure.is_none() && !self.bytes.is_empty() {
+            let written = self
+                .writer
+                .write_all(&self.bytes)
+                .and_then(|()| self.writer.flush());
+            self.failure = written.err();
+        }
+        self.bytes.clear();
+        self.verdict()
+    }
+
+    fn verdict(&self) -> ControlFlow<()> {
+        if self.failure.is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    pub(crate) fn finish(&mut self) -> io::Result<()> {
+        let _ = self.flush();
+        match self.failure.take() {
+            Some(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.failure = Some(error);
+                Ok(())
+            }
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+
+    pub(crate) fn is_closed(&self) -> bool {
+        self.failure
+            .as_ref()
+            .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    }
+}

@@ -68,10 +68,7 @@ impl<F: ValueEnum + Clone + Copy + Default + Send + Sync + 'static> Job<F> {
         let (detail, width) = (self.console.detail, self.target.look.width);
         let text = other(self.format).unwrap_or_else(|| {
             let texts = documents.iter().map(|it| it.text(detail, width));
-            texts.collect::<Vec<_>>().join(
-                "
-",
-            )
+            texts.collect::<Vec<_>>().join("\n")
         });
         self.target.text(&text)?;
         self.outputs.finish()

@@ -179,6 +179,7 @@ impl Recorder<'_> {
             && executed.doubted.is_empty()
             && executed.comments == Comments::Absent
             && executed.remark.is_none()
+            && executed.aside.withheld.is_empty()
             && executed.version == self.version
             && self.linter.knows(executed)
     }

@@ -133,7 +133,7 @@ impl<S: LineSource> BlockReader<S> {
             text: &self.text,
             line,
             offset,
-            comments: Comments::Possible,
+            comments: Comments::of(&self.text),
             plain: false,
             remark,
         }

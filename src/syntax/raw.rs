@@ -112,6 +112,16 @@ pub enum Comments {
     Possible,
 }
 
+impl Comments {
+    /// Those of a whole block: one begins with `;`, `(` or `#COMMENT`.
+    pub(super) fn of(block: &str) -> Self {
+        match memchr::memchr3(b';', b'(', b'#', block.as_bytes()) {
+            Some(_) => Self::Possible,
+            None => Self::Absent,
+        }
+    }
+}
+
 /// Bytes that lines one above the other may have together.
 const MAX_BYTES: usize = 1 << 16;
 

@@ -73,7 +73,7 @@ impl Outputs {
         self.place(option, path, Replaces::Lists)
     }
 
-    /// Returns the file of a value list in a folder that is made if there is none.
+    /// Returns the file of a value list, and creates its folder if it is missing.
     pub(crate) fn list_in_folder(
         &mut self,
         option: &'static str,

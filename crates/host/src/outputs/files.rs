@@ -75,7 +75,7 @@ impl OutputFiles {
         self.forced.unwrap_or(replaces)
     }
 
-    /// Begins an output as [`create`](Self::create) does, in a folder that is made if there is none.
+    /// Begins an output as [`create`](Self::create) does, and creates its folder if it is missing.
     ///
     /// # Errors
     /// The folder cannot be made, or the file cannot be written.

@@ -304,8 +304,11 @@ pub(crate) struct BlockScratch {
     pub(crate) passed: Vec<PassedBlocks>,
     /// The paths on which the run may go on elsewhere than after them.
     pub(crate) left: Vec<Path>,
+    pub(crate) actions: BlockActions,
     pub(crate) ending: BlockEnding,
     pub(crate) messages: BlockMessages,
+    /// Whether it has only coordinates, a feed and G functions of groups, each a plain number, and nothing is said on it.
+    pub(crate) only_moves: bool,
     /// Whether an axis occurred for the first time.
     pub(crate) new_axes: bool,
     /// Whether a value was written.
@@ -371,7 +374,11 @@ pub(crate) struct BlockMessages {
 
 impl BlockScratch {
     /// Clears the messages on the block; those left at program end belong to no block.
+    #[inline]
     pub(crate) fn clear_said(&mut self) {
+        if self.only_moves {
+            return;
+        }
         self.messages.said = u64::try_from(self.messages.diagnostics.len()).unwrap_or(u64::MAX);
         self.messages.diagnostics.clear();
         self.messages.of_some_ways.clear();
@@ -387,13 +394,25 @@ impl BlockScratch {
         }
     }
 
+    #[inline]
     pub(crate) fn clear(&mut self) {
+        self.moves.clear();
+        self.new_axes = false;
+        self.actions.clear_words();
+        if !std::mem::replace(&mut self.only_moves, true) {
+            self.clear_rest();
+        }
+    }
+
+    /// Clears what a block that only moves leaves empty.
+    #[inline(never)]
+    fn clear_rest(&mut self) {
+        self.actions.clear();
         self.outcomes.clear();
         self.changes.clear();
         self.left_open = None;
         self.earlier = None;
         self.doubted.clear();
-        self.moves.clear();
         self.messages.diagnostics.clear();
         self.aside.withheld.clear();
         self.read.unknown_call = None;
@@ -404,7 +423,6 @@ impl BlockScratch {
         self.read.unread.set(false);
         self.read.expansions.set(0);
         self.ending.too_deep = false;
-        self.new_axes = false;
     }
 }
 
@@ -419,6 +437,7 @@ pub(crate) enum Feed {
 }
 
 /// A file that `#FILE EXIST` looks for.
+#[derive(Clone)]
 pub(crate) enum LookedFor {
     /// The one of a name.
     Named(String),
@@ -426,9 +445,9 @@ pub(crate) enum LookedFor {
     Computed,
 }
 
-/// Actions of a block after its words.
-#[derive(Default)]
-pub(crate) struct BlockOutcome {
+/// What the words of a block ask for, and what is done after them.
+#[derive(Default, Clone)]
+pub(crate) struct BlockActions {
     /// M02, M30.
     pub(crate) end: Option<EndedBy>,
     /// M17, M29.
@@ -459,7 +478,29 @@ pub(crate) struct BlockOutcome {
     pub(crate) probes: bool,
 }
 
-impl BlockOutcome {
+impl BlockActions {
+    /// Clears what plain words ask for.
+    #[inline]
+    fn clear_words(&mut self) {
+        self.feed = Feed::Absent;
+        self.groups = 0;
+    }
+
+    fn clear(&mut self) {
+        self.end = None;
+        self.returns = false;
+        self.step = None;
+        self.calls.clear();
+        self.looks_for = None;
+        self.implicit = None;
+        self.letters = 0;
+        self.functions.clear();
+        self.axis_words = AxisWords::Motion;
+        self.radius = None;
+        self.condition = None;
+        self.probes = false;
+    }
+
     /// Takes a G function; returns whether the control refuses it, because the block has one of its group.
     pub(crate) fn is_second_of_group(&mut self, function: &GFunction) -> bool {
         let group = function.group.map(|group| group as usize);

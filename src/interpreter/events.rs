@@ -163,6 +163,21 @@ pub struct Executed<'a> {
     pub version: u64,
 }
 
+/// A block that only moves axes that have moved before, as most blocks do: it switches nothing, and nothing is said
+/// on it.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct PlainMove<'a> {
+    /// Whether the text has comments.
+    pub comments: Comments,
+    /// The comment line directly above that is addressed to this tool.
+    pub remark: Option<&'a Remark>,
+    /// How it moves.
+    pub(crate) moves: &'a BlockMotion,
+    /// Rises whenever the state or the axes that occurred change.
+    pub version: u64,
+}
+
 impl Executed<'_> {
     /// Every axis that the block moves, or may, and how (R10.7): its words first.
     #[inline]
@@ -320,6 +335,13 @@ pub enum Event<'a> {
 pub trait Observer {
     /// Takes an event; `Break` stops the run, which can be resumed.
     fn event(&mut self, event: Event<'_>) -> ControlFlow<()>;
+
+    /// Returns whether an event is to follow about a block that only moves axes. One that takes no more than a count of
+    /// such blocks saves most of the time that the events take.
+    #[inline]
+    fn takes_move(&mut self, _block: &PlainMove<'_>) -> bool {
+        true
+    }
 }
 
 impl<F: FnMut(Event<'_>) -> ControlFlow<()>> Observer for F {

@@ -242,6 +242,7 @@ impl Executor {
     /// Kinds of an axis become unknown.
     pub(crate) fn havoc(&mut self, axis: AxisIndex, kinds: KindSet) {
         self.state.control.history.close(axis, kinds);
+        self.scratch.only_moves = false;
         let compensation = &mut self.state.control.compensation;
         compensation.havoc(axis, kinds, &mut self.scratch.changes);
         let doubted = compensation.unknown(axis).intersection(kinds);
@@ -295,7 +296,7 @@ pub(crate) struct RunState {
     pub(crate) reads: RefCell<Reads>,
     /// The last executed block of the main program.
     pub(crate) last: Option<LastBlock>,
-    /// First step of a paused run when it continues.
+    /// The step after the block, where that is not the next block.
     pub(crate) parked: Option<ControlStep>,
     /// The unknown values that messages were about.
     pub(crate) mentioned: MentionedUnknowns,

@@ -27,8 +27,10 @@ mod words;
 pub use drive::host::Interpreter;
 pub use drive::snapshot::{ResumeError, Snapshot};
 pub use events::{
-    Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
+    Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, PlainMove,
+    ProgramEnd,
 };
+pub(crate) use motion::block::BlockMotion;
 pub use motion::contouring::{Contouring, Joining};
 pub use motion::form::{
     Arc as CircularArc, ArcShape, AxisWord, BlockEnd, Centre, Motion, Motions, MovedAxis, PathFeed,

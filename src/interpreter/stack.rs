@@ -246,13 +246,6 @@ pub(crate) enum ControlStep {
     Covered,
 }
 
-/// Reason why the block that follows is not executed next.
-pub(crate) enum NextBlock {
-    /// The observer stops the run.
-    Paused,
-    Step(ControlStep),
-}
-
 /// A program to call.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Request {

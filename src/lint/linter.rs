@@ -4,7 +4,7 @@ use super::memory::{ProgramEffects, SwitchAfterMove};
 use super::session_states::{LeftAwayNotice, SessionStates};
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::{Executed, Outcome, WayCondition};
+use crate::interpreter::{BlockMotion, Executed, Outcome, WayCondition};
 use crate::machine::Machine;
 use crate::readings::{Question, QuestionSet};
 use crate::text::Place;
@@ -101,10 +101,10 @@ impl<'m> Linter<'m> {
     /// Whether every axis that a block moves has moved before, so that the block is nothing new, and no check is
     /// waiting for the next motion.
     #[inline]
-    pub(crate) fn knows(&self, executed: &Executed<'_>) -> bool {
-        !self.memory.has_new(executed)
+    pub(crate) fn knows(&self, moves: &BlockMotion) -> bool {
+        !self.memory.has_new(moves)
             && self.jumps.is_empty()
-            && (executed.also_moved.is_empty() || self.memory.knows_all(executed.also_moved))
+            && (moves.also_moved().is_empty() || self.memory.knows_all(moves.also_moved()))
     }
 
     /// Returns the questions about the start of the control whose answers decide the states in which the program moved

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{
-    BlockSite, Certainty, Ended, Executed, FoundOn, KindEffect, MotionKind, MovedAxis, Outcome,
-    WayCondition,
+    BlockMotion, BlockSite, Certainty, Ended, Executed, FoundOn, KindEffect, MotionKind, MovedAxis,
+    Outcome, WayCondition,
 };
 use crate::text::{Place, Span};
 
@@ -224,8 +224,8 @@ impl ProgramEffects {
 
     /// Whether an axis word of the block may be the first to move its axis.
     #[inline]
-    pub(super) fn has_new(&self, executed: &Executed<'_>) -> bool {
-        executed.moves.named() & !self.moved != 0
+    pub(super) fn has_new(&self, moves: &BlockMotion) -> bool {
+        moves.named() & !self.moved != 0
     }
 
     /// Whether none of these motions is new.

@@ -99,6 +99,10 @@ impl Sink for Findings {
         }
         ControlFlow::Continue(())
     }
+
+    fn takes_moves(&self) -> bool {
+        false
+    }
 }
 
 /// The change of a program that silences a message of it: a comment in its block, or above a block

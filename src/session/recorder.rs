@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::EndedBy;
-use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
+use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, PlainMove, limit_to};
 use crate::lint::{LeftAwayNotice, Linter};
 use crate::machine::Machine;
 use crate::syntax::Comments;
@@ -53,6 +53,8 @@ pub(super) struct Recorder<'a> {
     pub(super) totals: &'a mut SessionTotals,
     pub(super) notes: &'a mut NoteBook,
     pub(super) sink: &'a mut dyn Sink,
+    /// Whether it takes blocks that only move axes.
+    pub(super) takes_moves: bool,
     pub(super) program: u32,
     pub(super) file: &'a str,
     pub(super) said: Vec<Diagnostic>,
@@ -117,6 +119,15 @@ impl Observer for Recorder<'_> {
         self.broken |= flow.is_break();
         flow
     }
+
+    fn takes_move(&mut self, block: &PlainMove<'_>) -> bool {
+        let is_taken = self.takes_moves
+            || self.doubtful
+            || self.totals.feed_moves.watches()
+            || !self.is_known(block);
+        self.totals.blocks += u64::from(!is_taken);
+        is_taken
+    }
 }
 
 impl Recorder<'_> {
@@ -172,16 +183,26 @@ impl Recorder<'_> {
     /// to be remembered, and no comment in it can allow anything.
     #[inline]
     fn is_quiet(&self, executed: &Executed<'_>) -> bool {
-        executed.seq > 1
-            && executed.diagnostics.is_empty()
+        executed.diagnostics.is_empty()
             && executed.outcomes.is_empty()
             && executed.changes.is_empty()
             && executed.doubted.is_empty()
-            && executed.comments == Comments::Absent
-            && executed.remark.is_none()
             && executed.aside.withheld.is_empty()
-            && executed.version == self.version
-            && self.linter.knows(executed)
+            && self.is_known(&PlainMove {
+                comments: executed.comments,
+                remark: executed.remark,
+                moves: executed.moves,
+                version: executed.version,
+            })
+    }
+
+    /// Whether a block moves axes that have moved before in the state that was judged last, and has no comment.
+    #[inline]
+    fn is_known(&self, block: &PlainMove<'_>) -> bool {
+        block.version == self.version
+            && block.comments == Comments::Absent
+            && block.remark.is_none()
+            && self.linter.knows(block.moves)
     }
 
     /// The configured kinds of an axis that are unknown.

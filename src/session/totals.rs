@@ -170,6 +170,12 @@ impl FeedMoveCounter {
         &self.moved
     }
 
+    /// Whether friction compensation is not active on some axis, so that moves count.
+    #[inline]
+    pub(super) fn watches(&self) -> bool {
+        !self.watched.is_empty()
+    }
+
     /// Looks at an executed block. Where friction compensation is active on every axis, that is one
     /// comparison.
     #[inline]
@@ -179,7 +185,7 @@ impl FeedMoveCounter {
             self.watch(executed);
         }
         self.moved.clear();
-        if !self.watched.is_empty() {
+        if self.watches() {
             self.count(executed);
         }
     }

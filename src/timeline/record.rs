@@ -329,6 +329,11 @@ impl<'a> DiagnosticRecord<'a> {
 pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
+
+    /// Returns whether it takes the records of blocks that only move axes with known compensation, as most blocks do.
+    fn takes_moves(&self) -> bool {
+        true
+    }
 }
 
 impl<F: FnMut(&Record<'_>) -> ControlFlow<()>> Sink for F {

@@ -166,7 +166,7 @@ impl Interpreter {
         lines: &mut Option<MainLines<'_>>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> ControlFlow<RunOutcome, Option<ControlStep>> {
+    ) -> ControlFlow<RunOutcome> {
         let Some(MainLines {
             file,
             reader,
@@ -175,19 +175,20 @@ impl Interpreter {
             has_block,
         }) = lines
         else {
-            return ControlFlow::Continue(None);
+            return ControlFlow::Continue(());
         };
         let raw = if std::mem::take(is_due) {
             Some(reader.last())
         } else {
             reader.next(block)
         };
-        let Some(raw) = raw.filter(|raw| !begins_another(raw)) else {
-            *is_due = raw.is_some();
+        let begins_another = raw.as_ref().is_some_and(begins_another);
+        let (false, Some(raw)) = (begins_another, raw) else {
+            *is_due = begins_another;
             if !std::mem::replace(has_block, true) {
                 self.lost.push(no_block(file));
             }
-            return self.end_way(EndedBy::EndOfFile).map_continue(|()| None);
+            return self.end_way(EndedBy::EndOfFile);
         };
         *has_block = true;
         if self.here.needs_text(&raw, block) {
@@ -195,20 +196,20 @@ impl Interpreter {
             self.take_rest(lines);
             return match self.here.end_by_refusal() {
                 Some(by) => ControlFlow::Break(RunOutcome::Ended(by)),
-                None => ControlFlow::Continue(None),
+                None => ControlFlow::Continue(()),
             };
         }
         if self.here.is_skipped(block) {
-            return ControlFlow::Continue(None);
+            return ControlFlow::Continue(());
         }
         let shown = ShownBlockLines::default();
         let at = BlockContext::of_raw(file, &raw, block, &shown);
         // No other way waits while a block of the main program is executed that nothing goes back to.
-        let step = self.run_block(&at, (false, 0), finder, observer)?;
-        if let Some(ControlStep::Return) = step {
+        self.run_block(&at, (false, 0), finder, observer)?;
+        if let Some(ControlStep::Return) = self.here.state.parked {
             self.look_after_return(lines);
         }
-        ControlFlow::Continue(step)
+        ControlFlow::Continue(())
     }
 
     /// M17 ended the program: FC310 if it has M30 farther down; a subprogram run by itself ends as it should.
@@ -258,6 +259,7 @@ impl Interpreter {
 
 impl Executor {
     /// Whether a block can be executed only with the text after it.
+    #[inline]
     fn needs_text(&self, raw: &RawBlock<'_>, block: &Block) -> bool {
         self.undecided_level(block).is_some()
             || (!raw.plain && needs_rest(raw, block))

@@ -153,7 +153,8 @@ impl Executor {
         self.is_alone = true;
         self.sides.clear();
         self.programs.clear();
-        self.scratch.changes.clear();
+        self.scratch.only_moves = false;
+        self.scratch.clear();
     }
 
     /// How the run ends before it begins, where faults of the main program keep it from running.

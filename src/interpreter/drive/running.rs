@@ -5,17 +5,17 @@ use std::ops::ControlFlow;
 use crate::comp::{KindSet, State as CompState};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::{
-    AfterError, BlockContext, BlockOutcome, LastBlock, OwnEnd, ShownBlockLines, ended_by, stops,
+    AfterError, BlockContext, LastBlock, OwnEnd, ShownBlockLines, ended_by, stops,
 };
 use crate::interpreter::control::OptionalSection;
 use crate::interpreter::drive::host::Interpreter;
 use crate::interpreter::drive::lines::MainLines;
-use crate::interpreter::events::{EndedBy, Event, Executed, Joined, Observer};
+use crate::interpreter::events::{EndedBy, Event, Executed, Joined, Observer, PlainMove};
 use crate::interpreter::executor::{Executor, RunState};
 use crate::interpreter::options::{RunOutcome, StopPolicy};
 use crate::interpreter::programs::calls::Finder;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::stack::{ControlStep, Destination, NextBlock, Request};
+use crate::interpreter::stack::{ControlStep, Destination, Request};
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::history::{BlockSite, KindEffect};
 use crate::interpreter::ways::path::RunTrack;
@@ -59,25 +59,25 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> ControlFlow<RunOutcome> {
         self.choose_way(finder, observer);
-        let step = match self.due_block(lines.is_some())? {
+        match self.due_block(lines.is_some())? {
             DueBlock::Indexed(unit, next) => self.run_indexed(unit, next, finder, observer)?,
             DueBlock::Line => self.run_line(lines, finder, observer)?,
-            DueBlock::Elsewhere => None,
-        };
-        match step {
+            DueBlock::Elsewhere => {}
+        }
+        match self.here.state.parked.take() {
             Some(step) => self.take_step(step, lines, observer),
             None => ControlFlow::Continue(()),
         }
     }
 
-    /// Executes a block of a file in memory. Returns the step after it, where that is not the next block.
+    /// Executes a block of a file in memory.
     fn run_indexed(
         &mut self,
         unit: usize,
         next: EntryIndex,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> ControlFlow<RunOutcome, Option<ControlStep>> {
+    ) -> ControlFlow<RunOutcome> {
         let is_repeated = self.here.programs.was_read(unit, next);
         let parsed = self.here.programs.parsed(unit, next);
         if let Some(frame) = self.here.state.control.frames.running_mut() {
@@ -85,7 +85,7 @@ impl Interpreter {
         }
         if self.here.is_skipped(&parsed.block) {
             self.here.seek_beyond(unit, next);
-            return ControlFlow::Continue(None);
+            return ControlFlow::Continue(());
         }
         let level = self.here.state.control.frames.level();
         let shown = ShownBlockLines::default();
@@ -102,10 +102,7 @@ impl Interpreter {
                 frame.next = next;
             }
             self.others.take_sides(&mut self.here, None, finder);
-            return match flow {
-                ControlFlow::Continue(()) => ControlFlow::Continue(None),
-                ControlFlow::Break(()) => ControlFlow::Break(RunOutcome::Paused),
-            };
+            return flow.map_break(|()| RunOutcome::Paused);
         }
         let frames = &mut self.here.state.control.frames;
         let depth = frames.depth();
@@ -113,15 +110,14 @@ impl Interpreter {
             .running_mut()
             .and_then(|frame| frame.called_from.take());
         let at = at.with_caller(called_from.as_ref());
-        let step = self.run_block(&at, (is_repeated, parsed.weight), finder, observer);
+        let flow = self.run_block(&at, (is_repeated, parsed.weight), finder, observer);
         if let Some(frame) = self.here.state.control.frames.at_depth_mut(depth) {
             frame.called_from = called_from;
         }
-        step
+        flow
     }
 
-    /// Executes a block, unless a budget is used up, and parts the run after it. Returns the step after it, where that
-    /// is not the next block.
+    /// Executes a block, unless a budget is used up, and parts the run after it.
     #[inline]
     pub(crate) fn run_block(
         &mut self,
@@ -129,11 +125,11 @@ impl Interpreter {
         (is_repeated, weight): (bool, u64),
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> ControlFlow<RunOutcome, Option<ControlStep>> {
+    ) -> ControlFlow<RunOutcome> {
         if let Some(over) = self.here.over_budget(at) {
             let over = self.here.with_loop(over);
             self.here.scratch.ending.over.push(over);
-            return self.end_way(EndedBy::Budget).map_continue(|()| None);
+            return self.end_way(EndedBy::Budget);
         }
         let spent = self.here.state.work.spent();
         let is_on_ways = !self.others.waiting.is_empty();
@@ -149,17 +145,11 @@ impl Interpreter {
         if is_on_ways {
             self.here.charge_block(weight);
         }
-        let step = match flow {
-            ControlFlow::Continue(()) if self.here.sides.is_empty() => None,
-            ControlFlow::Continue(()) => self.part_and_step(None, finder),
-            ControlFlow::Break(NextBlock::Step(step)) => self.part_and_step(Some(step), finder),
-            ControlFlow::Break(NextBlock::Paused) => {
-                let step = self.here.state.parked.take();
-                self.here.state.parked = self.part_and_step(step, finder);
-                return ControlFlow::Break(RunOutcome::Paused);
-            }
-        };
-        ControlFlow::Continue(step)
+        if !self.here.sides.is_empty() {
+            let step = self.here.state.parked.take();
+            self.here.state.parked = self.part_and_step(step, finder);
+        }
+        flow.map_break(|()| RunOutcome::Paused)
     }
 
     /// Ends the way. Another one goes on if there is one.
@@ -257,9 +247,6 @@ impl Interpreter {
         step: Option<ControlStep>,
         finder: &mut dyn Finder,
     ) -> Option<ControlStep> {
-        if self.here.sides.is_empty() {
-            return step;
-        }
         match step {
             None | Some(ControlStep::Call(_)) => {
                 self.others
@@ -282,23 +269,26 @@ impl Interpreter {
         }
     }
 
-    /// Executes a block and informs the observer. `Continue` where the next block follows.
+    /// Executes a block and informs the observer; `Break` if that stops the run. The step after the block is then due,
+    /// where that is not the next block.
     pub(crate) fn execute(
         &mut self,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> ControlFlow<NextBlock> {
+    ) -> ControlFlow<()> {
         let first = self.begin_block(at);
         let number = self.here.block_number(at);
-        let mut outcome = BlockOutcome::default();
-        self.here.read(at, &mut outcome);
-        let calls = self.pass_over_and_call(&mut outcome, at, finder);
-        let stopped = self.here.judge(&outcome, at);
-        let is_over = self.here.account(at);
-        let step = self.next_step((&mut outcome, calls), (is_over, stopped), at, finder);
-        self.here.limit_messages(first);
-        self.here.note_doubts(at);
+        self.here.read(at);
+        let stopped = if self.others.waiting.is_empty() && self.here.only_moves() {
+            self.here.move_on(at);
+            if !observer.takes_move(&self.here.plain_move(at)) {
+                return ControlFlow::Continue(());
+            }
+            false
+        } else {
+            self.act(first, at, finder)
+        };
         let flow = if self.here.state.track.is_shadow() {
             self.here.note_moves_of_shadow();
             ControlFlow::Continue(())
@@ -307,14 +297,21 @@ impl Interpreter {
             self.here.raise(number, stopped, at, observer)
         };
         self.here.scratch.clear_said();
-        match step {
-            step if flow.is_break() => {
-                self.here.state.parked = step;
-                ControlFlow::Break(NextBlock::Paused)
-            }
-            None => ControlFlow::Continue(()),
-            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
-        }
+        flow
+    }
+
+    /// Does what the words of a block ask for beyond a motion. Returns whether an error of the control stops the run at
+    /// it.
+    #[inline(never)]
+    fn act(&mut self, first: usize, at: &BlockContext<'_>, finder: &mut dyn Finder) -> bool {
+        self.here.scratch.only_moves = false;
+        let calls = self.pass_over_and_call(at, finder);
+        let stopped = self.here.judge(at);
+        let is_over = self.here.account(at);
+        self.here.state.parked = self.next_step(calls, (is_over, stopped), at, finder);
+        self.here.limit_messages(first);
+        self.here.note_doubts(at);
+        stopped
     }
 
     /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
@@ -329,6 +326,7 @@ impl Interpreter {
             said.append(&mut self.others.joined);
             let withheld = &mut scratch.aside.withheld;
             withheld.append(&mut self.others.joined_withheld);
+            scratch.only_moves = false;
         }
         if !self.here.state.track.shadow.moved.is_empty() && !self.here.state.track.is_shadow() {
             self.here.take_moves_of_shadows();
@@ -337,6 +335,7 @@ impl Interpreter {
         self.here.state.seq += 1;
         self.here.state.blocks += 1;
         if self.here.state.track.searching.is_some() {
+            self.here.scratch.only_moves = false;
             self.here.search(at);
         }
         first
@@ -346,26 +345,25 @@ impl Interpreter {
     #[inline]
     fn pass_over_and_call(
         &mut self,
-        outcome: &mut BlockOutcome,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Vec<Request> {
-        self.here.pass_over_parts(outcome, finder);
+        self.here.pass_over_parts(finder);
         self.others.let_leave(&mut self.here);
         let mut calls = Vec::new();
-        if !outcome.calls.is_empty() && outcome.goes_on() {
-            calls = self
-                .here
-                .resolve_all(std::mem::take(&mut outcome.calls), at, finder);
+        let actions = &mut self.here.scratch.actions;
+        if !actions.calls.is_empty() && actions.goes_on() {
+            let wanted = std::mem::take(&mut actions.calls);
+            calls = self.here.resolve_all(wanted, at, finder);
             if !self.others.waiting.is_empty() {
                 calls = self
                     .others
                     .without_open_recursion(&mut self.here, calls, at, finder);
             }
-        } else if !outcome.calls.is_empty() {
-            self.here.pass_over_calls(outcome, at);
+        } else if !actions.calls.is_empty() {
+            self.here.pass_over_calls(at);
         }
-        if let Some(name) = outcome.looks_for.take() {
+        if let Some(name) = self.here.scratch.actions.looks_for.take() {
             self.here.look_for_file(name, at, finder);
         }
         if self.here.scratch.read.plc_acts {
@@ -378,7 +376,7 @@ impl Interpreter {
     #[inline]
     fn next_step(
         &mut self,
-        (outcome, calls): (&mut BlockOutcome, Vec<Request>),
+        calls: Vec<Request>,
         (is_over, stopped): (bool, bool),
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
@@ -390,10 +388,13 @@ impl Interpreter {
             Some(ControlStep::End(ended_by(
                 &here.scratch.messages.diagnostics,
             )))
-        } else if calls.is_empty() && outcome.goes_on() && here.state.control.cycles.is_empty() {
+        } else if calls.is_empty()
+            && here.scratch.actions.goes_on()
+            && here.state.control.cycles.is_empty()
+        {
             None
         } else {
-            here.step(outcome, calls, at, finder)
+            here.step(calls, at, finder)
         };
         match step {
             // A return to an earlier block repeats what is between them, as a jump does.
@@ -471,20 +472,21 @@ fn is_still(item: &Item) -> bool {
 impl Executor {
     /// Executes the words of a block and looks at its motion.
     #[inline]
-    fn read(&mut self, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
+    fn read(&mut self, at: &BlockContext<'_>) {
         if let Some(level) = self.undecided_level(at.block) {
             let whole = Span::new(0, at.text.trim_end().len());
+            self.scratch.only_moves = false;
             self.pass_over_part(Unknown::SkipLevel(level), whole, at);
         } else if !self.is_halted() {
-            self.remembered_items(at, outcome);
+            self.remembered_items(at);
         }
-        self.look_at_motion(outcome, at);
+        self.look_at_motion(at);
         self.outdate_readings(at);
     }
 
     /// Whether an error of the control stops the run at the block; else its axes move.
     #[inline]
-    fn judge(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) -> bool {
+    fn judge(&mut self, at: &BlockContext<'_>) -> bool {
         let said = &self.scratch.messages.diagnostics;
         let refused = self.first_refusal(at.block).is_some() || said.iter().any(stops);
         let stopped = refused && self.options.stop == StopPolicy::FirstError;
@@ -495,7 +497,7 @@ impl Executor {
             self.take_faults(at, stopped);
         }
         if !stopped {
-            self.move_axes(outcome, at);
+            self.move_axes(at);
         }
         stopped
     }
@@ -503,21 +505,24 @@ impl Executor {
     /// Checks the motion of the axes of a block: the axes that move with its words, and whether
     /// each may.
     #[inline]
-    fn look_at_motion(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
-        let words = outcome.axis_words;
+    fn look_at_motion(&mut self, at: &BlockContext<'_>) {
+        let words = self.scratch.actions.axis_words;
         if self.scratch.moves.has_repeated() {
+            self.scratch.only_moves = false;
             self.refuse_repeated_axes(words, at);
         }
         if self.scratch.moves.lacks_axes() {
+            self.scratch.only_moves = false;
             self.say_lacking(words, at);
         }
         self.move_around(words);
-        self.check_feed(outcome, at);
+        self.check_feed(at);
         self.carry_along(words);
         if !self.scratch.outcomes.is_empty() {
             self.note_command_with_motion();
         }
         if self.any_required && self.state.control.described.is_none() {
+            self.scratch.only_moves = false;
             let goes_on = !self.scratch.messages.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
                 self.check_required(words, at);
@@ -541,9 +546,39 @@ impl Executor {
         }
     }
 
-    /// Returns whether a block did no more than move.
+    /// Whether the block only moves axes that have moved before, and nothing else is due after it.
     #[inline]
-    fn is_plain(&self) -> bool {
+    fn only_moves(&self) -> bool {
+        self.scratch.only_moves
+            && !self.scratch.new_axes
+            && !self.state.track.is_shadow()
+            && self.state.control.cycles.is_empty()
+            && self.is_within_budgets()
+    }
+
+    /// Moves the axes of a block that does no more.
+    #[inline]
+    fn move_on(&mut self, at: &BlockContext<'_>) {
+        self.move_axes(at);
+        self.state.work.grant(at.text);
+        self.state.remember_last(at);
+        self.show_ways();
+        self.scratch.messages.said = 0;
+    }
+
+    #[inline]
+    fn plain_move<'a>(&'a self, at: &BlockContext<'a>) -> PlainMove<'a> {
+        PlainMove {
+            comments: at.comments,
+            remark: at.remark,
+            moves: &self.scratch.moves,
+            version: self.version,
+        }
+    }
+
+    /// Returns whether a block wrote nothing and no budget is used up.
+    #[inline]
+    fn is_within_budgets(&self) -> bool {
         !self.scratch.wrote
             && self.scratch.messages.unsaid.is_none()
             && self.state.work.level() <= self.options.limits.work
@@ -551,6 +586,7 @@ impl Executor {
     }
 
     /// Informs the observer of a block.
+    #[inline]
     fn raise(
         &mut self,
         number: Option<i64>,
@@ -611,7 +647,7 @@ impl Executor {
     #[inline]
     fn account(&mut self, at: &BlockContext<'_>) -> bool {
         self.state.work.grant(at.text);
-        let is_over = !self.is_plain() && self.settle(at);
+        let is_over = !self.is_within_budgets() && self.settle(at);
         let scratch = &self.scratch;
         if !scratch.changes.is_empty() || scratch.new_axes || scratch.left_open.is_some() {
             self.version += 1;
@@ -679,16 +715,15 @@ impl Executor {
     #[inline(never)]
     fn step(
         &mut self,
-        outcome: &mut BlockOutcome,
         calls: Vec<Request>,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<ControlStep> {
         let moved = !self.scratch.moves.words().is_empty();
         if !calls.is_empty() {
-            outcome.step = Some(ControlStep::Call(calls));
+            self.scratch.actions.step = Some(ControlStep::Call(calls));
         }
-        if let Some(by) = outcome.end {
+        if let Some(by) = self.scratch.actions.end {
             if self.state.control.ending.is_none() && at.level > 0 {
                 let fault = Fault::new(
                     Code::Fc315,
@@ -706,10 +741,10 @@ impl Executor {
             }
             return Some(self.program_end(by, at, finder));
         }
-        if outcome.returns {
+        if self.scratch.actions.returns {
             return Some(ControlStep::Return);
         }
-        let step = outcome.step.take();
+        let step = self.scratch.actions.step.take();
         if step.is_none() || matches!(step, Some(ControlStep::Call(_))) {
             return self.repetition(step, moved, at, finder);
         }
@@ -718,9 +753,10 @@ impl Executor {
 
     /// Executes the items of a block. Its commands are then the last ones on the way, each at the place where it is
     /// written or used as a macro.
-    fn remembered_items(&mut self, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
+    fn remembered_items(&mut self, at: &BlockContext<'_>) {
         let limit = self.first_refusal(at.block);
-        self.items(at, outcome, limit);
+        self.scratch.only_moves &= at.block.faults.is_empty();
+        self.items(at, limit);
         for outcome in &mut self.scratch.outcomes {
             let Ok(axis) = outcome.result else {
                 continue;
@@ -774,6 +810,7 @@ impl Executor {
 
 impl RunState {
     /// Remembers the block for FC310; it is not known beforehand whether M30 follows.
+    #[inline]
     fn remember_last(&mut self, at: &BlockContext<'_>) {
         if at.level > 0 {
             return;

@@ -330,5 +330,6 @@ pub struct AxisWord {
 /// numbers.
 #[inline]
 pub(crate) fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
-    Some(from? + value? * scale?).filter(|sum| sum.is_finite())
+    let sum = from? + value? * scale?;
+    (f64::MIN..=f64::MAX).contains(&sum).then_some(sum)
 }

@@ -562,6 +562,7 @@ impl Modal {
     }
 
     /// A feed word, in the unit of the mode in force.
+    #[inline]
     pub fn set_feed(&mut self, value: Option<f64>) {
         if !self.is_known(Group::Feed) {
             self.havoc_feeds();

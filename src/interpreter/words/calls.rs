@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::diagnostic::{Advice, Budget, Code};
-use crate::interpreter::block::{BlockContext, BlockOutcome, BlockScratch, LeftOpen, stops};
+use crate::interpreter::block::{BlockContext, BlockScratch, LeftOpen, stops};
 use crate::interpreter::control::{ModalCycles, Repeated, RepeatedCall, after_motion_only};
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
@@ -510,7 +510,6 @@ impl Executor {
         &mut self,
         sequence: &SequenceCall,
         at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let span = sequence.span;
         let name = match sequence.name {
@@ -562,7 +561,7 @@ impl Executor {
             here: name.is_empty(),
         };
         let wanted = WantedCall::program(CallScope::Global, name, at.in_block(span));
-        outcome.calls.push(WantedCall {
+        self.scratch.actions.calls.push(WantedCall {
             part: Some(part),
             ..wanted
         });
@@ -607,7 +606,6 @@ impl Executor {
         &mut self,
         back: &Return,
         at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let here = self.state.control.frames.level();
         let level = match back.levels {
@@ -617,7 +615,7 @@ impl Executor {
                 let value = self.value(operand, at)?;
                 if let Value::Unknown(cause) = &value {
                     self.unknown_return("how many programs are left", cause, back.span, at);
-                    outcome.returns = true;
+                    self.scratch.actions.returns = true;
                     return Ok(());
                 }
                 let number = value
@@ -638,7 +636,7 @@ impl Executor {
             }
         };
         if here == 0 {
-            outcome.returns = true;
+            self.scratch.actions.returns = true;
             return Ok(());
         }
         let mut destination = Destination::after_call(level);
@@ -649,7 +647,8 @@ impl Executor {
                     Ok(name) => name,
                     Err(cause) => {
                         self.unknown_return("where the program continues", &cause, back.span, at);
-                        outcome.step = Some(ControlStep::ReturnTo(Destination::after_call(level)));
+                        self.scratch.actions.step =
+                            Some(ControlStep::ReturnTo(Destination::after_call(level)));
                         return Ok(());
                     }
                 };
@@ -674,7 +673,7 @@ impl Executor {
                 }
             }
         }
-        outcome.step = Some(ControlStep::ReturnTo(destination));
+        self.scratch.actions.step = Some(ControlStep::ReturnTo(destination));
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::block::{AfterError, BlockContext, BlockOutcome, Feed};
+use crate::interpreter::block::{AfterError, BlockContext, Feed};
 use crate::interpreter::executor::Executor;
 use crate::interpreter::options::StopPolicy;
 use crate::interpreter::programs::calls::{Configured, FunctionWord};
@@ -26,19 +26,20 @@ const PLC: &str = "unless the PLC gives the feed";
 impl Executor {
     /// Looks for a feed move that has no feed, or the feed 0, and for a negative feed.
     #[inline]
-    pub(crate) fn check_feed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
-        match outcome.feed {
+    pub(crate) fn check_feed(&mut self, at: &BlockContext<'_>) {
+        match self.scratch.actions.feed {
             Feed::Absent if self.state.control.modal.functions.may_lack_feed() => {
-                self.move_without_feed(outcome, at);
+                self.move_without_feed(at);
             }
-            Feed::Given(Some(feed)) if feed <= 0.0 => self.feed_not_positive(feed, outcome, at),
+            Feed::Given(Some(feed)) if feed <= 0.0 => self.feed_not_positive(feed, at),
             Feed::Absent | Feed::Given(_) => {}
         }
     }
 
     /// The F word of the block is 0 or negative.
     #[cold]
-    fn feed_not_positive(&mut self, feed: f64, outcome: &BlockOutcome, at: &BlockContext<'_>) {
+    fn feed_not_positive(&mut self, feed: f64, at: &BlockContext<'_>) {
+        self.scratch.only_moves = false;
         let span = feed_word(at.block).unwrap_or(Span::new(0, at.text.trim_end().len()));
         if feed < 0.0 {
             let message = format!(
@@ -49,15 +50,16 @@ impl Executor {
                 .messages
                 .diagnostics
                 .push(at.diagnostic(fault.with_help("write a feed above 0")));
-        } else if self.moves_at_feed(outcome) {
+        } else if self.moves_at_feed() {
             self.refuse_feed_of_zero(span, at);
         }
     }
 
     /// The block has no F word, and its mode of F may have no feed.
     #[cold]
-    fn move_without_feed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
-        if !self.moves_at_feed(outcome) {
+    fn move_without_feed(&mut self, at: &BlockContext<'_>) {
+        self.scratch.only_moves = false;
+        if !self.moves_at_feed() {
             return;
         }
         let first = self.scratch.moves.words().first();
@@ -114,8 +116,8 @@ impl Executor {
     }
 
     /// Whether the block moves along its axis words at the feed in force.
-    fn moves_at_feed(&self, outcome: &BlockOutcome) -> bool {
-        outcome.axis_words == AxisWords::Motion
+    fn moves_at_feed(&self) -> bool {
+        self.scratch.actions.axis_words == AxisWords::Motion
             && self.state.control.described.is_none()
             && self.scratch.moves.is_at_feed(&self.state.control.modal)
             && !self.is_halted()
@@ -128,6 +130,7 @@ impl Executor {
         self.state.control.modal.functions.has_no_feed() && self.may_move_or_call(block)
     }
 
+    #[inline(never)]
     fn may_move_or_call(&self, block: &Block) -> bool {
         if feed_word(block).is_some() {
             return false;

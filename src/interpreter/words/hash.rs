@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
-use crate::interpreter::block::{BlockContext, BlockOutcome, LookedFor};
+use crate::interpreter::block::{BlockContext, LookedFor};
 use crate::interpreter::control::{
     ControlState, ModalCycles, OptionalSection, SavedConfig, SavedItem,
 };
@@ -32,12 +32,7 @@ use crate::text::Span;
 const MAX_NAMED: usize = 8;
 
 impl Executor {
-    pub(crate) fn hash(
-        &mut self,
-        hash: &Hash,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> Result<(), Box<Fault>> {
+    pub(crate) fn hash(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let command = hash.command;
         if command.path == PathFlow::MayRest {
             self.scratch.moves.rest();
@@ -45,7 +40,7 @@ impl Executor {
         self.scratch.read.plc_acts |= command.lets_plc_act();
         self.check_flushing(hash, at)?;
         match command.action {
-            HashAction::Wait => self.wait_for(hash, at, outcome)?,
+            HashAction::Wait => self.wait_for(hash, at)?,
             HashAction::Initialise if hash.names_all_externals(at.text) => {
                 self.pass_over(command.words, hash.span, at);
                 self.state
@@ -57,7 +52,7 @@ impl Executor {
             HashAction::Declare => return self.declare(&hash.declarations, at),
             HashAction::Delete => return self.delete(hash, at),
             HashAction::Dwell => {
-                outcome.axis_words = AxisWords::Other;
+                self.scratch.actions.axis_words = AxisWords::Other;
                 self.scratch.moves.dwell();
                 if let Some(&time) = hash.arguments.first() {
                     let seconds = self.number(time, hash.span, at)?;
@@ -79,10 +74,10 @@ impl Executor {
             HashAction::Describe => self.state.control.describe(hash, at),
             HashAction::EndDescription if self.state.control.end_description(command.words) => {}
             HashAction::RealTimeLoop => self.real_time_loop(hash.span, at),
-            HashAction::ReportError => return self.report_error(hash, at, outcome),
+            HashAction::ReportError => return self.report_error(hash, at),
             HashAction::ExchangeAxes(exchange) => self.exchange_axes(exchange, hash, at),
             HashAction::SaveConfig(action) => return self.saved_config(action, hash, at),
-            HashAction::ChangeFile(action) => self.file_command(action, hash, at, outcome),
+            HashAction::ChangeFile(action) => self.file_command(action, hash, at),
             HashAction::SkipBackward => return self.skip_backward(hash, at),
             HashAction::PassOver
             | HashAction::Comment
@@ -315,7 +310,6 @@ impl Executor {
         &mut self,
         hash: &Hash,
         at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         self.pass_over(hash.command.words, hash.span, at);
         // The PLC acts while the program waits, not after it.
@@ -327,14 +321,14 @@ impl Executor {
         let value = self.value(condition, at)?;
         let Operand::Expression(expression) = condition else {
             if value.truth() == Some(false) {
-                self.wait_for_ever(hash, at, outcome);
+                self.wait_for_ever(hash, at);
             }
             return Ok(());
         };
         if value.truth() == Some(false)
             && !is_written_by_machine(at.block, at.text, expression, &self.externals)
         {
-            self.wait_for_ever(hash, at, outcome);
+            self.wait_for_ever(hash, at);
             return Ok(());
         }
         if value.truth() != Some(true) {
@@ -351,7 +345,7 @@ impl Executor {
     }
 
     /// FC909: nothing that the condition reads can change while the program waits.
-    fn wait_for_ever(&mut self, hash: &Hash, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
+    fn wait_for_ever(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let condition = hash.code(at.text);
         let condition = condition.trim();
         let message = format!(
@@ -361,7 +355,7 @@ impl Executor {
             .with_help("wait for a value that the machine writes, `#WAIT FOR V.E.READY == 1`");
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
         self.scratch.ending.endless = true;
-        outcome.step = Some(ControlStep::End(EndedBy::Budget));
+        self.scratch.actions.step = Some(ControlStep::End(EndedBy::Budget));
     }
 }
 
@@ -370,13 +364,7 @@ const RESULT: &str = "V.G.FILE_EXIST";
 
 impl Executor {
     /// Executes a command on a file.
-    fn file_command(
-        &mut self,
-        action: FileAction,
-        hash: &Hash,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) {
+    fn file_command(&mut self, action: FileAction, hash: &Hash, at: &BlockContext<'_>) {
         self.pass_over(hash.command.words, hash.span, at);
         let named = |key| hash.brackets.after(key, at.text);
         let name = |key| named(key).and_then(|argument| argument.quoted(at.text));
@@ -389,7 +377,7 @@ impl Executor {
             FileAction::Delete => files.change(name("PATH")),
             FileAction::Message => files.write_message(),
             FileAction::LookFor => {
-                outcome.looks_for = Some(match name("PATH") {
+                self.scratch.actions.looks_for = Some(match name("PATH") {
                     Some(name) => LookedFor::Named(name.to_owned()),
                     None => LookedFor::Computed,
                 });

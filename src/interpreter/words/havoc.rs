@@ -69,6 +69,7 @@ impl Executor {
 
     /// Every kind of every axis becomes unknown.
     pub(crate) fn havoc_compensation(&mut self) {
+        self.scratch.only_moves = false;
         self.state.control.history.close_all();
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::diagnostic::Code;
-use crate::interpreter::block::{BlockContext, BlockOutcome};
+use crate::interpreter::block::BlockContext;
 use crate::interpreter::control::ControlState;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::motion::modal::is_named_m;
@@ -22,18 +22,12 @@ use crate::text::Span;
 
 impl Executor {
     /// An M, T or D word. A number that is not known offline may be any number.
-    pub(crate) fn function_word(
-        &mut self,
-        word: FunctionWord,
-        span: Span,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) {
+    pub(crate) fn function_word(&mut self, word: FunctionWord, span: Span, at: &BlockContext<'_>) {
         let FunctionWord { letter, number } = word;
         if letter == b'M' {
             match number {
                 Some(number) if !is_named_m(number) => {
-                    let called = self.call_word(word, span, at, outcome);
+                    let called = self.call_word(word, span, at);
                     if !called && !self.machine.harmless.has_function(letter, number) {
                         self.state
                             .control
@@ -48,30 +42,24 @@ impl Executor {
         if !self.calls_by_words() {
             return;
         }
-        self.call_word(word, span, at, outcome);
+        self.call_word(word, span, at);
         if letter == b'T' && self.machine.programs.data_with_tool {
             // P-CHAN-00014: T selects the tool data, too.
-            let calls = outcome.implicit.take();
-            self.call_word(word.of_data(), span, at, outcome);
-            outcome.implicit = calls;
+            let calls = self.scratch.actions.implicit.take();
+            self.call_word(word.of_data(), span, at);
+            self.scratch.actions.implicit = calls;
         }
     }
 
     /// Calls the program of a word. Returns whether it has one.
-    fn call_word(
-        &mut self,
-        word: FunctionWord,
-        span: Span,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> bool {
+    fn call_word(&mut self, word: FunctionWord, span: Span, at: &BlockContext<'_>) -> bool {
         match self.configured(word) {
             Configured::None => return false,
             Configured::Program(name) => {
                 self.scratch.read.plc_acts |= word.letter == b'M';
-                self.check_implicit(word.letter, span, at, outcome);
+                self.check_implicit(word.letter, span, at);
                 let wanted = WantedCall::program(CallScope::Global, name, at.in_block(span));
-                outcome.calls.push(wanted);
+                self.scratch.actions.calls.push(wanted);
             }
             Configured::Unknown(cause) => {
                 self.unknown_call("which program is called", &cause, span, at);
@@ -81,14 +69,8 @@ impl Executor {
     }
 
     /// FC328: a second implicit call in the block (R2.104).
-    fn check_implicit(
-        &mut self,
-        letter: u8,
-        span: Span,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) {
-        if outcome.implicit.replace(letter).is_some() {
+    fn check_implicit(&mut self, letter: u8, span: Span, at: &BlockContext<'_>) {
+        if self.scratch.actions.implicit.replace(letter).is_some() {
             let what = "two words of this block call programs";
             let refusal = PossibleRefusal::asked(22008, Question::TwoCalls);
             self.may_refuse(refusal, what, span, at);
@@ -96,19 +78,13 @@ impl Executor {
     }
 
     /// A G function outside the groups: whether it calls a program.
-    pub(crate) fn g_program(
-        &mut self,
-        number: u32,
-        span: Span,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> bool {
-        if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at, outcome) {
+    pub(crate) fn g_program(&mut self, number: u32, span: Span, at: &BlockContext<'_>) -> bool {
+        if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at) {
             return true;
         }
         let function = GFunction::known(number);
         if function.is_some_and(GFunction::is_call) {
-            let done = self.call_without_program(number, span, at, outcome);
+            let done = self.call_without_program(number, span, at);
             if let Err(fault) = done {
                 self.scratch.complain(*fault, at);
             }
@@ -131,12 +107,7 @@ impl Executor {
         false
     }
 
-    pub(crate) fn g_call(
-        &mut self,
-        call: &GCall,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> Result<(), Box<Fault>> {
+    pub(crate) fn g_call(&mut self, call: &GCall, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let mut own = BTreeMap::new();
         for (place, operand) in (1..).zip(&call.arguments) {
             if let Some(operand) = operand {
@@ -145,15 +116,18 @@ impl Executor {
         }
         match self.configured(FunctionWord::g(call.number)) {
             Configured::Program(name) => {
-                self.check_implicit(b'G', call.span, at, outcome);
+                self.check_implicit(b'G', call.span, at);
                 let wanted = WantedCall::program(CallScope::Global, name, at.in_block(call.span));
-                outcome.calls.push(WantedCall { own, ..wanted });
+                self.scratch
+                    .actions
+                    .calls
+                    .push(WantedCall { own, ..wanted });
             }
             Configured::Unknown(cause) => {
                 self.unknown_call("which program is called", &cause, call.span, at);
             }
             Configured::None => {
-                return self.call_without_program(call.number, call.span, at, outcome);
+                return self.call_without_program(call.number, call.span, at);
             }
         }
         Ok(())
@@ -167,7 +141,6 @@ impl Executor {
         number: u32,
         span: Span,
         at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let is_harmless = self.machine.harmless.has_function(b'G', i64::from(number));
         if is_harmless {
@@ -175,7 +148,7 @@ impl Executor {
             self.pass_over(&format!("G{number}"), span, at);
         } else if !self.machine.channel.is_whole {
             let wanted = WantedCall::of_word(number, at.in_block(span));
-            outcome.calls.push(wanted);
+            self.scratch.actions.calls.push(wanted);
         } else {
             let what = format!(
                 "the channel list names no program for `G{number}`, which the control refuses"
@@ -288,8 +261,8 @@ impl Executor {
 
     /// FC210: calls in the block of a jump, a program end or a return. Whether the control makes them is not
     /// documented, so that everything that a program could change is unknown (R2.52).
-    pub(crate) fn pass_over_calls(&mut self, outcome: &mut BlockOutcome, at: &BlockContext<'_>) {
-        let calls = std::mem::take(&mut outcome.calls);
+    pub(crate) fn pass_over_calls(&mut self, at: &BlockContext<'_>) {
+        let calls = std::mem::take(&mut self.scratch.actions.calls);
         let Some(call) = calls.first() else {
             return;
         };

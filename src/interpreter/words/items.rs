@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::{
-    AfterError, BlockContext, BlockOutcome, BlockScratch, LonePart, MacroCode, ShownBlockLines,
-    is_harmless, stops,
+    AfterError, BlockContext, BlockScratch, LonePart, MacroCode, ShownBlockLines, is_harmless,
+    stops,
 };
 use crate::interpreter::executor::Executor;
 use crate::interpreter::options::StopPolicy;
@@ -68,21 +68,17 @@ impl Executor {
         }
     }
 
-    pub(crate) fn items(
-        &mut self,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-        limit: Option<u32>,
-    ) {
+    pub(crate) fn items(&mut self, at: &BlockContext<'_>, limit: Option<u32>) {
         let mut limit = limit.unwrap_or(u32::MAX);
         for word in &at.block.words {
             if word.span.start >= limit && self.refuse_from(&mut limit, at).is_break() {
                 return;
             }
-            if self.plain_word(word, outcome) {
+            if self.plain_word(word) {
                 continue;
             }
-            let done = self.word(word, at, outcome);
+            self.scratch.only_moves = false;
+            let done = self.word(word, at);
             if self.say(done, at).is_break() {
                 return;
             }
@@ -91,10 +87,11 @@ impl Executor {
             if item.span().start >= limit && self.refuse_from(&mut limit, at).is_break() {
                 return;
             }
-            let done = self.item(item, at, outcome);
+            self.scratch.only_moves = false;
+            let done = self.item(item, at);
             // After a statement that leads elsewhere, `$CASE 2 X10`, nothing is executed.
             let leaves = matches!(item, Item::Flow(flow, _) if !matches!(flow, Flow::Goto(_)))
-                && outcome.step.is_some();
+                && self.scratch.actions.step.is_some();
             if self.say(done, at).is_break() || leaves {
                 return;
             }
@@ -148,14 +145,9 @@ impl Executor {
     }
 
     #[inline(never)]
-    pub(crate) fn item(
-        &mut self,
-        item: &Item,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> Result<(), Box<Fault>> {
+    pub(crate) fn item(&mut self, item: &Item, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         match item {
-            Item::Word(word) => self.word(word, at, outcome),
+            Item::Word(word) => self.word(word, at),
             Item::Comp(command) => {
                 self.comp(command, at);
                 Ok(())
@@ -184,7 +176,7 @@ impl Executor {
             }
             Item::BareNumber(operand, span) => {
                 let value = self.number(*operand, *span, at)?;
-                if outcome.axis_words != AxisWords::Motion {
+                if self.scratch.actions.axis_words != AxisWords::Motion {
                     self.scratch.moves.geometry().dwell = Some(value);
                     return Ok(());
                 }
@@ -196,19 +188,19 @@ impl Executor {
                 )))
             }
             Item::Assign(assignment) => self.assign(*assignment, at),
-            Item::Hash(hash) => self.hash(hash, at, outcome),
+            Item::Hash(hash) => self.hash(hash, at),
             Item::MacroDefinition(name, code) => {
                 let (name, code) = (unquoted(name.of(at.text)), unquoted(code.of(at.text)));
                 self.state.control.memory.define_macro(name, code);
                 self.scratch.wrote = true;
                 Ok(())
             }
-            Item::GCall(call) => self.g_call(call, at, outcome),
-            Item::Sequence(sequence) => self.sequence(sequence, at, outcome),
-            Item::Return(back) => self.return_to(back, at, outcome),
+            Item::GCall(call) => self.g_call(call, at),
+            Item::Sequence(sequence) => self.sequence(sequence, at),
+            Item::Return(back) => self.return_to(back, at),
             Item::Call(call) => {
                 let wanted = self.wanted(call, at)?;
-                outcome.calls.extend(wanted);
+                self.scratch.actions.calls.extend(wanted);
                 Ok(())
             }
             Item::Flow(flow, span) => {
@@ -220,18 +212,18 @@ impl Executor {
                     Ok::<_, Box<Fault>>(Some(false))
                 })?;
                 if condition.is_some() {
-                    outcome.condition = condition;
+                    self.scratch.actions.condition = condition;
                     return Ok(());
                 }
-                if outcome.condition == Some(false) {
+                if self.scratch.actions.condition == Some(false) {
                     return Ok(());
                 }
-                if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(outcome, at) {
+                if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(at) {
                     self.part_at_probe(*span, at);
                     return Ok(());
                 }
                 let step = self.flow(flow, *span, at);
-                outcome.step = step.or_else(|fault| {
+                self.scratch.actions.step = step.or_else(|fault| {
                     let cause = cause_of(&fault, at);
                     self.undecidable(*fault, at)?;
                     self.pass_over_undecided(flow, (cause, *span), at);
@@ -239,7 +231,7 @@ impl Executor {
                 })?;
                 Ok(())
             }
-            Item::MacroUse(span) => self.expand(*span, at, outcome),
+            Item::MacroUse(span) => self.expand(*span, at),
             Item::Unread(_, span) if self.machine.harmless.has_command(span.of(at.text)) => {
                 let (name, _) = hash_name(span.of(at.text));
                 self.pass_over(&name, *span, at);
@@ -265,12 +257,7 @@ impl Executor {
     }
 
     /// A macro in place of words: its code is a separate block, executed here (R2.35).
-    fn expand(
-        &mut self,
-        span: Span,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> Result<(), Box<Fault>> {
+    fn expand(&mut self, span: Span, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let name = unquoted(span.of(at.text));
         let code = match self.state.control.memory.macro_code(name) {
             Some(Value::Text(code)) => Arc::clone(code),
@@ -306,7 +293,7 @@ impl Executor {
             self.scratch.read.notes.borrow().len(),
         );
         let limit = self.first_refusal(&block);
-        self.items(&inner, outcome, limit);
+        self.items(&inner, limit);
         let stopped = limit.is_some() && self.options.stop == StopPolicy::FirstError;
         self.take_faults(&inner, stopped);
         // Messages about the macro's code are shown where the macro is used.
@@ -323,13 +310,24 @@ impl Executor {
         self.check_sharing(&code, span, at)
     }
 
+    #[inline]
     pub(crate) fn block_number(&mut self, at: &BlockContext<'_>) -> Option<i64> {
         let number = at.block.number.as_ref()?;
-        let value = match &number.value {
-            Operand::Number(number) => return rounded(*number),
-            operand @ Operand::Expression(_) => self.number(*operand, number.span, at),
-        };
-        match value {
+        match number.value {
+            Operand::Number(number) => rounded(number),
+            operand @ Operand::Expression(_) => self.computed_number(operand, number.span, at),
+        }
+    }
+
+    #[inline(never)]
+    fn computed_number(
+        &mut self,
+        operand: Operand,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Option<i64> {
+        self.scratch.only_moves = false;
+        match self.number(operand, span, at) {
             Ok(value) => value.and_then(rounded),
             Err(fault) => {
                 self.scratch.complain(*fault, at);

@@ -3,7 +3,7 @@
 use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
 use crate::interpreter::axes::AxisNameMeaning;
-use crate::interpreter::block::{BlockContext, BlockOutcome, Feed};
+use crate::interpreter::block::{BlockActions, BlockContext, Feed};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
@@ -30,12 +30,7 @@ struct LetterWord {
 const FIRST_ABOVE_M: i64 = 1001;
 
 impl Executor {
-    pub(crate) fn word(
-        &mut self,
-        word: &Word,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> Result<(), Box<Fault>> {
+    pub(crate) fn word(&mut self, word: &Word, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let number = match &word.value {
             None => None,
             Some(Operand::Number(number)) => Some(*number),
@@ -58,7 +53,7 @@ impl Executor {
                 value: number,
                 span: word.span,
             };
-            return self.letter(word, at, outcome);
+            return self.letter(word, at);
         }
         self.named_word(word, number, at);
         Ok(())
@@ -190,7 +185,7 @@ impl Executor {
     /// Takes a word of the kind that most blocks consist of and that needs no message: a coordinate, a
     /// feed, a G function of a group, each with a plain number. Any other is left to [`Self::word`].
     #[inline]
-    pub(crate) fn plain_word(&mut self, word: &Word, outcome: &mut BlockOutcome) -> bool {
+    pub(crate) fn plain_word(&mut self, word: &Word) -> bool {
         let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
             return false;
         };
@@ -205,10 +200,13 @@ impl Executor {
             return is_own;
         }
         match letter {
-            b'F' if matches!(outcome.feed, Feed::Absent) => {
-                outcome.feed = Feed::Given(Some(number));
+            b'F' if matches!(self.scratch.actions.feed, Feed::Absent) => {
+                self.scratch.actions.feed = Feed::Given(Some(number));
             }
-            b'G' => return self.state.control.modal_word(number, outcome),
+            b'G' => {
+                let actions = &mut self.scratch.actions;
+                return self.state.control.modal_word(number, actions);
+            }
             _ => return false,
         }
         true
@@ -241,12 +239,7 @@ impl Executor {
         }
     }
 
-    fn letter(
-        &mut self,
-        word: LetterWord,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> Result<(), Box<Fault>> {
+    fn letter(&mut self, word: LetterWord, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let LetterWord {
             letter,
             value: number,
@@ -266,24 +259,24 @@ impl Executor {
         }
         // A T word may be a D word as well (P-CHAN-00014; TF5200 Diagnosis, error 20170).
         let gives_data = letter == b'T' && self.machine.programs.data_with_tool;
-        if outcome.is_repeated((letter, whole), at.block)
-            || gives_data && outcome.is_repeated((b'D', None), at.block)
+        if self.scratch.actions.is_repeated((letter, whole), at.block)
+            || gives_data && self.scratch.actions.is_repeated((b'D', None), at.block)
         {
             return Err(Box::new(repeated_word(span.of(at.text), span)));
         }
         match (letter, whole) {
-            (b'G', Some(number)) => return self.g_word(number, span, at, outcome),
+            (b'G', Some(number)) => return self.g_word(number, span, at),
             (b'G', None) => {
-                outcome.probes = true;
+                self.scratch.actions.probes = true;
                 self.unknown_word("G", span, at);
                 self.state.control.modal.havoc_g(None);
             }
-            (b'M', Some(30)) => outcome.end = Some(EndedBy::M30),
-            (b'M', Some(2)) => outcome.end = Some(EndedBy::M02),
-            (b'M', Some(17 | 29)) => outcome.returns = true,
+            (b'M', Some(30)) => self.scratch.actions.end = Some(EndedBy::M30),
+            (b'M', Some(2)) => self.scratch.actions.end = Some(EndedBy::M02),
+            (b'M', Some(17 | 29)) => self.scratch.actions.returns = true,
             (b'S', _) => self.state.control.modal.pace.speed(number),
             (b'E', _) => self.end_feed_word(number, span, at),
-            (b'F', _) => outcome.feed = Feed::Given(number),
+            (b'F', _) => self.scratch.actions.feed = Feed::Given(number),
             (b'M', None) => {
                 self.unknown_word("M", span, at);
                 self.scratch.read.plc_acts = true;
@@ -304,10 +297,10 @@ impl Executor {
                 if let (b'M', Some(number)) = (letter, number) {
                     self.state.control.modal.pace.m(number);
                 }
-                self.function_word(FunctionWord { letter, number }, span, at, outcome);
+                self.function_word(FunctionWord { letter, number }, span, at);
             }
             (b'R', _) => {
-                outcome.radius = Some(at.in_block(span));
+                self.scratch.actions.radius = Some(at.in_block(span));
                 self.circle_word(letter, number, span);
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
@@ -339,20 +332,14 @@ impl Executor {
         }
     }
 
-    fn g_word(
-        &mut self,
-        number: i64,
-        span: Span,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) -> Result<(), Box<Fault>> {
+    fn g_word(&mut self, number: i64, span: Span, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let Ok(number) = u32::try_from(number) else {
             self.pass_over(&format!("G{number}"), span, at);
             return Ok(());
         };
         let function = GFunction::of(number);
-        outcome.probes |= function.is_some_and(GFunction::is_measuring);
-        if function.is_some_and(|function| outcome.is_second_of_group(function)) {
+        self.scratch.actions.probes |= function.is_some_and(GFunction::is_measuring);
+        if function.is_some_and(|function| self.scratch.actions.is_second_of_group(function)) {
             let message =
                 format!("`G{number:02}` is the second G function of its group in this block");
             let fault = Fault::new(Code::Fc313, span, message)
@@ -360,7 +347,7 @@ impl Executor {
             return Err(Box::new(fault));
         }
         let Some(function) = function else {
-            self.further_g(number, span, at, outcome);
+            self.further_g(number, span, at);
             return Ok(());
         };
         if let Some(group) = function.group {
@@ -373,7 +360,7 @@ impl Executor {
         match function.action {
             GAction::Mirror | GAction::SwitchSpline => return Ok(()),
             GAction::Dwell => {
-                outcome.axis_words = function.axis_words;
+                self.scratch.actions.axis_words = function.axis_words;
                 self.scratch.read.plc_acts = true;
                 self.scratch.moves.dwell();
                 return Ok(());
@@ -388,23 +375,23 @@ impl Executor {
                 return Ok(());
             }
             GAction::SetReference => {
-                outcome.axis_words = function.axis_words;
+                self.scratch.actions.axis_words = function.axis_words;
                 return Ok(());
             }
             GAction::SetRadius if self.radius_word(span, at) => {
-                outcome.radius = Some(at.in_block(span));
+                self.scratch.actions.radius = Some(at.in_block(span));
                 return Ok(());
             }
             // PM/969743115
             GAction::Rotate if function.axis_words != AxisWords::Motion => {
-                outcome.axis_words = function.axis_words;
+                self.scratch.actions.axis_words = function.axis_words;
             }
             GAction::Rotate => {}
             GAction::WeighRapid => self.weigh_rapid(span, at),
             GAction::SetCuttingSpeed => self.state.control.modal.pace.cut(true),
             GAction::SetSpindleSpeed => self.state.control.modal.pace.cut(false),
             GAction::PassOver | GAction::Call | GAction::SetRadius => {
-                self.further_g(number, span, at, outcome);
+                self.further_g(number, span, at);
                 return Ok(());
             }
         }
@@ -413,14 +400,8 @@ impl Executor {
     }
 
     /// A G function without a bearing on the compensation, G61 and the like; a configured cycle has one.
-    fn further_g(
-        &mut self,
-        number: u32,
-        span: Span,
-        at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) {
-        if self.g_program(number, span, at, outcome) {
+    fn further_g(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
+        if self.g_program(number, span, at) {
             return;
         }
         if let Some(function) = GFunction::of(number) {
@@ -429,7 +410,7 @@ impl Executor {
                 self.scratch.moves.move_as(motion);
             }
             if function.axis_words != AxisWords::Motion {
-                outcome.axis_words = function.axis_words;
+                self.scratch.actions.axis_words = function.axis_words;
             }
             if function.unmodelled.is_some() {
                 self.scratch.moves.geometry().foreign = function.unmodelled;
@@ -443,8 +424,8 @@ impl Executor {
 
     /// Turns axis words into positions when the whole block is known: G90, G91, G70 and G92 apply
     /// wherever they are in the block, and F belongs to the feed mode of its block.
-    pub(crate) fn move_axes(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
-        if let Feed::Given(feed) = outcome.feed {
+    pub(crate) fn move_axes(&mut self, at: &BlockContext<'_>) {
+        if let Feed::Given(feed) = self.scratch.actions.feed {
             self.state.control.modal.set_feed(feed);
         }
         if self.state.control.described.is_some() {
@@ -457,8 +438,8 @@ impl Executor {
         let start = is_followed.then(|| self.state.control.modal.positions().to_vec());
         let modal = &mut self.state.control.modal;
         let moves = &mut self.scratch.moves;
-        let before = outcome.radius.map(|_| moves.ends(modal));
-        match outcome.axis_words {
+        let before = self.scratch.actions.radius.map(|_| moves.ends(modal));
+        match self.scratch.actions.axis_words {
             AxisWords::Motion => modal.move_axes(moves.coordinates()),
             AxisWords::Homing | AxisWords::Measuring => {
                 for word in moves.words() {
@@ -468,13 +449,13 @@ impl Executor {
             AxisWords::Reference => modal.set_references(moves.words()),
             AxisWords::Other => {}
         }
-        if let (Some(span), Some(before)) = (outcome.radius, before) {
+        if let (Some(span), Some(before)) = (self.scratch.actions.radius, before) {
             self.warn_full_circle(span, &before, at);
         }
         if start.is_some() || self.scratch.moves.has_geometry() {
-            self.take_motion(start, outcome.axis_words);
+            self.take_motion(start, self.scratch.actions.axis_words);
         }
-        if !outcome.axis_words.move_axes() {
+        if !self.scratch.actions.axis_words.move_axes() {
             self.scratch.moves.drop_words();
         }
     }
@@ -499,14 +480,14 @@ impl Executor {
 impl ControlState {
     /// Puts a G function of a group into force, unless the block has another one of the group.
     #[inline]
-    fn modal_word(&mut self, number: f64, outcome: &mut BlockOutcome) -> bool {
+    fn modal_word(&mut self, number: f64, actions: &mut BlockActions) -> bool {
         let Some(number) = exact(number) else {
             return false;
         };
         let Some(group) = Group::of(number) else {
             return false;
         };
-        if !outcome.take_group(group) {
+        if !actions.take_group(group) {
             return false;
         }
         self.modal.set(group, number);

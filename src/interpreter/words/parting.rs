@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::Code;
-use crate::interpreter::block::{AfterError, BlockContext, BlockOutcome, ShownBlockLines};
+use crate::interpreter::block::{AfterError, BlockContext, ShownBlockLines};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::events::{Note, NoteKind, Notes};
 use crate::interpreter::executor::Executor;
@@ -611,6 +611,7 @@ impl Executor {
         let at_start = self.machine.readings.takes_second(Open::SkipLevel);
         let cause = Unknown::SkipLevel(level);
         self.scratch.clear();
+        self.scratch.only_moves = false;
         self.note_unknown(&cause, &at);
         let span = Span::new(0, parsed.text.trim_end().len());
         if !is_bare && self.is_level_read_again(level, &at.place(span)) {
@@ -687,8 +688,8 @@ fn operand_text(operand: Operand, (block, text): (&Block, &str)) -> String {
 
 impl Executor {
     /// Whether the jump of a block waits for the signal of a probe (R2.91).
-    pub(crate) fn jump_is_probed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) -> bool {
-        if outcome.probes {
+    pub(crate) fn jump_is_probed(&mut self, at: &BlockContext<'_>) -> bool {
+        if self.scratch.actions.probes {
             return true;
         }
         let words = at.block.items.iter().filter_map(|item| match item {

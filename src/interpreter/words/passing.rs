@@ -11,9 +11,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::axes::Addressed;
-use crate::interpreter::block::{
-    BlockContext, BlockOutcome, MacroCode, OwnEnd, PassedBlocks, ShownBlockLines,
-};
+use crate::interpreter::block::{BlockContext, MacroCode, OwnEnd, PassedBlocks, ShownBlockLines};
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::options::StopPolicy;
@@ -493,7 +491,7 @@ impl Executor {
 
     /// Makes unknown what the parts that the block passes over could change.
     #[inline]
-    pub(crate) fn pass_over_parts(&mut self, outcome: &mut BlockOutcome, finder: &mut dyn Finder) {
+    pub(crate) fn pass_over_parts(&mut self, finder: &mut dyn Finder) {
         while let Some(passed) = self.scratch.passed.pop() {
             let PassedBlocks {
                 unit,
@@ -507,7 +505,7 @@ impl Executor {
             };
             let before = self.unknown_kinds();
             let after = self.pass_over_blocks(blocks, &cause, finder);
-            outcome.step = Some(ControlStep::Jump(after));
+            self.scratch.actions.step = Some(ControlStep::Jump(after));
             self.tell_passed(&cause, &before, said);
         }
     }

@@ -158,6 +158,9 @@ impl Executor {
         condition: Operand,
         at: &BlockContext<'_>,
     ) -> Result<Value, Box<Fault>> {
+        if let Operand::Number(number) = condition {
+            return Ok(Value::Number(number));
+        }
         let (value, relied) = self.value_with_reads(condition, at)?;
         if relied.is_empty() {
             return Ok(value);

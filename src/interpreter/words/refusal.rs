@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::block::{AfterError, BlockContext, BlockOutcome, FailedAt, OwnEnd, stops};
+use crate::interpreter::block::{AfterError, BlockContext, FailedAt, OwnEnd, stops};
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::{Executor, MentionedUnknowns};
 use crate::interpreter::options::StopPolicy;
@@ -56,7 +56,6 @@ impl Executor {
         &mut self,
         hash: &Hash,
         at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         match self.remedy_class(hash, at)? {
             RemedyClass::Known(0.0) => self.pass_over("#ERROR", hash.span, at),
@@ -72,7 +71,7 @@ impl Executor {
                 } else {
                     AfterError::Reset
                 };
-                self.end_with(after, at, outcome);
+                self.end_with(after, at);
             }
             RemedyClass::LeftOut => {
                 let message =
@@ -95,7 +94,7 @@ impl Executor {
                 };
                 let ways = self.part_at_end(question, at);
                 if self.perhaps_end(ways, AfterError::Reset, at) {
-                    self.end_with(AfterError::Reset, at, outcome);
+                    self.end_with(AfterError::Reset, at);
                 }
             }
             RemedyClass::Unknown(expression, doubt) => {
@@ -111,7 +110,7 @@ impl Executor {
                 };
                 let said = error_with("an `RC` that is not 0", hash.span, at);
                 if self.refused_where(question, said, AfterError::ResetOrRestart, at) {
-                    self.end_with(AfterError::ResetOrRestart, at, outcome);
+                    self.end_with(AfterError::ResetOrRestart, at);
                 }
             }
         }
@@ -215,10 +214,10 @@ impl Executor {
         false
     }
 
-    fn end_with(&mut self, after: AfterError, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
+    fn end_with(&mut self, after: AfterError, at: &BlockContext<'_>) {
         if self.options.stop == StopPolicy::FirstError {
             self.scratch.ending.after_error = after;
-            outcome.step = Some(ControlStep::End(EndedBy::Error));
+            self.scratch.actions.step = Some(ControlStep::End(EndedBy::Error));
         } else {
             self.fail(after, at);
         }

@@ -171,14 +171,6 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// The same block of a program that was called from a place.
-    pub(crate) fn with_caller(self, called_from: Option<&'a Place>) -> Self {
-        Self {
-            called_from,
-            ..self
-        }
-    }
-
     /// Another block of the same program.
     pub(crate) fn other(&self, parsed: &'a Parsed, shown: &'a ShownBlockLines) -> Self {
         Self {

@@ -163,36 +163,45 @@ pub struct Executed<'a> {
     pub version: u64,
 }
 
-/// A block that only moves axes that have moved before, as most blocks do: it switches nothing, and nothing is said
-/// on it.
+/// What a block moves.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct PlainMove<'a> {
+pub struct BlockMove<'a> {
     /// Whether the text has comments.
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
     /// How it moves.
     pub(crate) moves: &'a BlockMotion,
+    /// The answers of the machine that lead here, where the block is executed on some ways only.
+    pub branch: Option<&'a [Vec<WayCondition>]>,
+    /// The state after it.
+    pub compensation: &'a Compensation,
+    /// G functions and positions after it.
+    pub modal: &'a Modal,
     /// Rises whenever the state or the axes that occurred change.
     pub version: u64,
 }
 
-impl Executed<'_> {
+impl<'a> BlockMove<'a> {
     /// Every axis that the block moves, or may, and how (R10.7): its words first.
     #[inline]
-    pub fn motions(&self) -> impl Iterator<Item = MovedAxis> {
+    pub fn motions(&self) -> impl Iterator<Item = MovedAxis> + use<'a> {
         let kind = self.word_kind();
-        let words = self.moved.iter();
+        let words = self.moves.words().iter();
         let words = words.map(move |word| MovedAxis::of_word(word, kind));
-        words.chain(self.also_moved.iter().copied())
+        words.chain(self.moves.also_moved().iter().copied())
     }
 
-    /// The states of a kind of an axis that are possible after it, where ways differ.
-    #[inline]
-    pub fn possible_of(&self, axis: AxisIndex, kind: Kind) -> Option<&PossibleStates> {
-        let mut possible = self.possible.iter();
-        possible.find(|it| it.axis == axis && it.kind == kind)
+    /// Whether it moves an axis other than in rapid motion; `None` where it does not.
+    pub(crate) fn pace(&self, axis: AxisIndex) -> Option<Certainty> {
+        let kind = self.word_kind();
+        let words = self.moves.words().iter().filter(|it| it.axis == axis);
+        let words = words.map(|word| MovedAxis::of_word(word, kind));
+        let also = self.moves.also_moved().iter().filter(|it| it.axis == axis);
+        let motions = words.chain(also.copied());
+        // `Certain` comes first.
+        motions.filter_map(|moved| self.feeds(&moved)).min()
     }
 
     /// Returns whether one of its motions is, or may be, at feed: a coupled axis, or one in a turned frame, moves as the
@@ -209,12 +218,41 @@ impl Executed<'_> {
     /// Returns the kind of motion of its axis words.
     #[inline]
     fn word_kind(&self) -> MotionKind {
-        match self.word_motion {
-            Some(kind) => kind,
+        match self.moves.row() {
+            Some(row) => row.kind,
             None if !self.modal.is_known(Group::Motion) => MotionKind::Unknown,
             None if self.modal.functions.motion == 0 => MotionKind::Rapid,
             None => MotionKind::Feed,
         }
+    }
+}
+
+impl Executed<'_> {
+    /// Every axis that the block moves, or may, and how (R10.7): its words first.
+    #[inline]
+    pub fn motions(&self) -> impl Iterator<Item = MovedAxis> {
+        self.moves().motions()
+    }
+
+    /// What it moves.
+    #[inline]
+    pub(crate) fn moves(&self) -> BlockMove<'_> {
+        BlockMove {
+            comments: self.comments,
+            remark: self.remark,
+            moves: self.moves,
+            branch: self.branch,
+            compensation: self.compensation,
+            modal: self.modal,
+            version: self.version,
+        }
+    }
+
+    /// The states of a kind of an axis that are possible after it, where ways differ.
+    #[inline]
+    pub fn possible_of(&self, axis: AxisIndex, kind: Kind) -> Option<&PossibleStates> {
+        let mut possible = self.possible.iter();
+        possible.find(|it| it.axis == axis && it.kind == kind)
     }
 }
 
@@ -336,10 +374,11 @@ pub trait Observer {
     /// Takes an event; `Break` stops the run, which can be resumed.
     fn event(&mut self, event: Event<'_>) -> ControlFlow<()>;
 
-    /// Returns whether an event is to follow about a block that only moves axes. One that takes no more than a count of
-    /// such blocks saves most of the time that the events take.
+    /// Returns whether an event is to follow about a block that only moves axes that have moved before, as most blocks do:
+    /// it switches nothing, and nothing is said on it. An observer that needs no more of it than this saves most of the
+    /// time that events take.
     #[inline]
-    fn takes_move(&mut self, _block: &PlainMove<'_>) -> bool {
+    fn takes_move(&mut self, _block: &BlockMove<'_>) -> bool {
         true
     }
 }

@@ -27,7 +27,7 @@ mod words;
 pub use drive::host::Interpreter;
 pub use drive::snapshot::{ResumeError, Snapshot};
 pub use events::{
-    Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, PlainMove,
+    BlockMove, Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome,
     ProgramEnd,
 };
 pub(crate) use motion::block::BlockMotion;

@@ -37,7 +37,7 @@ pub(crate) struct CallFrame {
     /// Set between `$IF` or `$SWITCH` and the branch being looked for.
     pub(crate) seeking: Option<Seeking>,
     /// Place of the call.
-    pub(crate) called_from: Option<Place>,
+    pub(crate) called_from: Option<Box<Place>>,
     /// State that the end of a cycle restores.
     pub(crate) restores: Option<Box<saved::Saved>>,
     pub(crate) retains: Retains,

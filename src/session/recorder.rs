@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::EndedBy;
-use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, PlainMove, limit_to};
+use crate::interpreter::{BlockMove, Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
 use crate::lint::{LeftAwayNotice, Linter};
 use crate::machine::Machine;
 use crate::syntax::Comments;
@@ -120,12 +120,11 @@ impl Observer for Recorder<'_> {
         flow
     }
 
-    fn takes_move(&mut self, block: &PlainMove<'_>) -> bool {
-        let is_taken = self.takes_moves
-            || self.doubtful
-            || self.totals.feed_moves.watches()
-            || !self.is_known(block);
-        self.totals.blocks += u64::from(!is_taken);
+    fn takes_move(&mut self, block: &BlockMove<'_>) -> bool {
+        let is_taken = self.takes_moves || self.doubtful || !self.is_known(block);
+        if !is_taken {
+            self.totals.count_block(block);
+        }
         is_taken
     }
 }
@@ -142,8 +141,7 @@ impl Recorder<'_> {
             self.linter.block(executed, &mut Vec::new());
             return ControlFlow::Continue(());
         }
-        self.totals.blocks += 1;
-        self.totals.feed_moves.block(executed);
+        self.totals.count_block(&executed.moves());
         if !executed.notes.is_empty() {
             self.take_notes(executed.notes);
         }
@@ -188,17 +186,12 @@ impl Recorder<'_> {
             && executed.changes.is_empty()
             && executed.doubted.is_empty()
             && executed.aside.withheld.is_empty()
-            && self.is_known(&PlainMove {
-                comments: executed.comments,
-                remark: executed.remark,
-                moves: executed.moves,
-                version: executed.version,
-            })
+            && self.is_known(&executed.moves())
     }
 
     /// Whether a block moves axes that have moved before in the state that was judged last, and has no comment.
     #[inline]
-    fn is_known(&self, block: &PlainMove<'_>) -> bool {
+    fn is_known(&self, block: &BlockMove<'_>) -> bool {
         block.version == self.version
             && block.comments == Comments::Absent
             && block.remark.is_none()

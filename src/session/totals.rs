@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::comp::{AxisIndex, Kind, State};
+use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::{Certainty, Executed, PathForm, PositionFrame};
+use crate::interpreter::{BlockMotion, BlockMove, Certainty, Executed, PathForm, PositionFrame};
 use crate::lists::Origin;
 use crate::machine::Machine;
 use crate::readings::{Question, QuestionSet};
@@ -74,6 +74,13 @@ impl SessionTotals {
                 _ => {}
             }
         }
+    }
+
+    /// Counts an executed block and its feed moves.
+    #[inline]
+    pub(super) fn count_block(&mut self, block: &BlockMove<'_>) {
+        self.blocks += 1;
+        self.feed_moves.block(block);
     }
 
     /// Records the axes that a block moves or switches though nothing describes them (R18.2).
@@ -170,32 +177,26 @@ impl FeedMoveCounter {
         &self.moved
     }
 
-    /// Whether friction compensation is not active on some axis, so that moves count.
-    #[inline]
-    pub(super) fn watches(&self) -> bool {
-        !self.watched.is_empty()
-    }
-
     /// Looks at an executed block. Where friction compensation is active on every axis, that is one
     /// comparison.
     #[inline]
-    pub(super) fn block(&mut self, executed: &Executed<'_>) {
-        if self.version != Some(executed.version) {
-            self.version = Some(executed.version);
-            self.watch(executed);
+    fn block(&mut self, block: &BlockMove<'_>) {
+        if self.version != Some(block.version) {
+            self.version = Some(block.version);
+            self.watch(block.compensation);
         }
         self.moved.clear();
-        if self.watches() {
-            self.count(executed);
+        if !self.watched.is_empty() {
+            self.count(block);
         }
     }
 
     /// The commands of a block act before its motion (R1.9), so its own motion counts, too.
     #[inline(never)]
-    fn watch(&mut self, executed: &Executed<'_>) {
+    fn watch(&mut self, compensation: &Compensation) {
         let before = std::mem::take(&mut self.watched);
         for axis in (0..self.counts.len()).map(AxisIndex::new) {
-            let state = executed.compensation.state(axis, Kind::Frict);
+            let state = compensation.state(axis, Kind::Frict);
             if matches!(state, State::Active | State::Unconfigured) {
                 continue;
             }
@@ -208,23 +209,24 @@ impl FeedMoveCounter {
         }
     }
 
-    fn count(&mut self, executed: &Executed<'_>) {
+    fn count(&mut self, block: &BlockMove<'_>) {
         for watched in &mut self.watched {
-            let position = executed.modal.position(watched.axis);
+            let position = block.modal.position(watched.axis);
             let now = position
                 .value
                 .filter(|_| position.frame == PositionFrame::Machine);
             let stood = std::mem::replace(&mut watched.stood, now);
             let counts = &mut self.counts[watched.axis.get()];
-            match pace(executed, watched.axis) {
+            match block.pace(watched.axis) {
                 None => {}
                 Some(Certainty::Certain)
-                    if watched.state != State::Unknown && executed.branch.is_none() =>
+                    if watched.state != State::Unknown && block.branch.is_none() =>
                 {
-                    let is_plain = executed.also_moved.is_empty() && executed.word_motion.is_none();
-                    let travel = match executed.modal.functions.motion {
+                    let moves = block.moves;
+                    let is_plain = moves.also_moved().is_empty() && moves.row().is_none();
+                    let travel = match block.modal.functions.motion {
                         1 => stood.zip(now).map(|(from, to)| (to - from).abs()),
-                        _ => travel_on_arc(executed, watched.axis),
+                        _ => travel_on_arc(moves, watched.axis),
                     };
                     let travel = travel.filter(|_| is_plain);
                     if !travel.is_some_and(FeedMoves::is_standstill) {
@@ -240,8 +242,8 @@ impl FeedMoveCounter {
 
 /// The travel of an axis along the arc or helix of a block, forth and back (R11.31); its length does not
 /// depend on where the origin is.
-fn travel_on_arc(executed: &Executed<'_>, axis: AxisIndex) -> Option<f64> {
-    let way = executed.moves.arcs()[0]?;
+fn travel_on_arc(moves: &BlockMotion, axis: AxisIndex) -> Option<f64> {
+    let way = moves.arcs()[0]?;
     let PathForm::Arc(arc) = &way.form else {
         return None;
     };
@@ -252,11 +254,4 @@ fn travel_on_arc(executed: &Executed<'_>, axis: AxisIndex) -> Option<f64> {
     let [one, two] = [ends(arc.axes[0])?, ends(arc.axes[1])?];
     let shape = arc.between([0, 1].map(|end| [one[end], two[end]])).ok()?;
     Some(shape.travel()[place])
-}
-
-/// Whether a block moves an axis other than in rapid motion; `None` where it does not.
-fn pace(executed: &Executed<'_>, axis: AxisIndex) -> Option<Certainty> {
-    let motions = executed.motions().filter(|moved| moved.axis == axis);
-    // `Certain` comes first.
-    motions.filter_map(|moved| executed.feeds(&moved)).min()
 }

@@ -257,8 +257,8 @@ fn last_bytes(bytes: &[u8], rest: &[u8]) -> Option<u64> {
 fn short_digits(eight: u64) -> Option<Digits> {
     // Digits become 0 to 9, everything else something above.
     let digits = eight ^ (ONES * u64::from(b'0'));
-    // The highest bit of each byte above 9.
-    let others = (((digits & (ONES * 0x7f)) + ONES * (0x80 - 10)) | digits) & (ONES * 0x80);
+    // The highest bit of each byte above 9; what a byte beyond ASCII carries only reaches bytes after it.
+    let others = (digits.wrapping_add(ONES * (0x80 - 10)) | digits) & (ONES * 0x80);
     let whole = others.trailing_zeros() & !7;
     if whole == u64::BITS {
         return None;

@@ -40,7 +40,7 @@ impl Executor {
             level,
             own: request.own,
             seeking: None,
-            called_from: Some(request.called_from),
+            called_from: Some(Box::new(request.called_from)),
             restores,
             retains: Retains::Nothing,
             waiting: Vec::new(),

@@ -10,7 +10,7 @@ use crate::interpreter::block::{
 use crate::interpreter::control::OptionalSection;
 use crate::interpreter::drive::host::Interpreter;
 use crate::interpreter::drive::lines::MainLines;
-use crate::interpreter::events::{EndedBy, Event, Executed, Joined, Observer, PlainMove};
+use crate::interpreter::events::{BlockMove, EndedBy, Event, Executed, Joined, Observer};
 use crate::interpreter::executor::{Executor, RunState};
 use crate::interpreter::options::{RunOutcome, StopPolicy};
 use crate::interpreter::programs::calls::Finder;
@@ -89,7 +89,7 @@ impl Interpreter {
         }
         let level = self.here.state.control.frames.level();
         let shown = ShownBlockLines::default();
-        let at = BlockContext::of_parsed(&parsed, level, &shown);
+        let mut at = BlockContext::of_parsed(&parsed, level, &shown);
         if let Some(skip) = self.here.undecided_level(&parsed.block)
             && self.here.part_by_skip(skip, &parsed)
         {
@@ -109,7 +109,7 @@ impl Interpreter {
         let called_from = frames
             .running_mut()
             .and_then(|frame| frame.called_from.take());
-        let at = at.with_caller(called_from.as_ref());
+        at.called_from = called_from.as_deref();
         let flow = self.run_block(&at, (is_repeated, parsed.weight), finder, observer);
         if let Some(frame) = self.here.state.control.frames.at_depth_mut(depth) {
             frame.called_from = called_from;
@@ -282,7 +282,7 @@ impl Interpreter {
         self.here.read(at);
         let stopped = if self.others.waiting.is_empty() && self.here.only_moves() {
             self.here.move_on(at);
-            if !observer.takes_move(&self.here.plain_move(at)) {
+            if !observer.takes_move(&self.here.moved(at)) {
                 return ControlFlow::Continue(());
             }
             false
@@ -496,7 +496,9 @@ impl Executor {
         if !at.block.faults.is_empty() {
             self.take_faults(at, stopped);
         }
-        if !stopped {
+        if stopped {
+            self.scratch.moves.stop();
+        } else {
             self.move_axes(at);
         }
         stopped
@@ -567,11 +569,14 @@ impl Executor {
     }
 
     #[inline]
-    fn plain_move<'a>(&'a self, at: &BlockContext<'a>) -> PlainMove<'a> {
-        PlainMove {
+    fn moved<'a>(&'a self, at: &BlockContext<'a>) -> BlockMove<'a> {
+        BlockMove {
             comments: at.comments,
             remark: at.remark,
             moves: &self.scratch.moves,
+            branch: self.shown.branch.as_deref(),
+            compensation: &self.state.control.compensation,
+            modal: &self.state.control.modal,
             version: self.version,
         }
     }
@@ -609,10 +614,10 @@ impl Executor {
             outcomes: &scratch.outcomes,
             changes: &scratch.changes,
             doubted: &scratch.doubted,
-            moved: if stopped { &[] } else { moves.words() },
+            moved: moves.words(),
             moves,
             aside: &scratch.aside,
-            also_moved: if stopped { &[] } else { moves.also_moved() },
+            also_moved: moves.also_moved(),
             word_motion: moves.row().map(|row| row.kind),
             motion: moves.motion(),
             notes: scratch.read.notes.get_mut(),

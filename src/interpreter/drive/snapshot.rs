@@ -400,10 +400,10 @@ impl<'a> Trust<'a> {
     fn has_frame(&self, frame: &CallFrame, depth: usize) -> bool {
         let program = frame.program();
         let is_deep = usize::try_from(frame.level).is_ok_and(|level| level > depth);
-        let called = frame.called_from.iter();
+        let called = frame.called_from.as_deref();
         !is_deep
             && self.has_block(program, frame.next)
-            && called.into_iter().all(is_somewhere)
+            && called.is_none_or(is_somewhere)
             && frame
                 .waiting
                 .iter()

@@ -52,6 +52,7 @@ pub(crate) struct MotionSetting<'a> {
 }
 
 impl BlockMotion {
+    #[inline]
     pub(crate) fn clear(&mut self) {
         self.also.clear();
         self.row = None;
@@ -241,6 +242,12 @@ impl BlockMotion {
     /// The axis words move nothing.
     pub(crate) fn drop_words(&mut self) {
         self.words.clear();
+    }
+
+    /// The control stops before the block moves.
+    pub(crate) fn stop(&mut self) {
+        self.words.clear();
+        self.also.clear();
     }
 
     /// The words of the block describe geometry.

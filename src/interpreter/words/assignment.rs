@@ -620,6 +620,11 @@ impl Executor {
         place: Expression,
         at: &BlockContext<'_>,
     ) -> Result<Option<Denoted>, Box<Fault>> {
+        // A P parameter with its number denotes itself.
+        let root = place.end.checked_sub(1).map(|root| root as usize);
+        if let Some(Node::Parameter { owner, index }) = root.and_then(|it| at.block.nodes.get(it)) {
+            return Ok(Some(Location::Parameter(*owner, *index).into()));
+        }
         let mut stack = std::mem::take(&mut self.scratch.read.stack);
         let found = self.with_evaluator(at, |evaluator| evaluator.place(place, &mut stack));
         self.scratch.read.stack = stack;

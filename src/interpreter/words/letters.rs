@@ -186,10 +186,9 @@ impl Executor {
     /// feed, a G function of a group, each with a plain number. Any other is left to [`Self::word`].
     #[inline]
     pub(crate) fn plain_word(&mut self, word: &Word) -> bool {
-        let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
-            return false;
-        };
-        let Some(Operand::Number(number)) = word.value else {
+        let (&Address::Letter(letter @ b'A'..=b'Z'), &Some(Operand::Number(number))) =
+            (&word.address, &word.value)
+        else {
             return false;
         };
         if let Some(axis) = self.names.letter(letter) {

@@ -25,7 +25,7 @@ pub(super) fn lint(
     }
     let has_found = executed.found.has(axis, Kind::Frict);
     let found = linter.found(axis);
-    let pace = executed.feeds(motion);
+    let pace = executed.moves().feeds(motion);
     let is_known =
         found != State::Unknown && executed.compensation.state(axis, Kind::Frict) == found;
     let inherited = linter.memory.inherited(axis);

@@ -100,7 +100,7 @@ impl Sink for Findings {
         ControlFlow::Continue(())
     }
 
-    fn takes_moves(&self) -> bool {
+    fn takes_move(&mut self) -> bool {
         false
     }
 }

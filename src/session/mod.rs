@@ -329,7 +329,6 @@ impl Session {
             linter: Linter::new(&machine, &mut self.states, file),
             totals: &mut self.totals,
             notes: &mut self.notes,
-            takes_moves: sink.takes_moves(),
             sink,
             program: self.programs,
             file,

@@ -53,8 +53,6 @@ pub(super) struct Recorder<'a> {
     pub(super) totals: &'a mut SessionTotals,
     pub(super) notes: &'a mut NoteBook,
     pub(super) sink: &'a mut dyn Sink,
-    /// Whether it takes blocks that only move axes.
-    pub(super) takes_moves: bool,
     pub(super) program: u32,
     pub(super) file: &'a str,
     pub(super) said: Vec<Diagnostic>,
@@ -121,7 +119,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn takes_move(&mut self, block: &BlockMove<'_>) -> bool {
-        let is_taken = self.takes_moves || self.doubtful || !self.is_known(block);
+        let is_taken = self.doubtful || !self.is_known(block) || self.sink.takes_move();
         if !is_taken {
             self.totals.count_block(block);
         }

@@ -330,8 +330,9 @@ pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
 
-    /// Returns whether it takes the records of blocks that only move axes with known compensation, as most blocks do.
-    fn takes_moves(&self) -> bool {
+    /// Asked before the record of a block that only moves axes that have moved before, as most blocks do: it switches
+    /// nothing, and nothing is said on it. Returns whether the record is to follow.
+    fn takes_move(&mut self) -> bool {
         true
     }
 }

@@ -98,9 +98,30 @@ impl Sink for Said {
                 format!("{} {:?} {:?} {:?}", end.seq, end.by, end.notes, end.changes)
             }
             Record::Program { name, .. } => format!("{name:?}"),
+            Record::Summary(summary) => {
+                format!("{} {:?} {:?}", summary.blocks, summary.counts, summary.axes)
+            }
             _ => return ControlFlow::Continue(()),
         });
         ControlFlow::Continue(())
+    }
+}
+
+/// The records, and which of them are those of blocks that only move axes.
+struct Moves {
+    are_taken: bool,
+    said: Said,
+    asked: Vec<usize>,
+}
+
+impl Sink for Moves {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self.said.record(record)
+    }
+
+    fn takes_move(&mut self) -> bool {
+        self.asked.push(self.said.0.len());
+        self.are_taken
     }
 }
 
@@ -247,6 +268,11 @@ proptest! {
     }
 
     #[test]
+    fn what_only_moves_may_be_left_out(text in program()) {
+        only_moves_are_left_out(&text)?;
+    }
+
+    #[test]
     fn a_program_without_flow_is_never_refused(text in program()) {
         is_refused_only_with_flow(&text)?;
     }
@@ -280,6 +306,42 @@ fn is_streamed_as_whole(text: &str) -> Result<(), TestCaseError> {
         }
     }
     Ok(())
+}
+
+/// A sink that does not take the moves gets every other record, and the same counts. Returns the number of moves.
+fn only_moves_are_left_out(text: &str) -> Result<usize, TestCaseError> {
+    let mut found = 0;
+    for stop in POLICIES {
+        let [mut all, others] = [true, false].map(|are_taken| {
+            let mut session = Session::new(Machine::enabled(["X", "Y"]), options(stop));
+            let (said, asked) = (Said::default(), Vec::new());
+            let mut sink = Moves {
+                are_taken,
+                said,
+                asked,
+            };
+            let mut lines = TextLines::new(text);
+            let program = Program::Lines(&mut lines);
+            let _ = session.program("a.nc", program, &mut NoFiles, &mut sink);
+            let _ = session.finish(&mut sink);
+            sink
+        });
+        prop_assert_eq!(all.asked.len(), others.asked.len());
+        for record in all.asked.iter().rev() {
+            all.said.0.remove(*record);
+        }
+        prop_assert_eq!(all.said.0, others.said.0);
+        found += all.asked.len();
+    }
+    Ok(found)
+}
+
+#[test]
+fn moves_are_left_out_of_the_records_of_a_loop_and_counted() {
+    let text = "G1 X0 Y0 F100\nX[COMP ON FRICT]\nX1\nX2 Y2\nX[COMP OFF FRICT]\n$FOR P1 = 1, 9, 1\nX1 Y2\nY3 ; note\nX4\n\
+        $ENDFOR\nX3\nM30\n";
+    let moves = only_moves_are_left_out(text).expect("the same records");
+    assert_eq!(moves, POLICIES.len() * (2 + 2 * 9 + 1));
 }
 
 fn is_refused_only_with_flow(text: &str) -> Result<(), TestCaseError> {

@@ -310,6 +310,14 @@ impl Sink for Watched<'_> {
         }
         self.sink.record(record)
     }
+
+    fn takes_move(&mut self) -> bool {
+        // At every step its place is shown.
+        let is_step = (self.blocks + 1).is_multiple_of(STEP);
+        let is_taken = is_step || self.sink.takes_move();
+        self.blocks += u64::from(!is_taken);
+        is_taken
+    }
 }
 
 #[cfg(test)]

@@ -820,19 +820,13 @@ impl RunState {
         if at.level > 0 {
             return;
         }
-        match &mut self.last {
-            Some(last) => {
-                at.text.clone_into(&mut last.text);
-                last.line = at.line;
-            }
-            None => {
-                self.last = Some(LastBlock {
-                    file: at.file.clone(),
-                    line: at.line,
-                    text: at.text.to_owned(),
-                });
-            }
-        }
+        let last = self.last.get_or_insert_with(|| LastBlock {
+            file: at.file.clone(),
+            line: at.line,
+            text: String::new(),
+        });
+        at.text.clone_into(&mut last.text);
+        last.line = at.line;
     }
 }
 

@@ -173,6 +173,33 @@ impl<'a> ProgramsOnMachines<'a> {
     }
 }
 
+/// What a check takes from the records of a program.
+#[derive(Default)]
+struct CheckSink {
+    findings: Findings,
+    uncompensated: Vec<(String, AxisType, FeedMoves)>,
+    rests_on: ReadingsInForce,
+}
+
+impl Sink for CheckSink {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Record::Summary(summary) = record {
+            let machine = summary.state.machine;
+            self.rests_on = ReadingsInForce::of(summary.rests_on, machine);
+            let axes = summary.uncompensated();
+            self.uncompensated.extend(axes.map(|axis| {
+                let of = machine.axis(axis.axis);
+                (of.name.clone(), of.axis_type, axis.feed_moves)
+            }));
+        }
+        self.findings.record(record)
+    }
+
+    fn takes_move(&mut self) -> bool {
+        self.findings.takes_move()
+    }
+}
+
 impl CheckOptions {
     /// Runs one program from the start of the control.
     fn run<'a>(
@@ -180,20 +207,7 @@ impl CheckOptions {
         input: &'a Input,
         loaded: Arc<LoadedMachine>,
     ) -> Result<CheckedRun<'a>, HostError> {
-        let mut findings = Findings::default();
-        let mut uncompensated = Vec::new();
-        let mut rests_on = ReadingsInForce::default();
-        let mut sink = |record: &Record<'_>| {
-            if let Record::Summary(summary) = record {
-                rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
-                let axes = summary.uncompensated();
-                uncompensated.extend(axes.map(|axis| {
-                    let of = summary.state.machine.axis(axis.axis);
-                    (of.name.clone(), of.axis_type, axis.feed_moves)
-                }));
-            }
-            findings.record(record)
-        };
+        let mut sink = CheckSink::default();
         let session = self.alone(input, &loaded, &mut sink)?;
         let unknown = session.unknown();
         let unknown = unknown.map(|(axis, kind)| (axis.to_owned(), kind));
@@ -202,17 +216,17 @@ impl CheckOptions {
             checked: CheckedProgram {
                 name: input.name(Naming::AsGiven),
                 said: Vec::new(),
-                unsaid: findings.unsaid(session.counts()),
-                uncompensated,
+                unsaid: sink.findings.unsaid(session.counts()),
+                uncompensated: sink.uncompensated,
                 unknown: unknown.collect(),
-                rests_on,
+                rests_on: sink.rests_on,
             },
             executed: ExecutedProgram {
                 input,
                 executed_to_end: returned.map(ToString::to_string).collect(),
             },
             loaded,
-            findings,
+            findings: sink.findings,
         })
     }
 

@@ -100,6 +100,10 @@ impl Sink for Listeners<'_> {
             None => flow,
         }
     }
+
+    fn takes_move(&mut self) -> bool {
+        self.digest.is_some() || self.report.0.borrow_mut().takes_move()
+    }
 }
 
 /// Lists the diagnostics that give the exit status, then the verdict.
@@ -150,6 +154,10 @@ impl Sink for Quiet {
                 ControlFlow::Continue(())
             }
         }
+    }
+
+    fn takes_move(&mut self) -> bool {
+        false
     }
 }
 

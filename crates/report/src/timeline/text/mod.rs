@@ -481,6 +481,20 @@ impl<W: Write> Sink for Text<W> {
         }
         self.output.settle()
     }
+
+    fn takes_move(&mut self) -> bool {
+        if self.options.runs != Runs::Folded {
+            return true;
+        }
+        match self.options.view.blocks {
+            Blocks::Changed => false,
+            Blocks::All if self.quiet.count == 0 => true,
+            Blocks::All => {
+                self.quiet.count += 1;
+                false
+            }
+        }
+    }
 }
 
 impl<W: Write> Gathered for Text<W> {

@@ -12,6 +12,7 @@ mod programs;
 mod properties;
 mod readings;
 mod resume;
+mod states;
 #[path = "../support/mod.rs"]
 mod support;
 mod text;

@@ -2,9 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::PathBuf;
 
-use crate::root;
+use crate::{root, rust_files};
 
 /// The rooms that each room of a package may import from. Rooms are listed in the order of the data; an import never
 /// goes down. The packages that a package may use are in its `Cargo.toml`.
@@ -250,19 +249,7 @@ fn sources() -> Vec<File> {
 /// Returns the sources of a package.
 fn sources_of(package: &'static str, whole: Option<&str>) -> Vec<File> {
     let root = root().join(package).join("src");
-    let mut folders = vec![root.clone()];
-    let mut paths: Vec<PathBuf> = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                paths.push(path);
-            }
-        }
-    }
-    paths.sort();
+    let paths = rust_files(&format!("{package}/src"));
     let files = paths.into_iter().map(|path| {
         let below = path.strip_prefix(&root).expect("below src");
         let within = below.to_string_lossy().replace('\\', "/");

@@ -6,7 +6,7 @@
 //! a recording would hold.
 //!
 //! The [`generator`] makes NC programs of any kind, for tests and fuzzers. [`recorded_drive`] and [`recorded_circles`]
-//! are recordings of a single axis, [`layouts`] the files that controls write, and [`table`] holds a table of a document.
+//! are recordings of a single axis, [`layouts`] the files that controls write, [`svg`] reads pictures, and [`table`] holds a table of a document.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -19,6 +19,7 @@ pub mod generator;
 pub mod layouts;
 pub mod recorded_circles;
 pub mod recorded_drive;
+pub mod svg;
 pub mod table;
 
 mod axis;

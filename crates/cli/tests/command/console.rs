@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 use crate::folder::{command, starting, stderr, stdout};
 
@@ -36,9 +36,14 @@ pub(crate) fn replayed(text: &str, stage: &mut impl Stage) -> String {
         let is_inside = |line: &&str| line.trim_end() != fence;
         let block: Vec<&str> = lines.by_ref().take_while(is_inside).collect();
         if kind.trim_end() == "console" {
+            let mut below = String::new();
             for command in block.iter().filter_map(|line| line.strip_prefix("$ ")) {
-                let folder = stage.folder(command);
-                let _ = write!(fresh, "$ {command}{}", play(command.trim_end(), &folder));
+                let _ = write!(fresh, "$ {command}");
+                let folder = stage.folder(command).join(&below);
+                match command.trim_end().strip_prefix("cd ") {
+                    Some(name) => below = words(name).concat(),
+                    None => fresh.push_str(&play(command.trim_end(), &folder)),
+                }
             }
         } else {
             stage.take(kind.trim_end(), &block.concat());
@@ -78,11 +83,11 @@ impl Typed {
         typed
     }
 
-    /// What the command of the tool prints: stdout, stderr, and `? 1` for an exit status other than 0.
-    fn of_tool(&self, folder: &Path) -> String {
+    /// What the tool or git prints: stdout, stderr, and `? 1` for an exit status other than 0.
+    fn printed(&self, folder: &Path, program: fn(&Path, &[&str]) -> Command) -> String {
         let arguments: Vec<&str> = self.words[1..].iter().map(String::as_str).collect();
         let output = starting(|| {
-            let mut command = command(folder, &arguments);
+            let mut command = program(folder, &arguments);
             command.envs(self.variables.iter().cloned());
             if let Some(input) = &self.input {
                 let file = fs::File::open(folder.join(input)).expect("an input");
@@ -127,7 +132,24 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// What a command shows: the tool, or one of the few that a case needs to prepare and to look at its files.
+/// Git in a folder, without the settings of the user.
+pub(crate) fn git(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new("git");
+    command.current_dir(folder).stdin(Stdio::null());
+    for setting in [
+        "user.name=n",
+        "user.email=n@example.org",
+        "init.defaultBranch=m",
+    ] {
+        command.args(["-c", setting]);
+    }
+    command.env("GIT_CONFIG_NOSYSTEM", "1");
+    command.env("GIT_CONFIG_GLOBAL", "/dev/null");
+    command.args(arguments);
+    command
+}
+
+/// What a command shows: the tool, git, or one of the few that a case needs to prepare and to look at its files.
 fn play(line: &str, folder: &Path) -> String {
     let typed = Typed::new(line);
     let [name, files @ ..] = &typed.words[..] else {
@@ -135,7 +157,8 @@ fn play(line: &str, folder: &Path) -> String {
     };
     let mut shown = String::new();
     match name.as_str() {
-        "frictcomp" => shown = typed.of_tool(folder),
+        "frictcomp" => shown = typed.printed(folder, command),
+        "git" => shown = typed.printed(folder, git),
         "cat" => {
             for file in files {
                 let text = fs::read_to_string(folder.join(file));

@@ -1,9 +1,5 @@
 //! Chapter 11 of the rules: the places where a program needs compensation.
 
-mod driven;
-mod independent;
-mod shape;
-mod truth;
 mod verdict;
 mod versions;
 

@@ -9,5 +9,6 @@
 )]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod identify_faults;
 mod recordings;
 mod tune;

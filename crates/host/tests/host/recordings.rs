@@ -12,7 +12,7 @@ use frictcomp_physics::simulation::{
 use frictcomp_recordings::identify::{IdentifyOptions, identify};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 
-const FRICTION: &str = concat!(
+pub(crate) const FRICTION: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/../../programs/demo/recordings/friction_x.csv"
 );

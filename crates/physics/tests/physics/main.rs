@@ -11,6 +11,7 @@
 
 mod backlash;
 mod circle;
+mod contour;
 mod current;
 mod diagnosis;
 mod glitch;

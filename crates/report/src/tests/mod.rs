@@ -1,5 +1,6 @@
 //! Every format over one handmade session.
 
+mod pictures;
 mod player;
 
 use std::io::{self, Write};

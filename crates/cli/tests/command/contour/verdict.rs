@@ -3,12 +3,8 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use frictcomp::drive_interface::TorqueScale;
-use frictcomp::machine::Machine;
-use frictcomp_physics::simulation::Preset;
 use serde_json::Value;
 
-use super::driven::{Found, drive_on};
 use super::{MACHINE, circle, number};
 use crate::folder::{Bench, json};
 
@@ -374,35 +370,6 @@ fn a_list_of_another_machine_is_named() {
     ] {
         assert_eq!(said(output), lines, "{output}");
     }
-}
-
-#[test]
-fn the_list_reaches_the_drive_as_the_control_scales_it() {
-    // R7.8, R11.25: 14 units of a list that is scaled by 10 are 700 N, and by 0 nothing.
-    let program = circle("G03", "ON");
-    let glitch = |output: f64, numerator: u32, denominator: u32| {
-        let mut machine = Machine::from_toml(&listed(output)).expect("a machine");
-        machine.axes[0].torque_scale = TorqueScale {
-            numerator,
-            denominator,
-        };
-        let start = [("X", 25.0), ("Y", 0.0)];
-        let plant = Preset::Mid.plant();
-        let found = drive_on(machine, &plant, (&program, &start), Found::default());
-        let of_x = found
-            .reversals
-            .iter()
-            .filter(|it| it.axis == "X" && it.line == 5);
-        of_x.map(|it| it.glitch_um).next_back().expect("a reversal")
-    };
-    let (whole, scaled) = (glitch(140.0, 1, 1), glitch(14.0, 10, 1));
-    assert!(
-        (whole.all_on - scaled.all_on).abs() < 0.01,
-        "{whole:?} {scaled:?}"
-    );
-    let none = glitch(140.0, 1, 0);
-    assert!((none.all_on - none.all_off).abs() < 0.1, "{none:?}");
-    assert!(whole.all_on < none.all_on / 2.0, "{whole:?} {none:?}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::workspace::{files, root};
+use crate::{root, rust_files};
 
 /// A package that others may use.
 struct Package {
@@ -247,7 +247,7 @@ fn can_grow(text: &str, name: &str) -> Option<bool> {
 fn what_is_read_can_grow() {
     let mut fixed = Vec::new();
     for package in &PACKAGES {
-        let sources = files(&format!("{}/src", package.folder), &["rs"]);
+        let sources = rust_files(&format!("{}/src", package.folder));
         let read = |path: &PathBuf| fs::read_to_string(path).expect("a source file");
         let texts: Vec<String> = sources.iter().map(read).collect();
         let mut items = package.items();

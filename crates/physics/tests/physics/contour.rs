@@ -1,9 +1,15 @@
 //! The contour compared with independent results: the circular test, and an independent simulation.
 
+mod driven;
+mod independent;
+mod shape;
+
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
+use frictcomp::drive_interface::TorqueScale;
 use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp::machine::Machine;
 use frictcomp_physics::circle::{
     Circle, CircularTest, Comparison, Direction, Figures, Method, PathFigures,
 };
@@ -12,9 +18,9 @@ use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::Movement;
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset, plant_list};
 
-use super::driven::{Found, drive};
-use super::independent::{Compensation, Equations, Simulated, simulate};
-use super::shape::{Line, Shape};
+use driven::{Found, drive, drive_on};
+use independent::{Compensation, Equations, Simulated, simulate};
+use shape::{Line, Shape};
 
 /// Axes whose jerk lets the path enter an arc at full feed.
 const QUICK: &str = "\
@@ -437,4 +443,41 @@ fn a_deviation_is_the_same_in_any_plane() {
     let upright = largest("G18 G90 G01 X11 Z0 F1500\nG02 X11 Z0 I-11 K0\nM30\n");
     assert!(flat > 3.0, "{flat}");
     Tolerance(0.01, 0.0).check("in ZX", (upright, flat));
+}
+
+#[test]
+fn the_list_reaches_the_drive_as_the_control_scales_it() {
+    // R7.8, R11.25: 14 units of a list that is scaled by 10 are 700 N, and by 0 nothing.
+    let round = Round {
+        radius: 25.0,
+        feed: 3000.0,
+        sense: Direction::Ccw,
+        chords: 0,
+    };
+    let (program, second_turn) = round.program();
+    let glitch = |output: f64, numerator: u32, denominator: u32| {
+        let list = format!(
+            "value = {{ mode = 3, table_entries = 2, table = [[0, {output}], [200000, {output}]] }}"
+        );
+        let of_x = QUICK.replacen("VALUE", &list, 1).replace("VALUE", "");
+        let mut machine = Machine::from_toml(&of_x).expect("a machine");
+        machine.axes[0].torque_scale = TorqueScale {
+            numerator,
+            denominator,
+        };
+        let start = standing(round.start());
+        let plant = Preset::Mid.plant();
+        let found = drive_on(machine, &plant, (&program, &start), Found::default());
+        let of_x = found.reversals.iter();
+        let of_x = of_x.filter(|it| it.axis == "X" && second_turn.contains(&it.line));
+        of_x.map(|it| it.glitch_um).next_back().expect("a reversal")
+    };
+    let (whole, scaled) = (glitch(140.0, 1, 1), glitch(14.0, 10, 1));
+    assert!(
+        (whole.all_on - scaled.all_on).abs() < 0.01,
+        "{whole:?} {scaled:?}"
+    );
+    let none = glitch(140.0, 1, 0);
+    assert!((none.all_on - none.all_off).abs() < 0.1, "{none:?}");
+    assert!(whole.all_on < none.all_on / 2.0, "{whole:?} {none:?}");
 }

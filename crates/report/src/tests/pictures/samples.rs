@@ -2,17 +2,17 @@
 
 use std::f64::consts::TAU;
 
+use crate::pictures::{AxisPlot, AxisSample, CurrentPlot, tuning, value_curve};
+use crate::results::tune::TuneReport;
+use crate::svg::{
+    Band, BandChart, BandRow, BandState, ChartAxis, LineChart, PolarChart, PolarPanel, PolarSeries,
+    PolarStroke, StartUpRelation,
+};
 use frictcomp::comp::State;
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
 use frictcomp::machine::AcceptedList;
 use frictcomp_physics::circle::{FeedResult, Tuned, TunedAxis};
 use frictcomp_physics::current::{AdditiveCurrent, Reading};
-use frictcomp_report::pictures::{AxisPlot, AxisSample, CurrentPlot, tuning, value_curve};
-use frictcomp_report::results::tune::TuneReport;
-use frictcomp_report::svg::{
-    Band, BandChart, BandRow, BandState, ChartAxis, LineChart, PolarChart, PolarPanel, PolarSeries,
-    StartUpRelation,
-};
 
 pub(super) fn list() -> FrictionList {
     let points = [
@@ -39,7 +39,6 @@ fn band(from: f64, to: f64, state: BandState) -> Band {
     let relation = match state {
         BandState::One(state) => StartUpRelation::of(state, State::Active),
         BandState::Changing => StartUpRelation::StartUp,
-        other => panic!("{other:?}"),
     };
     Band {
         relation,
@@ -115,7 +114,7 @@ pub(super) fn circle() -> PolarChart {
                 label: label.to_owned(),
                 series: vec![PolarSeries {
                     look: 0,
-                    stroke: frictcomp_report::svg::PolarStroke::Full,
+                    stroke: PolarStroke::Full,
                     name: "counter-clockwise".to_owned(),
                     points: turn(-0.6, peak),
                 }],

@@ -1,0 +1,6 @@
+mod model;
+mod program;
+mod saved;
+mod sessions;
+mod ways;
+mod ways_given;

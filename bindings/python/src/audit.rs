@@ -113,10 +113,8 @@ impl AuditJob {
 
 /// The errors that keep the control from accepting its lists, and the remark that no machine is described.
 pub(crate) fn said(auditor: &ArchiveAuditor) -> GivenMessages {
-    let machines = auditor.machines().iter();
-    let errors = machines.flat_map(|loaded| loaded.errors().map(PyMessage::of));
     GivenMessages {
-        messages: errors.collect(),
+        messages: auditor.list_errors().map(PyMessage::of).collect(),
         remark: remark_without_machine(auditor.undescribed()),
         ..GivenMessages::default()
     }

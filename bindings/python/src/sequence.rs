@@ -7,7 +7,7 @@ use frictcomp::audit::{Step, StepAxis};
 use frictcomp_host::AuditOptions;
 use frictcomp_report::Detail;
 use frictcomp_report::counted;
-use frictcomp_report::results::audit::{sequence_records, sequence_text};
+use frictcomp_report::results::audit::{SequenceReport, sequence_records, sequence_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
@@ -55,18 +55,17 @@ pub(crate) fn audit_sequence(
         machine: machine_options(machine)?,
         options: AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?),
     };
-    let (steps, said) = interruptible(py, move |stop| followed(job, stop))?;
-    let mut axes = steps.iter().flat_map(|step| &step.axes);
+    let (report, said) = interruptible(py, move |stop| followed(job, stop))?;
     Ok(PyAuditSequence {
-        table: table(&steps),
-        records: Value::from(sequence_records(&steps)).to_string(),
-        text: sequence_text(&steps, Detail::Full),
+        table: table(&report.steps),
+        records: Value::from(sequence_records(&report)).to_string(),
+        text: sequence_text(&report, Detail::Full),
         messages: Py::new(py, PyMessages::new(said))?,
-        has_warnings: axes.any(|axis| axis.left_by.is_some()),
+        has_warnings: report.has_warnings(),
     })
 }
 
-fn followed(job: AuditJob, stop: &Stop) -> Result<(Vec<Step>, GivenMessages), Failure> {
+fn followed(job: AuditJob, stop: &Stop) -> Result<(SequenceReport, GivenMessages), Failure> {
     job.programs.probe()?;
     // A program may come several times.
     let (auditor, mut errors) = job.auditor(|programs, _| (programs.inputs, Vec::new()), stop);
@@ -74,7 +73,7 @@ fn followed(job: AuditJob, stop: &Stop) -> Result<(Vec<Step>, GivenMessages), Fa
     errors.extend(unread);
     match Failure::of_several(errors) {
         Some(failure) => Err(failure),
-        None => Ok((steps, said(&auditor))),
+        None => Ok((SequenceReport::new(steps), said(&auditor))),
     }
 }
 

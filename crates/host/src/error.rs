@@ -115,6 +115,9 @@ pub enum HostError {
         /// The extensions of programs there.
         extensions: Vec<String>,
     },
+    /// An order of programs without one.
+    #[error("`{}` names no program", shown_path(.0))]
+    NoProgramInOrder(PathBuf),
     /// A `frictcomp.toml` with a mistake.
     #[error("the configuration `{}` cannot be used", shown_path(.path))]
     Configuration {
@@ -332,6 +335,9 @@ impl HostError {
             }
             Self::FolderAsList(_) | Self::FolderAsRecording(_) => "name the file in it",
             Self::NoProgram { .. } => "name the program itself",
+            Self::NoProgramInOrder(_) => {
+                "write the path of one program on each line, from the folder of this file"
+            }
             Self::Pattern(_) => {
                 "write it as in a `.gitignore`: `old`, `*.bak.nc`, `archive/**/*.nc`"
             }

@@ -39,7 +39,8 @@ pub use archive::{
     ArchiveAuditor, AuditOptions, CallGraph, CalledPrograms, ChangedFile, ChangedPrograms,
     CheckOptions, CheckedProgram, CheckedPrograms, FoundCall, FoundPrograms, GraphProgram,
     LeftOutFile, LeftOutFiles, MendedProgram, MissingCall, OldFile, ProgramsOnMachines, Revision,
-    UnreadVariable, WhyLeftOut, find_programs, find_startup, outline_of, unread_variables,
+    UnreadVariable, WhyLeftOut, find_programs, find_startup, outline_of, programs_in_order,
+    unread_variables,
 };
 pub use disk::{
     CONFIG_NAME, Disk, EncodedText, FileRegistry, FolderOptions, FolderSelection, IgnoreFiles,

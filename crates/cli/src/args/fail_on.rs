@@ -10,7 +10,7 @@ use frictcomp::diagnostic::{Code, CodeFilter, Severity, did_you_mean};
 
 /// A word of `--fail-on`; a list of them gives exit status 1 for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FailOnWord {
+enum FailOnWord {
     /// Nothing
     Never,
     /// Any message
@@ -22,6 +22,31 @@ pub(crate) enum FailOnWord {
     /// A state that is not known at a program's end or where its axis moves, besides the severity
     /// that is named or the default
     Unknown,
+}
+
+/// The option `--fail-on`. A command with another default than `warning` changes the argument.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct FailOnArgs {
+    /// What gives exit status 1; a list such as `error,unknown`
+    #[arg(
+        long,
+        value_name = "SEVERITY",
+        value_delimiter = ',',
+        default_value = "warning"
+    )]
+    fail_on: Vec<FailOnWord>,
+}
+
+impl FailOnArgs {
+    /// Returns what gives exit status 1; `unknown` alone adds to the default of the command.
+    pub(crate) fn or(&self, default: Severity) -> FailOn {
+        FailOn::new(&self.fail_on, default)
+    }
+
+    /// Returns what gives exit status 1 in a command that judges.
+    pub(crate) fn judging(&self) -> FailOn {
+        self.or(Severity::Warning)
+    }
 }
 
 impl FailOnWord {
@@ -44,18 +69,13 @@ pub(crate) struct FailOn {
 
 impl FailOn {
     /// Creates the condition that the words of a command describe; `unknown` alone adds to the command's default.
-    pub(crate) fn new(words: &[FailOnWord], default: Severity) -> Self {
+    fn new(words: &[FailOnWord], default: Severity) -> Self {
         let names_severity = words.iter().any(|word| *word != FailOnWord::Unknown);
         let named = words.iter().filter_map(|word| word.severity()).min();
         Self {
             least: if names_severity { named } else { Some(default) },
             unknown: words.contains(&FailOnWord::Unknown),
         }
-    }
-
-    /// Creates the condition of a command that judges.
-    pub(crate) fn judging(words: &[FailOnWord]) -> Self {
-        Self::new(words, Severity::Warning)
     }
 
     /// Whether this severity gives the status 1.
@@ -175,7 +195,7 @@ mod tests {
     fn the_status_follows_the_severity_that_counts() {
         // R9.26, R18.1
         use FailOnWord::{Error, Info, Never, Unknown, Warning};
-        let judging = FailOn::judging;
+        let judging = |words: &[FailOnWord]| FailOn::new(words, Severity::Warning);
         let mut counts = BTreeMap::new();
         assert_eq!(judging(&[Info]).status(&counts), 0);
         counts.insert(Severity::Warning, 1);

@@ -8,8 +8,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::fail_on::SeverityArgs;
-use super::fail_on::{FailOn, FailOnWord};
+use super::fail_on::{FailOn, FailOnArgs, SeverityArgs};
 use super::values;
 use crate::output::{Console, DataTarget, Failure, Printed, RecordsFormat};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
@@ -29,14 +28,8 @@ pub(crate) struct ListingArgs {
     /// Write the messages to this file
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
-    /// What gives exit status 1; a list such as `error,unknown`
-    #[arg(
-        long,
-        value_name = "SEVERITY",
-        value_delimiter = ',',
-        default_value = "warning"
-    )]
-    fail_on: Vec<FailOnWord>,
+    #[command(flatten)]
+    fail_on: FailOnArgs,
     /// Print only the messages that count for the exit status
     #[arg(long, short)]
     pub(crate) quiet: bool,
@@ -83,7 +76,7 @@ impl ListingArgs {
         };
         Ok(Lister {
             args: self,
-            fail_on: FailOn::judging(&self.fail_on),
+            fail_on: self.fail_on.judging(),
             listing: Listing::new(writer, format, look),
             counted,
             counts: BTreeMap::new(),

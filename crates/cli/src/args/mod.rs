@@ -27,7 +27,7 @@ pub(crate) use channels::{
 pub(crate) use control::{CncBuildArgs, CurrentReadingArgs, CycleArgs, ToolArgs};
 pub(crate) use examples::with_examples;
 pub(crate) use execution::ExecutionArgs;
-pub(crate) use fail_on::{FailOn, FailOnWord, SeverityArgs, of_axis};
+pub(crate) use fail_on::{FailOn, FailOnArgs, SeverityArgs, of_axis};
 pub(crate) use folders::{FolderArgs, say_left_out};
 pub(crate) use groups::in_groups;
 pub(crate) use listing::{Lister, ListingArgs, Uncompensated, explain, passed_over, total};

@@ -1,30 +1,30 @@
 //! `frictcomp audit`: what the order of programs does.
 
-use std::collections::BTreeMap;
 use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
 use crate::args::{
-    ExecutionArgs, FailOn, FailOnWord, FolderArgs, MachineArgs, SeverityArgs, differences, of_axis,
+    ExecutionArgs, FailOnArgs, FolderArgs, MachineArgs, SeverityArgs, differences, of_axis,
     say_left_out, settings, undescribed_remark,
 };
 use crate::output::{
     Console, Failure, Failures, Files, Outputs, Printed, RecordsFormat, difference, exit, shown,
 };
-use frictcomp::audit::{Archive, CuredMotions, MendedEnd, Selected, WhyMissed};
+use frictcomp::audit::{Archive, CuredMotions, MendedEnd};
 use frictcomp::comp::{Kind, KindSet};
-use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::diagnostic::Severity;
 use frictcomp::interpreter::StopPolicy;
-use frictcomp::session::Causes;
+use frictcomp::text::shown_path;
 use frictcomp_host::{
-    ArchiveAuditor, AuditOptions, FileRegistry, Input, Machines, MendedProgram, find_programs,
-    read_text, write_mended,
+    ArchiveAuditor, AuditOptions, FileRegistry, Input, Machines, MendedFile, MendedProgram,
+    find_programs, programs_in_order, write_mended,
 };
 use frictcomp_report::html::render_audit;
 use frictcomp_report::results::audit::{
-    AuditReport, Length, records, render_csv, render_text, sequence_records, sequence_text,
+    AuditReport, Length, SequenceReport, also_mended_text, changed_text, missed_text, records,
+    render_csv, render_text, sequence_records, sequence_text, to_write_text,
 };
 use frictcomp_report::{counted, fitted};
 
@@ -34,6 +34,9 @@ use frictcomp_report::{counted, fitted};
 /// Each program runs twice, once with every configured axis in its start-up state and once with every one away
 /// from it. This shows what it does after any other program.
 #[derive(Debug, Args)]
+#[command(mut_arg("fail_on", |it| it.help(
+    "What gives exit status 1, where hazards are warnings; a list such as `error,unknown`"
+)))]
 // Each is a separate switch on the command line.
 #[allow(clippy::struct_excessive_bools)]
 pub(crate) struct AuditArgs {
@@ -82,14 +85,8 @@ pub(crate) struct AuditArgs {
     /// Write a report with the matrix of programs and axes to this HTML file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["fix", "diff"])]
     html: Option<PathBuf>,
-    /// What gives exit status 1, where hazards are warnings; a list such as `error,unknown`
-    #[arg(
-        long,
-        value_name = "SEVERITY",
-        value_delimiter = ',',
-        default_value = "warning"
-    )]
-    fail_on: Vec<FailOnWord>,
+    #[command(flatten)]
+    fail_on: FailOnArgs,
     #[command(flatten)]
     severities: SeverityArgs,
     #[command(flatten)]
@@ -102,9 +99,6 @@ pub(crate) struct AuditArgs {
 
 /// Number of runs of each program.
 const RUNS: NonZeroU64 = NonZeroU64::new(2).expect("a program runs twice");
-
-/// How many of the programs that one block mends are named.
-const MOST_NAMES: usize = 20;
 
 /// Programs to change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -167,37 +161,31 @@ impl AuditArgs {
         say_undescribed(&auditor, console);
         let mut archives = failures.keep(auditor.audit());
         if let Some(fix) = self.fix.or(self.diff) {
-            let motions = if self.changing_motions {
-                CuredMotions::Changed
-            } else {
-                CuredMotions::Kept
-            };
-            let changes = failures.keep(auditor.mend(&archives, fix.end(), motions));
-            say_missed(&archives, &changes);
-            say_changed(&changes);
-            say_roots(&changes);
+            let changes = failures.keep(auditor.mend(&archives, fix.end(), self.motions()));
+            say_mended(&archives, &changes);
+            let files = changes.iter().filter_map(|change| change.file.as_ref());
             if self.diff.is_some() {
-                let files = changes.iter().filter_map(|change| change.file.as_ref());
-                target.painted(&differences(files), difference)?;
-                Console::talk(&to_write(&changes));
+                target.painted(&differences(files.clone()), difference)?;
+                let blocks = files.clone().map(|file| file.changes).sum();
+                Console::talk(&to_write_text(blocks, files.count()));
                 outputs.finish()?;
                 let report = AuditReport::new(auditor.described(), archives, None);
-                return Ok(self.status(report.has_warnings(), false));
+                return Ok(self.status(report.has_warnings().then_some(Severity::Warning)));
             }
-            write(&changes, console)?;
+            write(files, console)?;
             archives = failures.keep(auditor.audit());
         }
         found.left_out.forget_read(&registry);
         let report = AuditReport::new(auditor.described(), archives, found.left_out.in_words());
+        let length = if self.all {
+            Length::Whole
+        } else {
+            Length::Folded
+        };
         let width = target.look.width;
         let printed = target.text(&match self.format {
             AuditFormat::Text if self.quiet => fitted(&format!("{}\n", report.headline()), width),
-            AuditFormat::Text if self.all => {
-                fitted(&render_text(&report, Length::Whole, console.detail), width)
-            }
-            AuditFormat::Text => {
-                fitted(&render_text(&report, Length::Folded, console.detail), width)
-            }
+            AuditFormat::Text => fitted(&render_text(&report, length, console.detail), width),
             AuditFormat::Csv => render_csv(&report),
             AuditFormat::Json => RecordsFormat::Json.records("", &records(&report)),
             AuditFormat::Ndjson => RecordsFormat::Ndjson.records("", &records(&report)),
@@ -209,18 +197,18 @@ impl AuditArgs {
         }
         outputs.finish()?;
         self.machine.say_unread(&machines, &registry, console);
-        let errors = say_lists(&auditor, console);
+        let errors = say_list_errors(&auditor, console);
         let unknown = self.unknown_status(report.unknown(), console);
-        let mut unseen = about_files(&auditor, &report);
+        let archives = report.machines.iter().map(|machine| &machine.archive);
+        let mut unseen = auditor.about_files(archives).diagnostics().to_vec();
         say_left_out(&mut found.left_out, &registry, console);
         unseen.extend(found.left_out.diagnostics(&mut machines));
         console.show(&unseen);
-        let mut counts = counts(report.has_warnings(), errors);
-        for said in &unseen {
-            *counts.entry(said.severity).or_default() += 1;
-        }
-        let status = FailOn::judging(&self.fail_on).status(&counts);
-        Ok(status.max(unknown))
+        let hazards = report.has_warnings().then_some(Severity::Warning);
+        let unseen = unseen.iter().map(|said| said.severity);
+        Ok(self
+            .status(hazards.into_iter().chain(errors).chain(unseen))
+            .max(unknown))
     }
 
     /// Returns the auditor of the programs that can run on their machines.
@@ -242,6 +230,14 @@ impl AuditArgs {
         failures.keep(ArchiveAuditor::new(inputs, machines, options))
     }
 
+    fn motions(&self) -> CuredMotions {
+        if self.changing_motions {
+            CuredMotions::Changed
+        } else {
+            CuredMotions::Kept
+        }
+    }
+
     /// Returns the exit status for unknown states, which are reported where they count (R2.98).
     fn unknown_status<'a>(
         &self,
@@ -249,15 +245,17 @@ impl AuditArgs {
         console: Console,
     ) -> u8 {
         let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
-        let fail_on = FailOn::judging(&self.fail_on);
+        let fail_on = self.fail_on.judging();
         if let Some(remark) = fail_on.unknown_remark(&unknown) {
             console.remark(&remark);
         }
         fail_on.unknown_status(&unknown)
     }
 
-    fn status(&self, warnings: bool, errors: bool) -> u8 {
-        FailOn::judging(&self.fail_on).status(&counts(warnings, errors))
+    /// Returns the exit status for what is said, by its severities.
+    fn status(&self, said: impl IntoIterator<Item = Severity>) -> u8 {
+        let counts = said.into_iter().map(|severity| (severity, 1));
+        self.fail_on.judging().status(&counts.collect())
     }
 
     /// Follows the programs in a given order.
@@ -275,18 +273,18 @@ impl AuditArgs {
         let mut outputs = Outputs::new(&registry, console);
         let mut target = outputs.result(self.output.as_deref())?;
         registry.reads("sequence", order);
-        let inputs = programs_of(order)?;
+        let inputs = programs_in_order(order)?;
         let mut machines = self.machine.weighed(&self.severities, &registry)?;
         let auditor = self.auditor(inputs, (&mut machines, &registry), failures);
         outputs.check()?;
         say_undescribed(&auditor, console);
-        let steps = failures.keep(auditor.follow());
+        let report = SequenceReport::new(failures.keep(auditor.follow()));
         let width = target.look.width;
         target.text(&match self.format {
-            AuditFormat::Json => RecordsFormat::Json.records("", &sequence_records(&steps)),
-            AuditFormat::Ndjson => RecordsFormat::Ndjson.records("", &sequence_records(&steps)),
+            AuditFormat::Json => RecordsFormat::Json.records("", &sequence_records(&report)),
+            AuditFormat::Ndjson => RecordsFormat::Ndjson.records("", &sequence_records(&report)),
             AuditFormat::Text | AuditFormat::Csv => {
-                fitted(&sequence_text(&steps, console.detail), width)
+                fitted(&sequence_text(&report, console.detail), width)
             }
         })?;
         outputs.finish()?;
@@ -296,24 +294,14 @@ impl AuditArgs {
                 console.remark(&assumption);
             }
         }
-        let is_cut = steps.iter().any(|step| step.stopped.is_some());
-        let errors = say_lists(&auditor, console) || is_cut;
-        let mut axes = steps.iter().flat_map(|step| &step.axes);
-        let inherits = axes.any(|axis| axis.left_by.is_some());
-        let axes = steps.iter().flat_map(|step| &step.axes);
-        let unknown = axes.filter(|axis| axis.end == Selected::Unknown);
-        let unknown = unknown.map(|axis| (axis.axis.as_str(), axis.kind));
-        let unknown = self.unknown_status(unknown, console);
-        Ok(self.status(inherits, errors).max(unknown))
+        let errors = say_list_errors(&auditor, console);
+        let unknown = self.unknown_status(report.unknown(), console);
+        let inherits = report.has_warnings().then_some(Severity::Warning);
+        let cut = report.is_cut().then_some(Severity::Error);
+        Ok(self
+            .status(inherits.into_iter().chain(cut).chain(errors))
+            .max(unknown))
     }
-}
-
-/// Returns whether there are warnings and errors as numbers.
-fn counts(warnings: bool, errors: bool) -> BTreeMap<Severity, u64> {
-    let counts = [(Severity::Warning, warnings), (Severity::Error, errors)];
-    counts
-        .map(|(severity, any)| (severity, u64::from(any)))
-        .into()
 }
 
 impl FixScope {
@@ -326,22 +314,6 @@ impl FixScope {
     }
 }
 
-/// Returns the messages about programs without a block, and files that are no programs (R18.6).
-fn about_files(auditor: &ArchiveAuditor, report: &AuditReport) -> Vec<Diagnostic> {
-    let mut causes = Causes::default();
-    for (loaded, machine) in auditor.machines().iter().zip(&report.machines) {
-        let programs = machine.archive.programs().iter();
-        for said in programs.flat_map(|program| &program.about_file) {
-            if let Some(severity) = loaded.levels.severity(said.code) {
-                let mut said = said.clone();
-                said.severity = severity;
-                causes.say(said);
-            }
-        }
-    }
-    causes.diagnostics().to_vec()
-}
-
 /// Reports before everything else that no machine is described (R1.37).
 fn say_undescribed(auditor: &ArchiveAuditor, console: Console) {
     if let Some(remark) = undescribed_remark(auditor.undescribed()) {
@@ -349,131 +321,48 @@ fn say_undescribed(auditor: &ArchiveAuditor, console: Console) {
     }
 }
 
-/// Reports why the control does not accept its lists, and returns whether it has such faults.
-fn say_lists(auditor: &ArchiveAuditor, console: Console) -> bool {
-    let machines = auditor.machines().iter();
-    let errors: Vec<_> = machines.flat_map(|it| it.errors().cloned()).collect();
+/// Reports why the control does not accept its lists, and returns the severity of such faults.
+fn say_list_errors(auditor: &ArchiveAuditor, console: Console) -> Option<Severity> {
+    let errors: Vec<_> = auditor.list_errors().cloned().collect();
     console.show(&errors);
-    !errors.is_empty()
+    errors.first().map(|error| error.severity)
 }
 
-/// Reports which programs are left to the user, and why (R10.8).
-fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
-    for change in changes {
+/// Reports what is left to the user, and what the blocks do besides.
+fn say_mended(archives: &[Archive], changes: &[MendedProgram]) {
+    let audited = |change: &MendedProgram| {
         let programs = archives[change.machine].programs();
-        let Some(program) = change.program.map(|at| &programs[at]) else {
-            continue;
-        };
-        for missed in &change.missed {
-            let way_home = program.axes[missed.mending.at].way_home();
-            let why = match &missed.why {
-                WhyMissed::ChangesMotion(of) if **of == *program.file => {
-                    "a block that mends this would change the state in which axes move".to_owned()
-                }
-                WhyMissed::ChangesMotion(of) => format!(
-                    "a block that mends this would change the state in which axes move in `{of}`, which calls it"
-                ),
-                _ => "no single block mends this".to_owned(),
-            };
-            let takes_it = match &missed.why {
-                WhyMissed::ChangesMotion(_) => ", or take the block with `--unsafe`",
-                _ => "",
-            };
-            Console::talk(&format!(
-                "{}: {why}; write `{way_home}` wherever it is needed by hand{takes_it}",
-                program.file,
-            ));
+        change.program.map(|at| &programs[at])
+    };
+    for change in changes {
+        if let Some(program) = audited(change) {
+            let missed = change.missed.iter();
+            missed.for_each(|missed| Console::talk(&missed_text(program, missed)));
         }
     }
-}
-
-/// Reports which blocks change the state in which axes move (R10.8).
-fn say_changed(changes: &[MendedProgram]) {
-    for change in changes {
-        let Some(file) = change.file.as_ref().filter(|_| !change.changed.is_empty()) else {
-            continue;
-        };
-        Console::talk(&format!(
-            "{}: a block changes the state in which axes move in {}",
-            shown(&file.path),
-            change.changed.join(", "),
-        ));
+    let files = changes
+        .iter()
+        .filter_map(|change| Some((change, change.file.as_ref()?)));
+    let files = files.map(|(change, file)| (change, shown_path(&file.path)));
+    for (change, file) in files
+        .clone()
+        .filter(|(change, _)| !change.changed.is_empty())
+    {
+        Console::talk(&changed_text(&file, &change.changed));
+    }
+    for (change, file) in files.filter(|(change, _)| !change.also.is_empty()) {
+        Console::talk(&also_mended_text(&file, audited(change), &change.also));
     }
 }
 
-/// Reports which blocks mend the programs that call their file, too (R10.8).
-fn say_roots(changes: &[MendedProgram]) {
-    for change in changes {
-        let Some(file) = change.file.as_ref().filter(|_| !change.also.is_empty()) else {
-            continue;
-        };
-        let count = change.also.len();
-        let programs = counted(count, "program");
-        let names: Vec<&str> = change
-            .also
-            .iter()
-            .take(MOST_NAMES)
-            .map(String::as_str)
-            .collect();
-        let more = match count.saturating_sub(MOST_NAMES) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let verb = if count == 1 { "calls" } else { "call" };
-        let unnamed = match change.program {
-            Some(_) => "",
-            None => "; programs that were not audited may call it, too",
-        };
-        Console::talk(&format!(
-            "{}: this mends {programs} that {verb} it: {}{more}{unnamed}",
-            shown(&file.path),
-            names.join(", "),
-        ));
-    }
-}
-
-/// Returns the effect of `--fix` in words.
-fn to_write(changes: &[MendedProgram]) -> String {
-    let files = changes.iter().filter_map(|change| change.file.as_ref());
-    let blocks: usize = files.clone().map(|file| file.changes).sum();
-    match (blocks, files.count()) {
-        (0, _) => "nothing to write".to_owned(),
-        (blocks, programs) => format!(
-            "{} in {} (`--fix` writes {})",
-            counted(blocks, "block"),
-            counted(programs, "program"),
-            if blocks == 1 { "it" } else { "them" },
-        ),
-    }
-}
-
-fn write(changes: &[MendedProgram], console: Console) -> Result<(), Failure> {
-    let files = changes.iter().filter_map(|change| change.file.as_ref());
+fn write<'a>(
+    files: impl Iterator<Item = &'a MendedFile> + Clone,
+    console: Console,
+) -> Result<(), Failure> {
     write_mended(files.clone())?;
     for file in files {
         let blocks = counted(file.changes, "block");
         console.remark(&format!("wrote `{}`: {blocks}", shown(&file.path)));
     }
     Ok(())
-}
-
-/// Reads one program per line, relative to the folder of the list; empty lines and lines that begin with `#`
-/// or `;` are ignored.
-fn programs_of(order: &Path) -> Result<Vec<Input>, Failure> {
-    let text = read_text(order)?;
-    let folder = order.parent().unwrap_or(Path::new(""));
-    let names = text.lines().map(str::trim);
-    let names = names.filter(|name| !name.is_empty() && !name.starts_with(['#', ';']));
-    let inputs: Vec<Input> = names.map(|name| Input::File(folder.join(name))).collect();
-    if inputs.is_empty() {
-        return Err(
-            Failure::new(format!("`{}` names no program", shown(order))).with_help(
-                "write the path of one program on each line, from the folder of this file",
-            ),
-        );
-    }
-    for input in &inputs {
-        input.probe()?;
-    }
-    Ok(inputs)
 }

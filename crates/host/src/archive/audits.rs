@@ -5,15 +5,17 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::disk::{Disk, Input, Naming, Opened};
+use crate::disk::{Disk, Input, Naming, Opened, read_text};
 use crate::error::HostError;
 use crate::machines::{LoadedMachine, Machines, ProgramFinder};
 use crate::watch::{Done, LineTracker, Reached};
 use crate::workers::{in_order, processors};
 use frictcomp::audit::{Archive, Auditor, ProgramAudit, Sequence, Step};
 use frictcomp::comp::{Kind, KindSet};
+use frictcomp::diagnostic::Diagnostic;
 use frictcomp::interpreter::{Event, Interpreter, Observer, Options};
 use frictcomp::machine::Machine;
+use frictcomp::session::Causes;
 use frictcomp::text::SourceFile;
 
 /// Number of blocks between two looks at the clock.
@@ -51,6 +53,25 @@ impl AuditOptions {
     pub fn with_workers(self, workers: NonZeroUsize) -> Self {
         Self { workers, ..self }
     }
+}
+
+/// Reads the programs of an order, one on each line, from the folder of the file; empty lines and those that begin with
+/// `#` or `;` are ignored.
+///
+/// # Errors
+///
+/// If the file or one of the programs cannot be read, or there is none.
+pub fn programs_in_order(order: &Path) -> Result<Vec<Input>, HostError> {
+    let text = read_text(order)?;
+    let folder = order.parent().unwrap_or(Path::new(""));
+    let names = text.lines().map(str::trim);
+    let names = names.filter(|name| !name.is_empty() && !name.starts_with(['#', ';']));
+    let inputs: Vec<Input> = names.map(|name| Input::File(folder.join(name))).collect();
+    if inputs.is_empty() {
+        return Err(HostError::NoProgramInOrder(order.to_owned()));
+    }
+    inputs.iter().try_for_each(Input::probe)?;
+    Ok(inputs)
 }
 
 /// Audits programs on the disk, each on the machine of its folder. What cannot be read is left out
@@ -120,6 +141,28 @@ impl ArchiveAuditor {
             let is_described = self.machines[*machine].machine.is_described();
             (!is_described).then_some(input)
         })
+    }
+
+    /// Returns why the control does not accept its lists.
+    pub fn list_errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.machines.iter().flat_map(|it| it.errors())
+    }
+
+    /// Returns the messages about programs without a block, and files that are no programs (R18.6), of the archive of
+    /// each machine.
+    pub fn about_files<'a>(&self, archives: impl IntoIterator<Item = &'a Archive>) -> Causes {
+        let mut causes = Causes::default();
+        for (loaded, archive) in self.machines.iter().zip(archives) {
+            let programs = archive.programs().iter();
+            for said in programs.flat_map(|program| &program.about_file) {
+                if let Some(severity) = loaded.levels.severity(said.code) {
+                    let mut said = said.clone();
+                    said.severity = severity;
+                    causes.say(said);
+                }
+            }
+        }
+        causes
     }
 
     /// Returns the programs, each with the position of its machine.

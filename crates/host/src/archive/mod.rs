@@ -12,7 +12,7 @@ mod main_programs;
 mod unread;
 mod walk;
 
-pub use audits::{ArchiveAuditor, AuditOptions};
+pub use audits::{ArchiveAuditor, AuditOptions, programs_in_order};
 pub use call_graph::{CallGraph, FoundCall, GraphProgram, MissingCall};
 pub use changed_programs::ChangedPrograms;
 pub use checks::{

@@ -13,7 +13,7 @@ use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, with_cod
 use super::source::Sources;
 use crate::assumptions::rests_on_text;
 use crate::document::Headline;
-use crate::results::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use crate::results::audit::{AuditReport, CurePlace, MachineAudit, Word, axis_name};
 use crate::wording::counted;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
 
@@ -108,15 +108,14 @@ impl Marks {
     }
 
     /// The identifier of a line, if it is shown.
-    fn id(&self, site: &Site) -> Option<String> {
-        let (number, lines) = self.files.get(&*site.file)?;
-        let is_shown = lines.contains(&site.line);
-        is_shown.then(|| line_id(*number, site.line))
+    fn id(&self, (file, line): (&str, u32)) -> Option<String> {
+        let (number, lines) = self.files.get(file)?;
+        lines.contains(&line).then(|| line_id(*number, line))
     }
 
-    fn link(&self, site: &Site, text: &str) -> Markup {
+    fn link(&self, place: (&str, u32), text: &str) -> Markup {
         html! {
-            @match self.id(site) {
+            @match self.id(place) {
                 Some(id) => a href={ "#" (id) } { (text) },
                 None => (text),
             }
@@ -158,8 +157,7 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
                 ColumnHeading::Text("cure"),
             ],
         };
-        let shown = machine.findings.iter().filter(|it| is_shown(machine, it));
-        let rows = shown.clone().map(|finding| {
+        let rows = machine.shown().map(|finding| {
             let cells = [
                 html! { (finding.leavers.len()) },
                 html! { (finding.inheritors.len()) },
@@ -173,7 +171,7 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
             HtmlRow::new(&axis_name(&finding.axis, finding.kind), cells)
         });
         page.push(&table.render(rows))?;
-        for finding in shown.filter(|finding| finding.cure() != Cure::None) {
+        for finding in machine.shown().filter(|it| it.cure() != Cure::None) {
             page.push(&blocks(machine, finding, marks))?;
         }
     }
@@ -191,34 +189,29 @@ fn cure(finding: &AxisFinding) -> &'static str {
 
 /// The blocks that end the hazards of an axis.
 fn blocks(machine: &MachineAudit, finding: &AxisFinding, marks: &Marks) -> Markup {
-    let movers = finding.movers();
-    let programs = match finding.cure() {
-        Cure::Leavers => &finding.leavers,
-        _ => &movers,
-    };
-    let shown = programs.len().min(ROWS);
+    let cures = machine.cures(finding);
+    let shown = cures.len().min(ROWS);
     html! {
-        details open[programs.len() <= 10] {
+        details open[cures.len() <= 10] {
             summary {
                 "Cure of " (axis_name(&finding.axis, finding.kind)) ": "
-                (counted(u64::try_from(programs.len()).unwrap_or(u64::MAX), "program"))
+                (counted(cures.len(), "program"))
             }
             ul {
-                @for &program in &programs[..shown] {
-                    @let program = &machine.archive.programs()[program];
-                    @let axis = &program.axes[finding.at];
+                @for (program, place) in &cures[..shown] {
                     li {
-                        (program.file) ": " code { (axis.way_home()) }
-                        @match (finding.cure(), axis.inherits.motion()) {
-                            (Cure::Inheritors, Some(motion)) => {
-                                " before " (marks.link(&motion.site, &format!("line {}", motion.site.line)))
+                        (program.file) ": " code { (program.axes[finding.at].way_home()) } " "
+                        @match *place {
+                            CurePlace::Beginning => "at the beginning",
+                            CurePlace::Before(line) => {
+                                "before " (marks.link((&program.file, line), &format!("line {line}")))
                             },
-                            _ => " before the end",
+                            CurePlace::End => "at the end",
                         }
                     }
                 }
             }
-            @if programs.len() > shown { p { "… " (programs.len() - shown) " more" } }
+            @if cures.len() > shown { p { "… " (cures.len() - shown) " more" } }
         }
     }
 }
@@ -239,11 +232,7 @@ fn matrices(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
 }
 
 fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
-    let findings: Vec<&AxisFinding> = machine
-        .findings
-        .iter()
-        .filter(|it| is_shown(machine, it))
-        .collect();
+    let findings: Vec<&AxisFinding> = machine.shown().collect();
     let heads: Vec<String> = findings
         .iter()
         .map(|it| axis_name(&it.axis, it.kind))
@@ -251,13 +240,9 @@ fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
     let columns: Vec<ColumnHeading<'_>> = std::iter::once(ColumnHeading::Text("program"))
         .chain(heads.iter().map(|head| ColumnHeading::Text(head)))
         .collect();
-    let mut programs: Vec<_> = machine.archive.programs().iter().collect();
-    programs.sort_by_key(|program| {
-        let words = findings.iter().map(|it| Word::of(&program.axes[it.at]));
-        words.min()
-    });
+    let programs = machine.by_danger();
     let shown = programs.len().min(ROWS);
-    let rows = programs[..shown].iter().map(|program| {
+    let rows = programs[..shown].iter().map(|(program, _)| {
         let cells: Vec<Markup> = findings
             .iter()
             .map(|finding| cell(&program.file, &program.axes[finding.at], marks))
@@ -279,7 +264,8 @@ fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
 /// Returns the effect of a program on an axis, with links to the places.
 fn cell(file: &str, axis: &AxisAudit, marks: &Marks) -> Markup {
     let link = |site: Option<&Site>, text: &str| {
-        site.map_or_else(|| html! { (text) }, |site| marks.link(site, text))
+        let link = |site: &Site| marks.link((&site.file, site.line), text);
+        site.map_or_else(|| html! { (text) }, link)
     };
     let inherits = axis.inherits.motion().map(|motion| &motion.site);
     let word = Word::of(axis);

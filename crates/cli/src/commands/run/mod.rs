@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::args::{
-    ExecutionArgs, FailOn, FailOnWord, MachineArgs, SeverityArgs, StartArgs, explain, of_axis,
+    ExecutionArgs, FailOn, FailOnArgs, MachineArgs, SeverityArgs, StartArgs, explain, of_axis,
     remark, settings, values,
 };
 use crate::output::{Console, DataTarget, Failure, FileWatch, HtmlFile, Outputs};
@@ -31,6 +31,7 @@ use listeners::{Listeners, Quiet, SharedReport};
 ///
 /// Runs programs one after the other in one session of the control. Each program starts with the state that the one before it leaves.
 #[derive(Debug, Args)]
+#[command(mut_arg("fail_on", |it| it.default_value("error")))]
 // Each is a separate switch on the command line.
 #[allow(clippy::struct_excessive_bools)]
 pub(crate) struct RunArgs {
@@ -75,14 +76,8 @@ pub(crate) struct RunArgs {
     /// Run again after each save of a program, a list or the configuration that the run reads
     #[arg(long, conflicts_with_all = ["state", "output", "html"])]
     watch: bool,
-    /// What gives exit status 1; a list such as `error,unknown`
-    #[arg(
-        long,
-        value_name = "SEVERITY",
-        value_delimiter = ',',
-        default_value = "error"
-    )]
-    fail_on: Vec<FailOnWord>,
+    #[command(flatten)]
+    fail_on: FailOnArgs,
     #[command(flatten)]
     severities: SeverityArgs,
     #[command(flatten)]
@@ -163,7 +158,7 @@ impl RunArgs {
 
     /// Returns what gives exit status 1: `run` shows what a program does, and fails where the control stops.
     fn fail_on(&self) -> FailOn {
-        FailOn::new(&self.fail_on, Severity::Error)
+        self.fail_on.or(Severity::Error)
     }
 
     fn stop_policy(&self) -> StopPolicy {

@@ -7,13 +7,49 @@ use serde_json::{Map, Value, json};
 use super::subject::axis_name;
 use crate::assumptions::rests_on_text;
 use crate::wording::{Detail, visible_line};
-use frictcomp::audit::{Step, StepAxis};
+use frictcomp::audit::{Selected, Step, StepAxis};
+use frictcomp::comp::Kind;
 use frictcomp::timeline::SCHEMA;
 
+/// Programs in a given order, each with what it does to the axes.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct SequenceReport {
+    /// The programs.
+    pub steps: Vec<Step>,
+}
+
+impl SequenceReport {
+    /// Creates the report on programs that were followed.
+    pub fn new(steps: Vec<Step>) -> Self {
+        Self { steps }
+    }
+
+    /// Whether a program moves an axis that an earlier one left away from its start-up state.
+    pub fn has_warnings(&self) -> bool {
+        self.axes().any(|axis| axis.left_by.is_some())
+    }
+
+    /// Whether a program does not reach its end.
+    pub fn is_cut(&self) -> bool {
+        self.steps.iter().any(|step| step.stopped.is_some())
+    }
+
+    /// Returns the axes and kinds whose state after a program is not known.
+    pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
+        let unknown = self.axes().filter(|axis| axis.end == Selected::Unknown);
+        unknown.map(|axis| (axis.axis.as_str(), axis.kind))
+    }
+
+    fn axes(&self) -> impl Iterator<Item = &StepAxis> {
+        self.steps.iter().flat_map(|step| &step.axes)
+    }
+}
+
 /// The programs of the order, one line each, and the readings on which their states rest.
-pub fn sequence_text(steps: &[Step], detail: Detail) -> String {
-    let lines = steps.iter().map(step_line);
-    let last = detail.full(steps.last()).flatten();
+pub fn sequence_text(report: &SequenceReport, detail: Detail) -> String {
+    let lines = report.steps.iter().map(step_line);
+    let last = detail.full(report.steps.last()).flatten();
     let rests_on = last.and_then(|last| rests_on_text(&last.rests_on));
     let lines = lines.chain(rests_on).map(|line| line + "\n");
     lines.collect()
@@ -86,8 +122,8 @@ fn place(step: &Step, file: &str, line: u32) -> String {
 }
 
 /// The steps as records; the first one has `schema`.
-pub fn sequence_records(steps: &[Step]) -> Vec<Value> {
-    let records = steps.iter().enumerate().map(|(at, step)| {
+pub fn sequence_records(report: &SequenceReport) -> Vec<Value> {
+    let records = report.steps.iter().enumerate().map(|(at, step)| {
         let mut record = json!(step);
         record["record"] = "step".into();
         record["position"] = (at + 1).into();

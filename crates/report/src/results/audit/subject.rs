@@ -4,7 +4,9 @@ use std::path::Path;
 
 use crate::document::{Headline, Standing};
 use crate::wording::counted;
-use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
+use frictcomp::audit::{
+    Archive, AxisAudit, AxisFinding, Cure, Ending, ProgramAudit, ProgramEffect,
+};
 use frictcomp::comp::Kind;
 use frictcomp::machine::Machine;
 use frictcomp::text::shown_path;
@@ -63,6 +65,61 @@ impl MachineAudit {
             origin,
             archive,
         }
+    }
+}
+
+/// The place of a block that ends the hazards of a program, in its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CurePlace {
+    Beginning,
+    Before(u32),
+    End,
+}
+
+impl MachineAudit {
+    /// Returns the findings that have any content: a kind that no program switches is left out.
+    pub(crate) fn shown(&self) -> impl Iterator<Item = &AxisFinding> {
+        let programs = self.archive.programs();
+        let is_switched = move |at: usize| {
+            let mut programs = programs.iter();
+            programs.any(|program| program.axes[at].effect != ProgramEffect::Keeps)
+        };
+        let findings = self.findings.iter();
+        findings.filter(move |it| it.kind == Kind::Frict || is_switched(it.at))
+    }
+
+    /// Returns the programs, each with its effect on the axes of [`shown`](Self::shown), the most dangerous first.
+    pub(crate) fn by_danger(&self) -> Vec<(&ProgramAudit, Vec<Word>)> {
+        let words = |program: &ProgramAudit| {
+            let axes = self.shown().map(|it| Word::of(&program.axes[it.at]));
+            axes.collect::<Vec<_>>()
+        };
+        let programs = self.archive.programs().iter();
+        let mut rows: Vec<_> = programs.map(|it| (it, words(it))).collect();
+        rows.sort_by_key(|(_, words)| words.iter().min().copied());
+        rows
+    }
+
+    /// Returns the programs that the cure of an axis changes, each with the place of its block.
+    pub(crate) fn cures(&self, finding: &AxisFinding) -> Vec<(&ProgramAudit, CurePlace)> {
+        let place = |program: &ProgramAudit| {
+            let motion = program.axes[finding.at].inherits.motion();
+            match (finding.cure(), program.ending, motion) {
+                (Cure::Inheritors, _, Some(motion)) if *motion.site.file == *program.file => {
+                    CurePlace::Before(motion.site.line)
+                }
+                (Cure::Inheritors, ..) => CurePlace::Beginning,
+                (_, Ending::At(line), _) => CurePlace::Before(line),
+                _ => CurePlace::End,
+            }
+        };
+        let programs = match finding.cure() {
+            Cure::Leavers => finding.leavers.clone(),
+            Cure::Inheritors => finding.movers(),
+            _ => Vec::new(),
+        };
+        let programs = programs.iter().map(|&at| &self.archive.programs()[at]);
+        programs.map(|it| (it, place(it))).collect()
     }
 }
 
@@ -278,13 +335,4 @@ pub(crate) fn axis_name(axis: &str, kind: Kind) -> String {
     } else {
         format!("{axis} {}", kind.as_str())
     }
-}
-
-/// Whether a column of a table has any content: a kind that no program switches is left out.
-pub(crate) fn is_shown(machine: &MachineAudit, finding: &AxisFinding) -> bool {
-    let programs = machine.archive.programs();
-    finding.kind == Kind::Frict
-        || programs
-            .iter()
-            .any(|program| program.axes[finding.at].effect != ProgramEffect::Keeps)
 }

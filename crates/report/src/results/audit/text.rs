@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::subject::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use super::subject::{AuditReport, CurePlace, MachineAudit, Word, axis_name};
 use crate::assumptions::rests_on_text;
 use crate::document::Table;
 use crate::wording::{Detail, counted, visible_line};
-use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, ProgramAudit};
+use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Inherits, ProgramAudit};
 use frictcomp::interpreter::MotionKind;
 
 /// Rows of a table, and programs of a list, that are shown.
@@ -40,7 +40,7 @@ pub fn render_text(report: &AuditReport, length: Length, detail: Detail) -> Stri
             let _ = writeln!(out, "machine {}\n", visible_line(origin));
         }
         push_table(&mut out, machine, length);
-        for finding in machine.findings.iter().filter(|it| is_shown(machine, it)) {
+        for finding in machine.shown() {
             out.push('\n');
             push_finding(&mut out, machine, finding, length);
         }
@@ -63,35 +63,19 @@ fn more(count: u64, noun: &str) -> String {
 
 /// The rows of the table, the most dangerous first.
 fn push_table(out: &mut String, machine: &MachineAudit, length: Length) {
-    let columns: Vec<&AxisFinding> = machine
-        .findings
-        .iter()
-        .filter(|it| is_shown(machine, it))
-        .collect();
+    let columns: Vec<&AxisFinding> = machine.shown().collect();
     if columns.is_empty() {
         return;
     }
-    let words = |program: &ProgramAudit| -> Vec<Word> {
-        columns
-            .iter()
-            .map(|column| Word::of(&program.axes[column.at]))
-            .collect()
-    };
-    let mut rows: Vec<(&str, Vec<Word>)> = machine
-        .archive
-        .programs()
-        .iter()
-        .map(|program| (program.file.as_str(), words(program)))
-        .collect();
-    rows.sort_by_key(|(_, words)| words.iter().min().copied());
+    let rows = machine.by_danger();
     let shown = rows.len().min(length.of(ROWS));
     let (shown, folded) = rows.split_at(shown);
     let heads = columns.iter().map(|it| axis_name(&it.axis, it.kind));
     let table = Table::default().left("program");
     let mut table = heads.fold(table, |table, head| table.left(visible_line(&head)));
-    for (file, words) in shown {
+    for (program, words) in shown {
         let words = words.iter().map(|word| word.as_str().to_owned());
-        let name = visible_line(file).into_owned();
+        let name = visible_line(&program.file).into_owned();
         table.cells(std::iter::once(name).chain(words).collect());
     }
     let _ = write!(out, "{table}");
@@ -104,7 +88,7 @@ fn push_table(out: &mut String, machine: &MachineAudit, length: Length) {
 }
 
 /// Writes the number of programs that are not shown, by their most dangerous word.
-fn push_folded(out: &mut String, folded: &[(&str, Vec<Word>)]) {
+fn push_folded(out: &mut String, folded: &[(&ProgramAudit, Vec<Word>)]) {
     if folded.is_empty() {
         return;
     }
@@ -258,32 +242,24 @@ fn unknown(program: &ProgramAudit, axis: &AxisAudit) -> String {
 }
 
 fn push_cure(out: &mut String, machine: &MachineAudit, finding: &AxisFinding, length: Length) {
-    let movers = finding.movers();
-    let (programs, what) = match finding.cure() {
-        Cure::Leavers => (
-            &finding.leavers,
-            "before the end of each program that leaves it",
-        ),
-        Cure::Inheritors => (&movers, "before the first motion of each that inherits it"),
+    let what = match finding.cure() {
+        Cure::Leavers => "before the end of each program that leaves it",
+        Cure::Inheritors => "before the first motion of each that inherits it",
         _ => return,
     };
     let _ = writeln!(out, "  cure: one block {what}");
-    let shown = programs.len().min(length.of(LISTED));
-    for &program in &programs[..shown] {
-        let program = &machine.archive.programs()[program];
-        let axis = &program.axes[finding.at];
+    let cures = machine.cures(finding);
+    let shown = cures.len().min(length.of(LISTED));
+    for (program, place) in &cures[..shown] {
+        let way_home = program.axes[finding.at].way_home();
         let file = visible_line(&program.file);
-        let place = match (finding.cure(), program.ending, axis.inherits.motion()) {
-            (Cure::Inheritors, _, Some(motion)) if *motion.site.file == *program.file => {
-                format!("before {file}:{}", motion.site.line)
-            }
-            (Cure::Inheritors, ..) => format!("at the beginning of {file}"),
-            (_, Ending::At(line), _) => format!("before {file}:{line}"),
-            _ => format!("at the end of {file}"),
+        let _ = match place {
+            CurePlace::Beginning => writeln!(out, "    {way_home}  at the beginning of {file}"),
+            CurePlace::Before(line) => writeln!(out, "    {way_home}  before {file}:{line}"),
+            CurePlace::End => writeln!(out, "    {way_home}  at the end of {file}"),
         };
-        let _ = writeln!(out, "    {}  {place}", axis.way_home());
     }
-    if programs.len() > shown {
-        let _ = writeln!(out, "    … {} more", programs.len() - shown);
+    if cures.len() > shown {
+        let _ = writeln!(out, "    … {} more", cures.len() - shown);
     }
 }

@@ -104,7 +104,6 @@ impl AuditJob {
         let machines = machines.on_disk(&self.programs.disk);
         let mut machines = machines.watched_by(Arc::new(stop.clone()));
         let (inputs, mut errors) = find(self.programs, &mut machines);
-        machines.look_ahead(&inputs);
         let (auditor, no_machine) = ArchiveAuditor::new(inputs, &mut machines, self.options);
         errors.extend(no_machine);
         (auditor, errors)

@@ -94,7 +94,6 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
         let options = dropped.options(folder, enable);
         let mut machines =
             Machines::new(options, &FileRegistry::default()).on_disk(&dropped.disk());
-        machines.look_ahead(&inputs);
         let options = AuditOptions::new(Options::default());
         let (auditor, errors) = ArchiveAuditor::new(inputs, &mut machines, options);
         let (archives, unread) = auditor.audit();

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use clap::{Args, ValueEnum};
 
-use crate::output::Failure;
+use crate::output::{Console, Failure};
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Code, CodeFilter, Severity, did_you_mean};
 
@@ -98,6 +98,19 @@ impl FailOn {
         let named = named.join(", ");
         (self.unknown_status(unknown) != crate::output::CLEAN)
             .then(|| format!("not known at the end of a program or where the axis moves: {named}"))
+    }
+
+    /// Returns the exit status for unknown states, which are reported where they count.
+    pub(crate) fn judge<'a>(
+        self,
+        unknown: impl Iterator<Item = (&'a str, Kind)>,
+        console: Console,
+    ) -> u8 {
+        let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+        if let Some(remark) = self.unknown_remark(&unknown) {
+            console.remark(&remark);
+        }
+        self.unknown_status(&unknown)
     }
 
     /// Returns the exit status for the number of diagnostics at each severity (R9.26).

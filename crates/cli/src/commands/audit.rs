@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use crate::args::{
-    ExecutionArgs, FailOnArgs, FolderArgs, MachineArgs, SeverityArgs, differences, of_axis,
-    say_left_out, settings, undescribed_remark,
+    ExecutionArgs, FailOnArgs, FolderArgs, MachineArgs, SeverityArgs, differences, say_left_out,
+    settings, undescribed_remark,
 };
 use crate::output::{
     Console, Failure, Failures, Files, Outputs, Printed, RecordsFormat, difference, exit, shown,
 };
 use frictcomp::audit::{Archive, CuredMotions, MendedEnd};
-use frictcomp::comp::{Kind, KindSet};
+use frictcomp::comp::KindSet;
 use frictcomp::diagnostic::Severity;
 use frictcomp::interpreter::StopPolicy;
 use frictcomp::text::shown_path;
@@ -153,7 +153,7 @@ impl AuditArgs {
             .with_help("name a file"));
         }
         failures.extend(Failures::from(found.failures));
-        let auditor = self.auditor(found.inputs, (&mut machines, &registry), failures);
+        let auditor = self.auditor(found.inputs, &mut machines, failures);
         if auditor.programs().is_empty() {
             return Ok(exit::CLEAN);
         }
@@ -198,7 +198,7 @@ impl AuditArgs {
         outputs.finish()?;
         self.machine.say_unread(&machines, &registry, console);
         let errors = say_list_errors(&auditor, console);
-        let unknown = self.unknown_status(report.unknown(), console);
+        let unknown = self.fail_on.judging().judge(report.unknown(), console);
         let archives = report.machines.iter().map(|machine| &machine.archive);
         let mut unseen = auditor.about_files(archives).diagnostics().to_vec();
         say_left_out(&mut found.left_out, &registry, console);
@@ -215,13 +215,9 @@ impl AuditArgs {
     fn auditor(
         &self,
         inputs: Vec<Input>,
-        (machines, registry): (&mut Machines, &FileRegistry),
+        machines: &mut Machines,
         failures: &mut Failures,
     ) -> ArchiveAuditor {
-        for input in &inputs {
-            input.note(registry);
-        }
-        machines.look_ahead(&inputs);
         let run = self.execution.brief(StopPolicy::FirstError, RUNS);
         let mut options = AuditOptions::new(run).with_kinds(self.kinds);
         if let Some(jobs) = self.jobs {
@@ -236,20 +232,6 @@ impl AuditArgs {
         } else {
             CuredMotions::Kept
         }
-    }
-
-    /// Returns the exit status for unknown states, which are reported where they count (R2.98).
-    fn unknown_status<'a>(
-        &self,
-        unknown: impl Iterator<Item = (&'a str, Kind)>,
-        console: Console,
-    ) -> u8 {
-        let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
-        let fail_on = self.fail_on.judging();
-        if let Some(remark) = fail_on.unknown_remark(&unknown) {
-            console.remark(&remark);
-        }
-        fail_on.unknown_status(&unknown)
     }
 
     /// Returns the exit status for what is said, by its severities.
@@ -275,7 +257,7 @@ impl AuditArgs {
         registry.reads("sequence", order);
         let inputs = programs_in_order(order)?;
         let mut machines = self.machine.weighed(&self.severities, &registry)?;
-        let auditor = self.auditor(inputs, (&mut machines, &registry), failures);
+        let auditor = self.auditor(inputs, &mut machines, failures);
         outputs.check()?;
         say_undescribed(&auditor, console);
         let report = SequenceReport::new(failures.keep(auditor.follow()));
@@ -295,7 +277,7 @@ impl AuditArgs {
             }
         }
         let errors = say_list_errors(&auditor, console);
-        let unknown = self.unknown_status(report.unknown(), console);
+        let unknown = self.fail_on.judging().judge(report.unknown(), console);
         let inherits = report.has_warnings().then_some(Severity::Warning);
         let cut = report.is_cut().then_some(Severity::Error);
         Ok(self

@@ -90,12 +90,17 @@ pub(crate) struct ProgramAuditor<'a> {
 }
 
 impl ArchiveAuditor {
-    /// Finds the machine of each program; also returns why a program has none.
+    /// Notes the programs among the files that are read, and finds the machine of each; also returns why a program has
+    /// none.
     pub fn new(
         inputs: Vec<Input>,
         machines: &mut Machines,
         options: AuditOptions,
     ) -> (Self, Vec<HostError>) {
+        for input in &inputs {
+            input.note(machines.registry());
+        }
+        machines.look_ahead(&inputs);
         let mut auditor = Self {
             machines: Vec::new(),
             programs: Vec::with_capacity(inputs.len()),

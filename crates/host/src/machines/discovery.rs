@@ -277,6 +277,10 @@ impl Machines {
         Ok(&self.plain[&key])
     }
 
+    pub(crate) fn registry(&self) -> &FileRegistry {
+        &self.registry
+    }
+
     /// Takes the programs: compensation is assumed on axes that they, or their machines, have
     /// (R17.7).
     pub fn look_ahead(&mut self, inputs: &[Input]) {

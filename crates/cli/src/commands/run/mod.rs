@@ -2,14 +2,13 @@
 
 mod listeners;
 
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
 use crate::args::{
-    ExecutionArgs, FailOn, FailOnArgs, MachineArgs, SeverityArgs, StartArgs, explain, of_axis,
-    remark, settings, values,
+    ExecutionArgs, FailOn, FailOnArgs, MachineArgs, SeverityArgs, StartArgs, explain, remark,
+    settings, values,
 };
 use crate::output::{Console, DataTarget, Failure, FileWatch, HtmlFile, Outputs};
 use frictcomp::comp::KindSet;
@@ -297,14 +296,9 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if let (TimelineFormat::Text, Some(code)) = (args.format, played.most_severe) {
         console.remark(&explain(code));
     }
-    let unknown = start.session.unknown();
-    let unknown: BTreeSet<String> = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
     let fail_on = args.fail_on();
-    if let Some(remark) = fail_on.unknown_remark(&unknown) {
-        console.remark(&remark);
-    }
-    let status = fail_on.status(start.session.counts());
-    let status = status.max(fail_on.unknown_status(&unknown));
+    let unknown = fail_on.judge(start.session.unknown(), console);
+    let status = fail_on.status(start.session.counts()).max(unknown);
     // Neither a program that stopped nor one that did not run is an all-clear, whatever the reason.
     let has_stopped = played.has_stopped && fail_on.counts(Severity::Error);
     let is_cut_short = has_stopped || played.summary.unrun > 0;

@@ -308,7 +308,21 @@ impl Interpreter {
         let calls = self.pass_over_and_call(at, finder);
         let stopped = self.here.judge(at);
         let is_over = self.here.account(at);
-        self.here.state.parked = self.next_step(calls, (is_over, stopped), at, finder);
+        let here = &mut self.here;
+        here.state.parked = match here.step(calls, (is_over, stopped), at, finder) {
+            // A return to an earlier block repeats what is between them, as a jump does.
+            Some(ControlStep::ReturnTo(Destination {
+                level,
+                entry: Some(target),
+                awaited: None,
+            })) if here.sides.is_empty() => {
+                self.others.go_back(here, &Destination::after_call(level));
+                Some(self.others.jump(here, target, finder))
+            }
+            Some(ControlStep::Jump(target)) => Some(self.others.jump(here, target, finder)),
+            Some(ControlStep::End(EndedBy::Error)) => Some(here.end_by_error(at)),
+            step => step,
+        };
         self.here.limit_messages(first);
         self.here.note_doubts(at);
         stopped
@@ -370,46 +384,6 @@ impl Interpreter {
             self.here.let_plc_act();
         }
         calls
-    }
-
-    /// The step after a block, where that is not the next block.
-    #[inline]
-    fn next_step(
-        &mut self,
-        calls: Vec<Request>,
-        (is_over, stopped): (bool, bool),
-        at: &BlockContext<'_>,
-        finder: &mut dyn Finder,
-    ) -> Option<ControlStep> {
-        let here = &mut self.here;
-        let step = if is_over || here.scratch.ending.too_deep {
-            Some(ControlStep::End(EndedBy::Budget))
-        } else if stopped {
-            Some(ControlStep::End(ended_by(
-                &here.scratch.messages.diagnostics,
-            )))
-        } else if calls.is_empty()
-            && here.scratch.actions.goes_on()
-            && here.state.control.cycles.is_empty()
-        {
-            None
-        } else {
-            here.step(calls, at, finder)
-        };
-        match step {
-            // A return to an earlier block repeats what is between them, as a jump does.
-            Some(ControlStep::ReturnTo(Destination {
-                level,
-                entry: Some(target),
-                awaited: None,
-            })) if here.sides.is_empty() => {
-                self.others.go_back(here, &Destination::after_call(level));
-                Some(self.others.jump(here, target, finder))
-            }
-            Some(ControlStep::Jump(target)) => Some(self.others.jump(here, target, finder)),
-            Some(ControlStep::End(EndedBy::Error)) => Some(here.end_by_error(at)),
-            step => step,
-        }
     }
 
     /// Notes whether the motion of the block is that of one way only.
@@ -721,9 +695,21 @@ impl Executor {
     fn step(
         &mut self,
         calls: Vec<Request>,
+        (is_over, stopped): (bool, bool),
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<ControlStep> {
+        if is_over || self.scratch.ending.too_deep {
+            return Some(ControlStep::End(EndedBy::Budget));
+        }
+        if stopped {
+            let by = ended_by(&self.scratch.messages.diagnostics);
+            return Some(ControlStep::End(by));
+        }
+        let goes_on = calls.is_empty() && self.scratch.actions.goes_on();
+        if goes_on && self.state.control.cycles.is_empty() {
+            return None;
+        }
         let moved = !self.scratch.moves.words().is_empty();
         if !calls.is_empty() {
             self.scratch.actions.step = Some(ControlStep::Call(calls));

@@ -155,7 +155,7 @@ impl Executor {
         let levels = LEVEL.saturating_mul(control.frames.depth() as u64);
         let pairs = PAIR.saturating_mul(control.pairs(reach));
         let axes = 20 * self.machine.axes.len() as u64;
-        let answers = 10 * reach.conditions().count() as u64;
+        let answers = 80 * reach.conditions().count() as u64;
         let units = COPY.saturating_add(levels).saturating_add(pairs);
         self.state
             .work

@@ -102,7 +102,9 @@ pub struct UnknownText {
     meaning: TextMeaning,
 }
 
+/// It takes a word, in which a value says its kind, too: a processor waits where it reads a word that was written in parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u64)]
 enum TextMeaning {
     /// A parameter, a variable or an address.
     Value,

@@ -16,7 +16,7 @@ use crate::interpreter::programs::store::Parsed;
 use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::externals::{HeldValues, SetAt};
 use crate::interpreter::values::location::{MissingProgram, Unknown};
-use crate::interpreter::values::value::Value;
+use crate::interpreter::values::value::Slot;
 use crate::interpreter::ways::path::{EarlierStates, Path};
 use crate::interpreter::ways::words::seen_from;
 use crate::language::{AxisWords, BlockGroup, GFunction, Group};
@@ -310,7 +310,7 @@ pub(crate) struct BlockScratch {
 /// What the words of a block read.
 #[derive(Default, Clone)]
 pub(crate) struct BlockReading {
-    pub(crate) stack: Vec<Result<Value, Box<Fault>>>,
+    pub(crate) stack: RefCell<Vec<Slot>>,
     pub(crate) notes: RefCell<Vec<Note>>,
     /// The variables that its expressions read and that the PLC may write, where their value is known (R2.99).
     pub(crate) relied: RefCell<Vec<VariableName>>,

@@ -15,7 +15,7 @@ use crate::interpreter::values::expression::{
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::{Denoted, Location, Unknown};
 use crate::interpreter::values::names::Sure;
-use crate::interpreter::values::value::{TypedValue, Value, ValueType, exact};
+use crate::interpreter::values::value::{Slot, TypedValue, Value, ValueType, exact};
 use crate::language::{Flushes, is_read_only};
 use crate::lists::AxisType;
 use crate::readings::{Alternative, Question};
@@ -103,12 +103,9 @@ impl Executor {
         self.state.write_anything();
         for declaration in declarations {
             refuse_declaration(declaration, at)?;
-            let mut stack = std::mem::take(&mut self.scratch.read.stack);
-            let dimensions = self.with_evaluator(at, |evaluator| {
-                evaluator.dimensions(declaration.target.place, &mut stack)
-            });
-            self.scratch.read.stack = stack;
-            let dimensions = dimensions?;
+            let dimensions = self.with_evaluator(at, |evaluator, stack| {
+                evaluator.dimensions(declaration.target.place, stack)
+            })?;
             let name = declared_name(declaration, at);
             let mut values = Vec::with_capacity(declaration.initial.len());
             for operand in &declaration.initial {
@@ -344,9 +341,7 @@ impl Executor {
         if let Operand::Number(number) = operand {
             return Ok(Value::Number(number));
         }
-        let mut stack = std::mem::take(&mut self.scratch.read.stack);
-        let value = self.with_evaluator(at, |evaluator| evaluator.value(operand, &mut stack));
-        self.scratch.read.stack = stack;
+        let value = self.with_evaluator(at, |evaluator, stack| evaluator.value(operand, stack));
         if let Some(name) = self.scratch.read.flushing.take() {
             self.read_flushes(&name, at);
         }
@@ -359,7 +354,7 @@ impl Executor {
     pub(crate) fn with_evaluator<T>(
         &self,
         at: &BlockContext<'_>,
-        evaluate: impl FnOnce(&Evaluator<'_>) -> T,
+        evaluate: impl FnOnce(&Evaluator<'_>, &mut Vec<Slot>) -> T,
     ) -> T {
         static NONE: BTreeMap<u32, Value> = BTreeMap::new();
         let frame = self.state.control.frames.running();
@@ -368,7 +363,7 @@ impl Executor {
             _ => ParameterSource::FromOutside,
         };
         let taken = self.options.notes == Notes::Taken;
-        evaluate(&Evaluator {
+        let evaluator = Evaluator {
             block: at.block,
             text: at.text,
             shown: None,
@@ -402,7 +397,8 @@ impl Executor {
                     }
                 },
             },
-        })
+        };
+        evaluate(&evaluator, &mut self.scratch.read.stack.borrow_mut())
     }
 
     /// Counts something that was accepted and passed over.
@@ -616,7 +612,7 @@ impl Executor {
     }
 
     pub(crate) fn target_place(
-        &mut self,
+        &self,
         place: Expression,
         at: &BlockContext<'_>,
     ) -> Result<Option<Denoted>, Box<Fault>> {
@@ -625,10 +621,7 @@ impl Executor {
         if let Some(Node::Parameter { owner, index }) = root.and_then(|it| at.block.nodes.get(it)) {
             return Ok(Some(Location::Parameter(*owner, *index).into()));
         }
-        let mut stack = std::mem::take(&mut self.scratch.read.stack);
-        let found = self.with_evaluator(at, |evaluator| evaluator.place(place, &mut stack));
-        self.scratch.read.stack = stack;
-        found
+        self.with_evaluator(at, |evaluator, stack| evaluator.place(place, stack))
     }
 
     pub(crate) fn write(&mut self, location: &Location, value: Value) {

@@ -272,7 +272,7 @@ impl Executor {
                 ))));
             }
         };
-        let depth = self.with_evaluator(at, |evaluator| {
+        let depth = self.with_evaluator(at, |evaluator, _| {
             let macros = evaluator.macros.expand(&code, evaluator.work, span);
             macros.map(|macros| macros.depth)
         })?;

@@ -35,7 +35,7 @@ const ELSEWHERE: &[(&str, &[&str])] = &[
     ),
     ("crates/host/tests/host/recordings.rs", &["FC519"]),
     (
-        "crates/cli/tests/command/identify_faults.rs",
+        "crates/host/tests/host/identify_faults.rs",
         &[
             "FC520", "FC521", "FC522", "FC523", "FC524", "FC525", "FC526",
         ],

@@ -15,6 +15,7 @@ use crate::interpreter::executor::Executor;
 use crate::interpreter::programs::calls::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
 use crate::interpreter::values::location::Unknown;
+use crate::interpreter::values::work_budget::PER_ANSWER;
 use crate::interpreter::ways::others::OtherPaths;
 use crate::interpreter::ways::path::Path;
 use crate::interpreter::ways::set::WaySet;
@@ -146,9 +147,6 @@ const COPY: u64 = 4000;
 /// Units of a copied or compared level of the call stack.
 const LEVEL: u64 = 100;
 
-/// Units of an answer that leads to a copied state: it is compared, told in words, and what it assumes is undone.
-const ANSWER: u64 = 200;
-
 /// Units of a pair of answers: ways that meet are compared with each other until none can be left out.
 const PAIR: u64 = 20;
 
@@ -158,7 +156,7 @@ impl Executor {
         let levels = LEVEL.saturating_mul(control.frames.depth() as u64);
         let pairs = PAIR.saturating_mul(control.pairs(reach));
         let axes = 20 * self.machine.axes.len() as u64;
-        let answers = ANSWER * reach.conditions().count() as u64;
+        let answers = PER_ANSWER * reach.conditions().count() as u64;
         let units = COPY.saturating_add(levels).saturating_add(pairs);
         self.state
             .work

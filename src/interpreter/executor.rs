@@ -19,7 +19,7 @@ use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::handover::{FoundVariables, VariableUse};
 use crate::interpreter::values::location::{Reads, Unknown};
 use crate::interpreter::values::rows;
-use crate::interpreter::values::work_budget::{PER_ANSWER, PER_UNIT_READ, WorkBudget};
+use crate::interpreter::values::work_budget::{PER_TOLD_ANSWER, PER_UNIT_READ, WorkBudget};
 use crate::interpreter::ways::history::FoundStates;
 use crate::interpreter::ways::path::{AskedCondition, BranchSide, EndedPath, Path, RunTrack};
 use crate::interpreter::ways::possible_state::{PossibleStates, shown, ways_of};
@@ -112,8 +112,6 @@ impl Executor {
             conditions,
             ..
         } = &self.state;
-        let answers = track.reach.conditions().count() as u64;
-        self.state.work.charge_ways(2 * PER_ANSWER * answers);
         let state = (&control.compensation, &control.history);
         self.shown = ShownWays {
             version: self.version,
@@ -123,6 +121,8 @@ impl Executor {
                 ways.filter(|ways| !ways.is_empty())
             },
         };
+        let told: usize = self.shown.branch.iter().flatten().map(Vec::len).sum();
+        self.state.work.charge_ways(PER_TOLD_ANSWER * told as u64);
     }
 
     /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and records

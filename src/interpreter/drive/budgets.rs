@@ -15,7 +15,6 @@ use crate::interpreter::executor::Executor;
 use crate::interpreter::programs::calls::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
 use crate::interpreter::values::location::Unknown;
-use crate::interpreter::values::work_budget::PER_ANSWER;
 use crate::interpreter::ways::others::OtherPaths;
 use crate::interpreter::ways::path::Path;
 use crate::interpreter::ways::set::WaySet;
@@ -156,7 +155,7 @@ impl Executor {
         let levels = LEVEL.saturating_mul(control.frames.depth() as u64);
         let pairs = PAIR.saturating_mul(control.pairs(reach));
         let axes = 20 * self.machine.axes.len() as u64;
-        let answers = PER_ANSWER * reach.conditions().count() as u64;
+        let answers = 10 * reach.conditions().count() as u64;
         let units = COPY.saturating_add(levels).saturating_add(pairs);
         self.state
             .work

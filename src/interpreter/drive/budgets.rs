@@ -144,7 +144,7 @@ const BLOCK: u64 = 4000;
 const COPY: u64 = 4000;
 
 /// Units of a copied or compared level of the call stack.
-const LEVEL: u64 = 100;
+const LEVEL: u64 = 250;
 
 /// Units of a pair of answers: ways that meet are compared with each other until none can be left out.
 const PAIR: u64 = 20;

@@ -299,8 +299,8 @@ pub(crate) struct BlockScratch {
     pub(crate) actions: BlockActions,
     pub(crate) ending: BlockEnding,
     pub(crate) messages: BlockMessages,
-    /// Whether it has only coordinates, a feed and G functions of groups, each a plain number, and nothing is said on it.
-    pub(crate) only_moves: bool,
+    /// Whether it has only coordinates, a feed and G functions of groups so far, each a plain number.
+    pub(crate) has_plain_words: bool,
     /// Whether an axis occurred for the first time.
     pub(crate) new_axes: bool,
     /// Whether a value was written.
@@ -368,7 +368,7 @@ impl BlockScratch {
     /// Clears the messages on the block; those left at program end belong to no block.
     #[inline]
     pub(crate) fn clear_said(&mut self) {
-        if self.only_moves {
+        if self.has_plain_words {
             return;
         }
         self.messages.said = u64::try_from(self.messages.diagnostics.len()).unwrap_or(u64::MAX);
@@ -391,22 +391,22 @@ impl BlockScratch {
         self.moves.clear();
         self.new_axes = false;
         self.actions.clear_words();
-        if !std::mem::replace(&mut self.only_moves, true) {
+        self.changes.clear();
+        self.doubted.clear();
+        self.messages.diagnostics.clear();
+        self.aside.withheld.clear();
+        if !std::mem::replace(&mut self.has_plain_words, true) {
             self.clear_rest();
         }
     }
 
-    /// Clears what a block that only moves leaves empty.
+    /// Clears what plain words leave empty.
     #[inline(never)]
     fn clear_rest(&mut self) {
         self.actions.clear();
         self.outcomes.clear();
-        self.changes.clear();
         self.left_open = None;
         self.earlier = None;
-        self.doubted.clear();
-        self.messages.diagnostics.clear();
-        self.aside.withheld.clear();
         self.read.unknown_call = None;
         self.read.lone = None;
         self.read.plc_acts = false;
@@ -415,6 +415,36 @@ impl BlockScratch {
         self.read.unread.set(false);
         self.read.expansions.set(0);
         self.ending.too_deep = false;
+    }
+
+    /// Whether the block has only plain words, and nothing is said on it or left to be done after it.
+    #[inline]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.has_plain_words
+            && self.messages.diagnostics.is_empty()
+            && self.messages.of_some_ways.is_empty()
+            && self.aside.withheld.is_empty()
+            && self.passed.is_empty()
+            && self.left.is_empty()
+    }
+
+    /// Whether the words of the block ask for nothing but a motion, as plain ones do.
+    pub(crate) fn asks_for_nothing(&self) -> bool {
+        let (actions, read) = (&self.actions, &self.read);
+        actions.goes_on()
+            && actions.calls.is_empty()
+            && actions.looks_for.is_none()
+            && actions.axis_words == AxisWords::Motion
+            && self.outcomes.is_empty()
+            && self.changes.is_empty()
+            && self.doubted.is_empty()
+            && self.left_open.is_none()
+            && self.earlier.is_none()
+            && read.unknown_call.is_none()
+            && read.notes.borrow().is_empty()
+            && read.asked.borrow().is_empty()
+            && !read.plc_acts
+            && !self.ending.too_deep
     }
 }
 

@@ -19,7 +19,7 @@ use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::handover::{FoundVariables, VariableUse};
 use crate::interpreter::values::location::{Reads, Unknown};
 use crate::interpreter::values::rows;
-use crate::interpreter::values::work_budget::{PER_TOLD_ANSWER, PER_UNIT_READ, WorkBudget};
+use crate::interpreter::values::work_budget::{PER_UNIT_READ, WorkBudget};
 use crate::interpreter::ways::history::FoundStates;
 use crate::interpreter::ways::path::{AskedCondition, BranchSide, EndedPath, Path, RunTrack};
 use crate::interpreter::ways::possible_state::{PossibleStates, shown, ways_of};
@@ -121,8 +121,6 @@ impl Executor {
                 ways.filter(|ways| !ways.is_empty())
             },
         };
-        let told: usize = self.shown.branch.iter().flatten().map(Vec::len).sum();
-        self.state.work.charge_ways(PER_TOLD_ANSWER * told as u64);
     }
 
     /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and records
@@ -244,7 +242,6 @@ impl Executor {
     /// Kinds of an axis become unknown.
     pub(crate) fn havoc(&mut self, axis: AxisIndex, kinds: KindSet) {
         self.state.control.history.close(axis, kinds);
-        self.scratch.only_moves = false;
         let compensation = &mut self.state.control.compensation;
         compensation.havoc(axis, kinds, &mut self.scratch.changes);
         let doubted = compensation.unknown(axis).intersection(kinds);

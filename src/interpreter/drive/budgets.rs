@@ -138,13 +138,13 @@ fn too_many_values(limit: usize, at: &BlockContext<'_>) -> Diagnostic {
 }
 
 /// Units of a block on one of several ways, with the row that shows it.
-const BLOCK: u64 = 4000;
+const BLOCK: u64 = 3000;
 
 /// Units of a copy of the state of the control.
-const COPY: u64 = 4000;
+const COPY: u64 = 3000;
 
 /// Units of a copied or compared level of the call stack.
-const LEVEL: u64 = 250;
+const LEVEL: u64 = 100;
 
 /// Units of a pair of answers: ways that meet are compared with each other until none can be left out.
 const PAIR: u64 = 20;

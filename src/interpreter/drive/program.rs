@@ -153,7 +153,7 @@ impl Executor {
         self.is_alone = true;
         self.sides.clear();
         self.programs.clear();
-        self.scratch.only_moves = false;
+        self.scratch.has_plain_words = false;
         self.scratch.clear();
     }
 

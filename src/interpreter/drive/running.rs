@@ -304,7 +304,7 @@ impl Interpreter {
     /// it.
     #[inline(never)]
     fn act(&mut self, first: usize, at: &BlockContext<'_>, finder: &mut dyn Finder) -> bool {
-        self.here.scratch.only_moves = false;
+        self.here.scratch.has_plain_words = false;
         let calls = self.pass_over_and_call(at, finder);
         let stopped = self.here.judge(at);
         let is_over = self.here.account(at);
@@ -340,7 +340,6 @@ impl Interpreter {
             said.append(&mut self.others.joined);
             let withheld = &mut scratch.aside.withheld;
             withheld.append(&mut self.others.joined_withheld);
-            scratch.only_moves = false;
         }
         if !self.here.state.track.shadow.moved.is_empty() && !self.here.state.track.is_shadow() {
             self.here.take_moves_of_shadows();
@@ -349,7 +348,7 @@ impl Interpreter {
         self.here.state.seq += 1;
         self.here.state.blocks += 1;
         if self.here.state.track.searching.is_some() {
-            self.here.scratch.only_moves = false;
+            self.here.scratch.has_plain_words = false;
             self.here.search(at);
         }
         first
@@ -449,7 +448,7 @@ impl Executor {
     fn read(&mut self, at: &BlockContext<'_>) {
         if let Some(level) = self.undecided_level(at.block) {
             let whole = Span::new(0, at.text.trim_end().len());
-            self.scratch.only_moves = false;
+            self.scratch.has_plain_words = false;
             self.pass_over_part(Unknown::SkipLevel(level), whole, at);
         } else if !self.is_halted() {
             self.remembered_items(at);
@@ -484,11 +483,9 @@ impl Executor {
     fn look_at_motion(&mut self, at: &BlockContext<'_>) {
         let words = self.scratch.actions.axis_words;
         if self.scratch.moves.has_repeated() {
-            self.scratch.only_moves = false;
             self.refuse_repeated_axes(words, at);
         }
         if self.scratch.moves.lacks_axes() {
-            self.scratch.only_moves = false;
             self.say_lacking(words, at);
         }
         self.move_around(words);
@@ -498,7 +495,6 @@ impl Executor {
             self.note_command_with_motion();
         }
         if self.any_required && self.state.control.described.is_none() {
-            self.scratch.only_moves = false;
             let goes_on = !self.scratch.messages.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
                 self.check_required(words, at);
@@ -525,7 +521,8 @@ impl Executor {
     /// Whether the block only moves axes that have moved before, and nothing else is due after it.
     #[inline]
     fn only_moves(&self) -> bool {
-        self.scratch.only_moves
+        self.scratch.is_plain()
+            && self.sides.is_empty()
             && !self.scratch.new_axes
             && !self.state.track.is_shadow()
             && self.state.control.cycles.is_empty()
@@ -535,6 +532,7 @@ impl Executor {
     /// Moves the axes of a block that does no more.
     #[inline]
     fn move_on(&mut self, at: &BlockContext<'_>) {
+        debug_assert!(self.scratch.asks_for_nothing(), "{}", at.text);
         self.move_axes(at);
         self.state.work.grant(at.text);
         self.state.remember_last(at);
@@ -746,7 +744,7 @@ impl Executor {
     /// written or used as a macro.
     fn remembered_items(&mut self, at: &BlockContext<'_>) {
         let limit = self.first_refusal(at.block);
-        self.scratch.only_moves &= at.block.faults.is_empty();
+        self.scratch.has_plain_words &= at.block.faults.is_empty();
         self.items(at, limit);
         for outcome in &mut self.scratch.outcomes {
             let Ok(axis) = outcome.result else {

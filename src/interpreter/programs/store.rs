@@ -396,16 +396,16 @@ impl Parsed {
 }
 
 /// A block, whatever it contains.
-const BLOCK: usize = 100;
+const BLOCK: usize = 60;
 
 /// A word with a number.
-const WORD: usize = 30;
+const WORD: usize = 18;
 
 /// An operand or an operator.
-const NODE: usize = 10;
+const NODE: usize = 7;
 
 /// A command, a statement, an assignment, a call.
-const COMMAND: usize = 300;
+const COMMAND: usize = 200;
 
 /// A character of a `#` command, whose words are looked at each time.
 const HASH_BYTE: usize = 60;

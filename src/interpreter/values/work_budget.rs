@@ -27,9 +27,6 @@ const PER_WORK: u64 = 2;
 /// Units of a way that a unit of a region needs: regions are read, ways are only copied and compared.
 pub(crate) const PER_UNIT_READ: u64 = 40;
 
-/// Units of ways that each answer needs that is told of a block.
-pub(crate) const PER_TOLD_ANSWER: u64 = 250;
-
 /// Units of ways that a block allows when it is executed for the first time.
 const PER_NEW_BLOCK: u64 = 15_000;
 

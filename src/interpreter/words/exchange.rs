@@ -226,7 +226,6 @@ impl Executor {
         let kinds = KindSet::of(Kind::Frict);
         let control = &mut self.state.control;
         control.history.set(axis, kinds);
-        self.scratch.only_moves = false;
         let changes = &mut self.scratch.changes;
         control
             .compensation

@@ -39,7 +39,6 @@ impl Executor {
     /// The F word of the block is 0 or negative.
     #[cold]
     fn feed_not_positive(&mut self, feed: f64, at: &BlockContext<'_>) {
-        self.scratch.only_moves = false;
         let span = feed_word(at.block).unwrap_or(Span::new(0, at.text.trim_end().len()));
         if feed < 0.0 {
             let message = format!(
@@ -58,7 +57,6 @@ impl Executor {
     /// The block has no F word, and its mode of F may have no feed.
     #[cold]
     fn move_without_feed(&mut self, at: &BlockContext<'_>) {
-        self.scratch.only_moves = false;
         if !self.moves_at_feed() {
             return;
         }

@@ -69,7 +69,6 @@ impl Executor {
 
     /// Every kind of every axis becomes unknown.
     pub(crate) fn havoc_compensation(&mut self) {
-        self.scratch.only_moves = false;
         self.state.control.history.close_all();
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);

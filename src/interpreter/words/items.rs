@@ -77,7 +77,7 @@ impl Executor {
             if self.plain_word(word) {
                 continue;
             }
-            self.scratch.only_moves = false;
+            self.scratch.has_plain_words = false;
             let done = self.word(word, at);
             if self.say(done, at).is_break() {
                 return;
@@ -87,7 +87,7 @@ impl Executor {
             if item.span().start >= limit && self.refuse_from(&mut limit, at).is_break() {
                 return;
             }
-            self.scratch.only_moves = false;
+            self.scratch.has_plain_words = false;
             let done = self.item(item, at);
             // After a statement that leads elsewhere, `$CASE 2 X10`, nothing is executed.
             let leaves = matches!(item, Item::Flow(flow, _) if !matches!(flow, Flow::Goto(_)))
@@ -326,7 +326,7 @@ impl Executor {
         span: Span,
         at: &BlockContext<'_>,
     ) -> Option<i64> {
-        self.scratch.only_moves = false;
+        self.scratch.has_plain_words = false;
         match self.number(operand, span, at) {
             Ok(value) => value.and_then(rounded),
             Err(fault) => {

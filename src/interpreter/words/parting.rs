@@ -611,7 +611,7 @@ impl Executor {
         let at_start = self.machine.readings.takes_second(Open::SkipLevel);
         let cause = Unknown::SkipLevel(level);
         self.scratch.clear();
-        self.scratch.only_moves = false;
+        self.scratch.has_plain_words = false;
         self.note_unknown(&cause, &at);
         let span = Span::new(0, parsed.text.trim_end().len());
         if !is_bare && self.is_level_read_again(level, &at.place(span)) {

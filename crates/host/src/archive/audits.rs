@@ -59,8 +59,7 @@ impl AuditOptions {
 /// `#` or `;` are ignored.
 ///
 /// # Errors
-///
-/// If the file or one of the programs cannot be read, or there is none.
+/// The file or one of its programs cannot be read, or the file names no program.
 pub fn programs_in_order(order: &Path) -> Result<Vec<Input>, HostError> {
     let text = read_text(order)?;
     let folder = order.parent().unwrap_or(Path::new(""));

@@ -415,36 +415,47 @@ impl BlockScratch {
         self.read.unread.set(false);
         self.read.expansions.set(0);
         self.ending.too_deep = false;
+        self.wrote = false;
     }
 
-    /// Whether the block has only plain words, and nothing is said on it or left to be done after it.
+    /// Whether the words of the block ask for nothing but a motion, and nothing is said on it or left to be done after it.
     #[inline]
-    pub(crate) fn is_plain(&self) -> bool {
-        self.has_plain_words
+    pub(crate) fn is_done(&self) -> bool {
+        let is_done = (self.has_plain_words || self.asks_for_nothing())
             && self.messages.diagnostics.is_empty()
             && self.messages.of_some_ways.is_empty()
             && self.aside.withheld.is_empty()
             && self.passed.is_empty()
-            && self.left.is_empty()
+            && self.left.is_empty();
+        debug_assert!(!is_done || self.asks_for_nothing());
+        is_done
     }
 
     /// Whether the words of the block ask for nothing but a motion, as plain ones do.
-    pub(crate) fn asks_for_nothing(&self) -> bool {
+    fn asks_for_nothing(&self) -> bool {
         let (actions, read) = (&self.actions, &self.read);
         actions.goes_on()
             && actions.calls.is_empty()
             && actions.looks_for.is_none()
             && actions.axis_words == AxisWords::Motion
-            && self.outcomes.is_empty()
-            && self.changes.is_empty()
-            && self.doubted.is_empty()
             && self.left_open.is_none()
             && self.earlier.is_none()
             && read.unknown_call.is_none()
-            && read.notes.borrow().is_empty()
-            && read.asked.borrow().is_empty()
             && !read.plc_acts
             && !self.ending.too_deep
+            && self.is_quiet()
+    }
+
+    /// Whether the block switches nothing, and nothing is said on it.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.outcomes.is_empty()
+            && self.changes.is_empty()
+            && self.doubted.is_empty()
+            && self.messages.diagnostics.is_empty()
+            && self.aside.withheld.is_empty()
+            && self.aside.asked.is_empty()
+            && self.read.asked.borrow().is_empty()
+            && self.read.notes.borrow().is_empty()
     }
 }
 

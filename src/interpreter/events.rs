@@ -374,11 +374,11 @@ pub trait Observer {
     /// Takes an event; `Break` stops the run, which can be resumed.
     fn event(&mut self, event: Event<'_>) -> ControlFlow<()>;
 
-    /// Returns whether an event is to follow about a block that only moves axes that have moved before, as most blocks do:
-    /// it switches nothing, and nothing is said on it. An observer that needs no more of it than this saves most of the
+    /// Returns whether an event is to follow about a quiet block, as most are: it switches nothing, nothing is said on it,
+    /// and its axes have moved before. An observer that needs no more of it than this saves most of the
     /// time that events take.
     #[inline]
-    fn takes_move(&mut self, _block: &BlockMove<'_>) -> bool {
+    fn takes_quiet(&mut self, _block: &BlockMove<'_>) -> bool {
         true
     }
 }

@@ -100,7 +100,7 @@ impl Sink for Findings {
         ControlFlow::Continue(())
     }
 
-    fn takes_move(&mut self) -> bool {
+    fn takes_quiet(&mut self) -> bool {
         false
     }
 }

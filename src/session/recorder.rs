@@ -118,8 +118,8 @@ impl Observer for Recorder<'_> {
         flow
     }
 
-    fn takes_move(&mut self, block: &BlockMove<'_>) -> bool {
-        let is_taken = self.doubtful || !self.is_known(block) || self.sink.takes_move();
+    fn takes_quiet(&mut self, block: &BlockMove<'_>) -> bool {
+        let is_taken = self.doubtful || !self.is_known(block) || self.sink.takes_quiet();
         if !is_taken {
             self.totals.count_block(block);
         }

@@ -330,9 +330,9 @@ pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
 
-    /// Asked before the record of a block that only moves axes that have moved before, as most blocks do: it switches
-    /// nothing, and nothing is said on it. Returns whether the record is to follow.
-    fn takes_move(&mut self) -> bool {
+    /// Asked before the record of a quiet block, as most are: it switches nothing, nothing is said on it, and its axes have
+    /// moved before. Returns whether the record is to follow.
+    fn takes_quiet(&mut self) -> bool {
         true
     }
 }

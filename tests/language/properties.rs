@@ -107,19 +107,19 @@ impl Sink for Said {
     }
 }
 
-/// The records, and which of them are those of blocks that only move axes.
-struct Moves {
+/// The records, and which of them are those of quiet blocks.
+struct QuietBlocks {
     are_taken: bool,
     said: Said,
     asked: Vec<usize>,
 }
 
-impl Sink for Moves {
+impl Sink for QuietBlocks {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.said.record(record)
     }
 
-    fn takes_move(&mut self) -> bool {
+    fn takes_quiet(&mut self) -> bool {
         self.asked.push(self.said.0.len());
         self.are_taken
     }
@@ -268,8 +268,8 @@ proptest! {
     }
 
     #[test]
-    fn what_only_moves_may_be_left_out(text in program()) {
-        only_moves_are_left_out(&text)?;
+    fn quiet_blocks_may_be_left_out(text in program()) {
+        quiet_blocks_are_left_out(&text)?;
     }
 
     #[test]
@@ -308,14 +308,14 @@ fn is_streamed_as_whole(text: &str) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// A sink that does not take the moves gets every other record, and the same counts. Returns the number of moves.
-fn only_moves_are_left_out(text: &str) -> Result<usize, TestCaseError> {
+/// A sink that does not take quiet blocks gets every other record, and the same counts. Returns the number of quiet blocks.
+fn quiet_blocks_are_left_out(text: &str) -> Result<usize, TestCaseError> {
     let mut found = 0;
     for stop in POLICIES {
         let [mut all, others] = [true, false].map(|are_taken| {
             let mut session = Session::new(Machine::enabled(["X", "Y"]), options(stop));
             let (said, asked) = (Said::default(), Vec::new());
-            let mut sink = Moves {
+            let mut sink = QuietBlocks {
                 are_taken,
                 said,
                 asked,
@@ -337,12 +337,12 @@ fn only_moves_are_left_out(text: &str) -> Result<usize, TestCaseError> {
 }
 
 #[test]
-fn moves_are_left_out_of_the_records_of_a_loop_and_counted() {
+fn quiet_blocks_of_a_loop_are_left_out_and_counted() {
     let text = "G1 X0 Y0 F100\nX[COMP ON FRICT]\nX1\nX2 Y2\nX[COMP OFF FRICT]\n$FOR P1 = 1, 9, 1\nX1 Y2\nY3 ; note\nX4\n\
         $ENDFOR\nX3\nM30\n";
-    let moves = only_moves_are_left_out(text).expect("the same records");
+    let quiet = quiet_blocks_are_left_out(text).expect("the same records");
     // The first move after the switch in motion is looked at by a lint.
-    assert_eq!(moves, POLICIES.len() * (2 + (2 * 9 - 1) + 1));
+    assert_eq!(quiet, POLICIES.len() * (2 + (3 * 9 - 1) + 2));
 }
 
 fn is_refused_only_with_flow(text: &str) -> Result<(), TestCaseError> {

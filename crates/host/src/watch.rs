@@ -311,10 +311,10 @@ impl Sink for Watched<'_> {
         self.sink.record(record)
     }
 
-    fn takes_move(&mut self) -> bool {
+    fn takes_quiet(&mut self) -> bool {
         // At every step its place is shown.
         let is_step = (self.blocks + 1).is_multiple_of(STEP);
-        let is_taken = is_step || self.sink.takes_move();
+        let is_taken = is_step || self.sink.takes_quiet();
         self.blocks += u64::from(!is_taken);
         is_taken
     }

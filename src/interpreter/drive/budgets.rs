@@ -37,7 +37,6 @@ impl Executor {
     /// FC919, FC908 or FC918 when the block exceeded a budget. Whatever else it could have changed is then unknown:
     /// the run did not reach its end.
     pub(crate) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
-        let wrote = std::mem::take(&mut self.scratch.wrote);
         if self.is_past_all_ways() {
             self.havoc_all(&Unknown::Work);
             return Some(too_much_to_follow(at));
@@ -46,18 +45,18 @@ impl Executor {
             self.havoc_all(&Unknown::Work);
             return Some(self.too_much_work(at));
         }
-        let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);
-        let held = || {
-            self.state
-                .control
-                .memory
-                .weight()
-                .saturating_add(self.state.control.couplings.len())
-        };
-        if wrote && held() > limit {
-            return Some(too_many_values(limit, at));
-        }
-        None
+        let is_over = self.scratch.wrote && self.holds_too_many_values();
+        is_over.then(|| too_many_values(self.options.limits.values, at))
+    }
+
+    /// Whether variables and couplings hold more than their budget.
+    pub(crate) fn holds_too_many_values(&self) -> bool {
+        let control = &self.state.control;
+        let held = control
+            .memory
+            .weight()
+            .saturating_add(control.couplings.len());
+        u32::try_from(held).map_or(true, |held| held > self.options.limits.values)
     }
 
     #[cold]
@@ -126,7 +125,7 @@ fn too_much_to_follow(at: &BlockContext<'_>) -> Diagnostic {
 
 /// FC918.
 #[cold]
-fn too_many_values(limit: usize, at: &BlockContext<'_>) -> Diagnostic {
+fn too_many_values(limit: u32, at: &BlockContext<'_>) -> Diagnostic {
     at.diagnostic(
         Fault::new(
             Code::Fc918,

@@ -280,11 +280,10 @@ impl Interpreter {
         let first = self.begin_block(at);
         let number = self.here.block_number(at);
         self.here.read(at);
-        let stopped = if self.others.waiting.is_empty() && self.here.only_moves() {
+        let is_alone = self.others.waiting.is_empty();
+        let is_done = is_alone && self.here.is_done(at);
+        let stopped = if is_done {
             self.here.move_on(at);
-            if !observer.takes_move(&self.here.moved(at)) {
-                return ControlFlow::Continue(());
-            }
             false
         } else {
             self.act(first, at, finder)
@@ -294,14 +293,19 @@ impl Interpreter {
             ControlFlow::Continue(())
         } else {
             self.note_lone_motion();
-            self.here.raise(number, stopped, at, observer)
+            let is_quiet = is_done || (is_alone && !stopped && self.here.is_quiet());
+            if is_quiet && !observer.takes_quiet(&self.here.moved(at)) {
+                ControlFlow::Continue(())
+            } else {
+                self.here.raise(number, stopped, at, observer)
+            }
         };
         self.here.scratch.clear_said();
         flow
     }
 
-    /// Does what the words of a block ask for beyond a motion. Returns whether an error of the control stops the run at
-    /// it.
+    /// Does what the words of a block ask for beyond a motion and values. Returns whether an error of the control stops
+    /// the run at it.
     #[inline(never)]
     fn act(&mut self, first: usize, at: &BlockContext<'_>, finder: &mut dyn Finder) -> bool {
         self.here.scratch.has_plain_words = false;
@@ -518,21 +522,28 @@ impl Executor {
         }
     }
 
-    /// Whether the block only moves axes that have moved before, and nothing else is due after it.
+    /// Whether the block only computes, or moves axes that have moved before, and nothing else is due after it.
     #[inline]
-    fn only_moves(&self) -> bool {
-        self.scratch.is_plain()
+    fn is_done(&self, at: &BlockContext<'_>) -> bool {
+        self.scratch.is_done()
+            && at.block.faults.is_empty()
             && self.sides.is_empty()
             && !self.scratch.new_axes
             && !self.state.track.is_shadow()
+            && self.state.track.searching.is_none()
             && self.state.control.cycles.is_empty()
             && self.is_within_budgets()
     }
 
-    /// Moves the axes of a block that does no more.
+    /// Whether a block of the only way switches nothing, nothing is said on it, and its axes have moved before.
+    #[inline]
+    fn is_quiet(&self) -> bool {
+        self.scratch.is_quiet() && !self.scratch.new_axes && self.state.track.searching.is_none()
+    }
+
+    /// Moves the axes of a block that does no more than that and compute.
     #[inline]
     fn move_on(&mut self, at: &BlockContext<'_>) {
-        debug_assert!(self.scratch.asks_for_nothing(), "{}", at.text);
         self.move_axes(at);
         self.state.work.grant(at.text);
         self.state.remember_last(at);
@@ -553,10 +564,10 @@ impl Executor {
         }
     }
 
-    /// Returns whether a block wrote nothing and no budget is used up.
+    /// Returns whether no budget is used up.
     #[inline]
     fn is_within_budgets(&self) -> bool {
-        !self.scratch.wrote
+        !(self.scratch.wrote && self.holds_too_many_values())
             && self.scratch.messages.unsaid.is_none()
             && self.state.work.level() <= self.options.limits.work
             && self.state.work.ways() <= self.options.limits.ways
@@ -744,7 +755,6 @@ impl Executor {
     /// written or used as a macro.
     fn remembered_items(&mut self, at: &BlockContext<'_>) {
         let limit = self.first_refusal(at.block);
-        self.scratch.has_plain_words &= at.block.faults.is_empty();
         self.items(at, limit);
         for outcome in &mut self.scratch.outcomes {
             let Ok(axis) = outcome.result else {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::interpreter::values::externals::HeldValues;
-use crate::interpreter::values::functions::{binary, call, fault, numeric, wrong_type};
+use crate::interpreter::values::functions::{binary, call, fault, numbers, numeric, wrong_type};
 use crate::interpreter::values::handover::VariableUse;
 use crate::interpreter::values::location::{Denoted, Location, Reads, Unknown};
 use crate::interpreter::values::memory::Memory;
@@ -176,10 +176,15 @@ impl Evaluator<'_> {
                     unknown @ Value::Unknown(_) => Ok(unknown),
                 }),
                 Node::Binary(operator) => {
-                    let right = pop(stack);
-                    let left = pop(stack);
                     let reading = self.scope.nearly_equal;
-                    self.bounded(binary(operator, (left, right), reading, span), span)
+                    if let [.., Ok(Value::Number(left)), Ok(Value::Number(right))] = stack[..] {
+                        stack.truncate(stack.len() - 2);
+                        numbers(operator, (left, right), reading, span)
+                    } else {
+                        let right = pop(stack);
+                        let left = pop(stack);
+                        self.bounded(binary(operator, (left, right), reading, span), span)
+                    }
                 }
                 Node::Call {
                     function: Function::Sizeof,

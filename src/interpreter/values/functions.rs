@@ -40,16 +40,9 @@ pub(crate) fn binary(
         _ => {}
     }
     match (left?, right?) {
-        (Value::Number(left), Value::Number(right))
-            if compares(operator) && are_nearly_equal(left, right) =>
-        {
-            match reading {
-                None => Ok(Value::Unknown(Unknown::Rounding)),
-                Some(Alternative::First) => arithmetic(operator, left, left, span),
-                Some(Alternative::Second) => arithmetic(operator, left, right, span),
-            }
+        (Value::Number(left), Value::Number(right)) => {
+            numbers(operator, (left, right), reading, span)
         }
-        (Value::Number(left), Value::Number(right)) => arithmetic(operator, left, right, span),
         (unknown @ Value::Unknown(_), _) | (_, unknown @ Value::Unknown(_)) => Ok(unknown),
         (Value::Text(left), Value::Text(right)) => match operator {
             BinaryOperator::Add => Ok(Value::Text(format!("{left}{right}").into())),
@@ -59,6 +52,24 @@ pub(crate) fn binary(
         },
         _ => Err(wrong_type(span, "a string and a number cannot be combined")),
     }
+}
+
+/// The value of an operation on two numbers.
+#[inline]
+pub(crate) fn numbers(
+    operator: BinaryOperator,
+    (left, right): (f64, f64),
+    reading: Option<Alternative>,
+    span: Span,
+) -> Slot {
+    if compares(operator) && are_nearly_equal(left, right) {
+        return match reading {
+            None => Ok(Value::Unknown(Unknown::Rounding)),
+            Some(Alternative::First) => arithmetic(operator, left, left, span),
+            Some(Alternative::Second) => arithmetic(operator, left, right, span),
+        };
+    }
+    arithmetic(operator, left, right, span)
 }
 
 /// `&&` and `||`: one operand alone may decide, whatever the other is.
@@ -113,7 +124,8 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
         Greater => return Ok((left > right).into()),
         BitAnd | BitOr | BitXor => return bitwise(operator, left, right, span),
         Xor => return Ok((is_true(left) != is_true(right)).into()),
-        And | Or => return Ok((is_true(left) && is_true(right)).into()),
+        And => return Ok((is_true(left) && is_true(right)).into()),
+        Or => return Ok((is_true(left) || is_true(right)).into()),
     };
     finite(value, span)
 }

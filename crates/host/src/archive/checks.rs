@@ -195,8 +195,8 @@ impl Sink for CheckSink {
         self.findings.record(record)
     }
 
-    fn takes_move(&mut self) -> bool {
-        self.findings.takes_move()
+    fn takes_quiet(&mut self) -> bool {
+        self.findings.takes_quiet()
     }
 }
 

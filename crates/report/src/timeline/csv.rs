@@ -14,10 +14,9 @@ use crate::wording::{KeptText, any_byte, integer, is_command, visible, visible_l
 /// Last column of a row that is not a block.
 const JOIN: &[u8] = b"join";
 
-/// The last row, which also takes the codes of messages at program end.
+/// The last row, which stays open in the output: it also takes the codes of messages at program end.
 #[derive(Debug, Default)]
 struct Held {
-    row: Vec<u8>,
     codes: String,
     /// The field of the last column.
     branch: Vec<u8>,
@@ -94,7 +93,7 @@ impl<W: Write> Csv<W> {
     fn block(&mut self, row: &Row<'_>) {
         self.release();
         self.held.wanted = self.view.shows(row);
-        let out = &mut self.held.row;
+        let out = self.output.open_bytes();
         integer(out, row.program);
         out.push(b',');
         integer(out, row.seq);
@@ -148,7 +147,7 @@ impl<W: Write> Csv<W> {
     fn joined(&mut self, program: u32, seq: u64, state: StateView<'_>) {
         self.release();
         self.held.wanted = true;
-        let out = &mut self.held.row;
+        let out = self.output.open_bytes();
         integer(out, program);
         out.push(b',');
         integer(out, seq);
@@ -181,16 +180,19 @@ impl<W: Write> Csv<W> {
         self.release();
     }
 
-    /// Writes the row that was held back.
+    /// Ends the row that is open, or takes it back.
     fn release(&mut self) {
-        if self.held.wanted && !self.held.row.is_empty() {
-            self.output.bytes.extend_from_slice(&self.held.row);
-            field(&mut self.output.bytes, &self.held.codes);
-            self.output.bytes.push(b',');
-            self.output.bytes.extend_from_slice(&self.held.branch);
-            self.output.bytes.push(b'\n');
+        if let Some(start) = self.output.open.take() {
+            let out = &mut self.output.bytes;
+            if self.held.wanted {
+                field(out, &self.held.codes);
+                out.push(b',');
+                out.extend_from_slice(&self.held.branch);
+                out.push(b'\n');
+            } else {
+                out.truncate(start);
+            }
         }
-        self.held.row.clear();
         self.held.codes.clear();
         self.held.branch.clear();
         self.held.wanted = false;

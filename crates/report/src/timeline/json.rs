@@ -17,8 +17,6 @@ pub(crate) const OPENING: &[u8] = b"{\"schema\":2,\"records\":[";
 pub struct Json<W> {
     output: Output<W>,
     encoder: Encoder,
-    /// Offset of the records in the first chunk; `None` once one was written.
-    start: Option<usize>,
 }
 
 impl<W: Write> Json<W> {
@@ -30,8 +28,9 @@ impl<W: Write> Json<W> {
         };
         let mut output = Output::new(writer);
         output.bytes.extend_from_slice(OPENING);
+        // The opening waits for the first record.
+        output.open = Some(0);
         Self {
-            start: Some(OPENING.len()),
             output,
             encoder: Encoder::new(view, frame),
         }
@@ -41,12 +40,10 @@ impl<W: Write> Json<W> {
 impl<W: Write> Sink for Json<W> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.encoder.append(&mut self.output.bytes, record);
-        if let Some(start) = self.start
-            && self.output.bytes.len() > start
-        {
+        if self.output.open.is_some() && self.output.bytes.len() > OPENING.len() {
             // The first record has no comma before it.
-            self.output.bytes.remove(start);
-            self.start = None;
+            self.output.bytes.remove(OPENING.len());
+            self.output.open = None;
         }
         match record {
             Record::End(_) | Record::Summary(_) => self.output.flush(),
@@ -64,11 +61,6 @@ impl<W: Write> Gathered for Json<W> {
 
     fn output_mut(&mut self) -> &mut Output<W> {
         &mut self.output
-    }
-
-    /// The opening waits for the first record.
-    fn may_go_out(&self) -> bool {
-        self.start.is_none()
     }
 
     fn close(&mut self) {

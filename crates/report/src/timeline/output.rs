@@ -35,22 +35,13 @@ pub(crate) trait Gathered: Sink {
     /// The bytes on their way.
     fn output_mut(&mut self) -> &mut Output<Self::Writer>;
 
-    /// Whether the gathered bytes may be written before the next record.
-    fn may_go_out(&self) -> bool {
-        true
-    }
-
     /// Gathers what was held back, and the end of the document.
     fn close(&mut self) {}
 }
 
 impl<F: Gathered> Report for F {
     fn flush(&mut self) -> ControlFlow<()> {
-        if self.may_go_out() {
-            self.output_mut().flush()
-        } else {
-            ControlFlow::Continue(())
-        }
+        self.output_mut().flush()
     }
 
     fn finish(&mut self) -> io::Result<()> {
@@ -68,6 +59,8 @@ impl<F: Gathered> Report for F {
 pub(crate) struct Output<W> {
     writer: W,
     pub(crate) bytes: Vec<u8>,
+    /// Offset of what a further record may change or take back.
+    pub(crate) open: Option<usize>,
     failure: Option<io::Error>,
 }
 
@@ -76,8 +69,15 @@ impl<W: Write> Output<W> {
         Self {
             writer,
             bytes: Vec::with_capacity(CHUNK + CHUNK / 4),
+            open: None,
             failure: None,
         }
+    }
+
+    /// Returns the bytes for what a further record may change or take back.
+    pub(crate) fn open_bytes(&mut self) -> &mut Vec<u8> {
+        self.open = Some(self.bytes.len());
+        &mut self.bytes
     }
 
     /// Writes if a chunk is full.
@@ -88,16 +88,18 @@ impl<W: Write> Output<W> {
         self.verdict()
     }
 
-    /// Writes everything.
+    /// Writes everything that is not open.
     pub(crate) fn flush(&mut self) -> ControlFlow<()> {
-        if self.failure.is_none() && !self.bytes.is_empty() {
+        let end = self.open.unwrap_or(self.bytes.len());
+        if self.failure.is_none() && end > 0 {
             let written = self
                 .writer
-                .write_all(&self.bytes)
+                .write_all(&self.bytes[..end])
                 .and_then(|()| self.writer.flush());
             self.failure = written.err();
         }
-        self.bytes.clear();
+        self.bytes.drain(..end);
+        self.open = self.open.map(|_| 0);
         self.verdict()
     }
 
@@ -110,6 +112,7 @@ impl<W: Write> Output<W> {
     }
 
     pub(crate) fn finish(&mut self) -> io::Result<()> {
+        self.open = None;
         let _ = self.flush();
         match self.failure.take() {
             Some(error) if error.kind() == io::ErrorKind::BrokenPipe => {

@@ -101,8 +101,8 @@ impl Sink for Listeners<'_> {
         }
     }
 
-    fn takes_move(&mut self) -> bool {
-        self.digest.is_some() || self.report.0.borrow_mut().takes_move()
+    fn takes_quiet(&mut self) -> bool {
+        self.digest.is_some() || self.report.0.borrow_mut().takes_quiet()
     }
 }
 
@@ -156,7 +156,7 @@ impl Sink for Quiet {
         }
     }
 
-    fn takes_move(&mut self) -> bool {
+    fn takes_quiet(&mut self) -> bool {
         false
     }
 }

@@ -482,7 +482,7 @@ impl<W: Write> Sink for Text<W> {
         self.output.settle()
     }
 
-    fn takes_move(&mut self) -> bool {
+    fn takes_quiet(&mut self) -> bool {
         if self.options.runs != Runs::Folded {
             return true;
         }

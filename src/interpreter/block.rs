@@ -364,6 +364,14 @@ pub(crate) struct BlockMessages {
     pub(crate) unsaid: Option<(Span, u64)>,
 }
 
+impl BlockReading {
+    /// Whether a variable was read whose reading the control may refuse.
+    #[inline]
+    pub(crate) fn has_warned(&mut self) -> bool {
+        self.flushing.get_mut().is_some() || self.undeclared.get_mut().is_some()
+    }
+}
+
 impl BlockScratch {
     /// Clears the messages on the block; those left at program end belong to no block.
     #[inline]
@@ -438,6 +446,7 @@ impl BlockScratch {
             && actions.calls.is_empty()
             && actions.looks_for.is_none()
             && actions.axis_words == AxisWords::Motion
+            && actions.radius.is_none()
             && self.left_open.is_none()
             && self.earlier.is_none()
             && read.unknown_call.is_none()

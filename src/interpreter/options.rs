@@ -45,7 +45,7 @@ pub struct Options {
     pub skip: Option<SkipLevels>,
     /// Budgets.
     pub limits: Limits,
-    /// Whether plain blocks are parsed by hand.
+    /// Whether plain blocks are parsed by hand, and what only moves or computes is executed without looking for more.
     pub fast_path: FastPath,
     /// Whether notes are taken.
     pub notes: Notes,

@@ -23,14 +23,15 @@ const MAX_REGION: usize = 1 << 20;
 /// Faults of one block that are reported one by one (R2.85).
 const MAX_FAULTS: usize = 1000;
 
-/// Whether blocks are parsed by hand where that is possible.
+/// Whether blocks are parsed by hand where that is possible, and executed without looking for more where they only move or
+/// compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum FastPath {
-    /// Plain blocks are parsed by hand, the rest by the grammar.
+    /// They are; the rest is parsed by the grammar and executed step by step.
     #[default]
     On,
-    /// Every block is parsed by the grammar.
+    /// Every block is parsed by the grammar and executed step by step: the reference.
     Off,
 }
 

@@ -9,7 +9,9 @@ use frictcomp::syntax::ast::{Block, Item};
 use frictcomp::syntax::{BlockReader, FastPath, FlowScan, Stretch};
 use frictcomp::text::{SourceFile, Span, TextLines};
 use frictcomp::timeline::{Record, Sink};
-use frictcomp_testing::generator::{Choices, any_lines, plain_line, spaced_words};
+use frictcomp_testing::generator::{
+    Choices, NcProgram, Profile, Style, any_lines, plain_line, spaced_words,
+};
 use proptest::prelude::*;
 
 /// A block as returned by its reader.
@@ -47,6 +49,13 @@ fn made(text: fn(&mut Choices<'_>) -> String) -> impl Strategy<Value = String> {
 /// Makes lines of pieces of any kind.
 fn program() -> impl Strategy<Value = String> {
     made(any_lines)
+}
+
+/// Makes programs with flow, calls, macros and commands of any kind, and values that only the machine knows.
+fn structured(choices: &mut Choices<'_>) -> String {
+    let profile = choices.one_of(&[&Profile::HOSTILE, &Profile::ASKED_AGAIN]);
+    let style = Style::hostile(choices);
+    NcProgram::choose(profile, choices).write(style)
 }
 
 fn assert_inside(span: Span, text: &str) -> Result<(), TestCaseError> {
@@ -125,34 +134,35 @@ impl Sink for QuietBlocks {
     }
 }
 
-fn options(stop: StopPolicy) -> SessionOptions {
+fn run_options(stop: StopPolicy) -> Options {
     let limits = Limits::default()
         .with_blocks(200)
         .with_calls(5)
         .with_nesting(5)
         .with_macros(4);
-    Options::default()
-        .with_stop(stop)
-        .with_limits(limits)
-        .into()
+    Options::default().with_stop(stop).with_limits(limits)
 }
 
-fn run(stop: StopPolicy, program: impl FnOnce(&mut Session, &mut Said)) -> Vec<String> {
-    let mut session = Session::new(Machine::enabled(["X", "Y"]), options(stop));
+fn options(stop: StopPolicy) -> SessionOptions {
+    run_options(stop).into()
+}
+
+fn run(options: SessionOptions, program: impl FnOnce(&mut Session, &mut Said)) -> Vec<String> {
+    let mut session = Session::new(Machine::enabled(["X", "Y"]), options);
     let mut said = Said::default();
     program(&mut session, &mut said);
     said.0
 }
 
 fn whole(text: &str, stop: StopPolicy) -> Vec<String> {
-    run(stop, |session, said| {
+    run(options(stop), |session, said| {
         let source = SourceFile::new("a.nc", text);
         let _ = session.program("a.nc", Program::Whole(source), &mut NoFiles, said);
     })
 }
 
 fn streamed(text: &str, stop: StopPolicy) -> Vec<String> {
-    run(stop, |session, said| {
+    run(options(stop), |session, said| {
         let mut lines = TextLines::new(text);
         let _ = session.program("a.nc", Program::Lines(&mut lines), &mut NoFiles, said);
     })
@@ -268,6 +278,11 @@ proptest! {
     }
 
     #[test]
+    fn what_only_moves_or_computes_is_executed_as_any_block(text in prop_oneof![program(), made(structured)]) {
+        is_executed_as_any_block(&text)?;
+    }
+
+    #[test]
     fn quiet_blocks_may_be_left_out(text in program()) {
         quiet_blocks_are_left_out(&text)?;
     }
@@ -306,6 +321,32 @@ fn is_streamed_as_whole(text: &str) -> Result<(), TestCaseError> {
         }
     }
     Ok(())
+}
+
+fn is_executed_as_any_block(text: &str) -> Result<(), TestCaseError> {
+    for stop in POLICIES {
+        let [fast, whole] = [FastPath::On, FastPath::Off].map(|fast_path| {
+            let options = run_options(stop).with_fast_path(fast_path).into();
+            run(options, |session, said| {
+                let mut lines = TextLines::new(text);
+                let _ = session.program("a.nc", Program::Lines(&mut lines), &mut NoFiles, said);
+                let _ = session.finish(said);
+            })
+        });
+        prop_assert_eq!(fast, whole);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_message_on_the_motion_of_a_block_is_not_missed() {
+    let text = "N10 G01 X10 Y0 F1000\nN20 G02 X10 Y0 R5\nN30 G02 X10 Y0 I5 R5\nM30\n";
+    is_executed_as_any_block(text).expect("the same records");
+    assert!(
+        streamed(text, StopPolicy::FirstError)
+            .concat()
+            .contains("Fc316")
+    );
 }
 
 /// A sink that does not take quiet blocks gets every other record, and the same counts. Returns the number of quiet blocks.

@@ -15,14 +15,14 @@ use crate::interpreter::executor::{Executor, RunState};
 use crate::interpreter::options::{RunOutcome, StopPolicy};
 use crate::interpreter::programs::calls::Finder;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::stack::{ControlStep, Destination, Request};
+use crate::interpreter::stack::{CallFrame, ControlStep, Destination, Request};
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::history::{BlockSite, KindEffect};
 use crate::interpreter::ways::path::RunTrack;
 use crate::interpreter::ways::words::limit_to;
 use crate::interpreter::words::questions::MAX_OPEN;
-use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Item};
+use crate::syntax::{FastPath, Fault};
 use crate::text::Span;
 
 /// The block that is due.
@@ -106,12 +106,13 @@ impl Interpreter {
         }
         let frames = &mut self.here.state.control.frames;
         let depth = frames.depth();
-        let called_from = frames
-            .running_mut()
-            .and_then(|frame| frame.called_from.take());
+        let caller = |frame: &mut CallFrame| frame.called_from.take();
+        let called_from = frames.running_mut().and_then(caller);
         at.called_from = called_from.as_deref();
         let flow = self.run_block(&at, (is_repeated, parsed.weight), finder, observer);
-        if let Some(frame) = self.here.state.control.frames.at_depth_mut(depth) {
+        if called_from.is_some()
+            && let Some(frame) = self.here.state.control.frames.at_depth_mut(depth)
+        {
             frame.called_from = called_from;
         }
         flow
@@ -525,7 +526,8 @@ impl Executor {
     /// Whether the block only computes, or moves axes that have moved before, and nothing else is due after it.
     #[inline]
     fn is_done(&self, at: &BlockContext<'_>) -> bool {
-        self.scratch.is_done()
+        self.options.fast_path == FastPath::On
+            && self.scratch.is_done()
             && at.block.faults.is_empty()
             && self.sides.is_empty()
             && !self.scratch.new_axes
@@ -545,6 +547,7 @@ impl Executor {
     #[inline]
     fn move_on(&mut self, at: &BlockContext<'_>) {
         self.move_axes(at);
+        debug_assert!(self.scratch.is_quiet(), "{}", at.text);
         self.state.work.grant(at.text);
         self.state.remember_last(at);
         self.show_ways();

@@ -342,13 +342,21 @@ impl Executor {
             return Ok(Value::Number(number));
         }
         let value = self.with_evaluator(at, |evaluator, stack| evaluator.value(operand, stack));
+        if self.scratch.read.has_warned() {
+            self.warn_of_reading(at);
+        }
+        value
+    }
+
+    /// Reports what the control may refuse to read.
+    #[cold]
+    fn warn_of_reading(&mut self, at: &BlockContext<'_>) {
         if let Some(name) = self.scratch.read.flushing.take() {
             self.read_flushes(&name, at);
         }
         if let Some(name) = self.scratch.read.undeclared.take() {
             self.miss_internal(&name, Span::new(0, at.text.trim_end().len()), at);
         }
-        value
     }
 
     pub(crate) fn with_evaluator<T>(

@@ -34,7 +34,12 @@ use frictcomp_report::{Detail, visible, visible_line};
 /// Dry-run ISG and TwinCAT CNC programs and show, block by block, which axes have friction
 /// compensation active.
 #[derive(Debug, Parser)]
-#[command(name = "frictcomp", version, max_term_width = 100)]
+#[command(
+    name = "frictcomp",
+    bin_name = "frictcomp",
+    version,
+    max_term_width = 100
+)]
 struct Arguments {
     /// When to colour the output
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]

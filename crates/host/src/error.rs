@@ -373,6 +373,7 @@ impl HostError {
                 "give the files of one control, and one at a time to see which it is"
             }
             Self::Commission(error) => return error.help(),
+            Self::Memory { .. } if cfg!(windows) => "close other programs",
             Self::Memory { .. } => {
                 "close other programs, or raise the limit of the shell (`ulimit -v`)"
             }
@@ -390,6 +391,9 @@ fn to_write(kind: io::ErrorKind) -> Option<&'static str> {
         }
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             "make room there, or name a file on another disk, then try again"
+        }
+        io::ErrorKind::FileTooLarge if cfg!(windows) => {
+            "write less, or name a file on another disk, then try again"
         }
         io::ErrorKind::FileTooLarge => {
             "raise the limit of the shell (`ulimit -f`), or write less, then try again"

@@ -12,10 +12,21 @@ const AS_WINDOWS: MatchOptions = MatchOptions {
     require_literal_leading_dot: false,
 };
 
+/// The option whose value is itself a pattern.
+const TAKES_A_PATTERN: &str = "--exclude";
+
 /// Expands each argument with a `*` or a `?` to the files that match. An argument without a match
 /// stays, and is reported as a missing file.
 pub(crate) fn expanded(arguments: Vec<OsString>) -> Vec<OsString> {
-    arguments.into_iter().flat_map(matching).collect()
+    let mut expanded = Vec::with_capacity(arguments.len());
+    for argument in arguments {
+        if expanded.last().is_some_and(|it| it == TAKES_A_PATTERN) {
+            expanded.push(argument);
+        } else {
+            expanded.extend(matching(argument));
+        }
+    }
+    expanded
 }
 
 fn matching(argument: OsString) -> Vec<OsString> {
@@ -62,7 +73,8 @@ mod tests {
         assert_eq!(found("a[1].nc"), [path("a[1].nc")]);
         assert_eq!(found("?[1].nc"), [path("a[1].nc")]);
         assert_eq!(found("*.mpf"), [path("*.mpf")], "nothing is passed over");
-        let option = OsString::from("--columns=*");
-        assert_eq!(expanded(vec![option.clone()]), [option]);
+        let of_an_option = ["--columns=*", "--exclude"].map(OsString::from);
+        let kept = [&of_an_option[..], &[path("*.nc").into()]].concat();
+        assert_eq!(expanded(kept.clone()), kept);
     }
 }

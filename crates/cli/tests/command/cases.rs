@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 use std::thread;
 
 use crate::console::{Stage, replayed};
@@ -14,6 +15,8 @@ struct Case {
     machine: String,
     /// The folder, since the first heading.
     bench: Option<Bench>,
+    /// Whether the programs that the document needs are here.
+    is_equipped: bool,
 }
 
 impl Case {
@@ -42,6 +45,7 @@ impl Stage for Case {
                 }
             }
             (None, None) if kind == "toml" => text.clone_into(&mut self.machine),
+            (None, None) if kind == "needs" => self.is_equipped = text.lines().all(is_here),
             (Some(("file", name)), Some(bench)) => {
                 let path = bench.folder().join(name);
                 fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
@@ -51,6 +55,10 @@ impl Stage for Case {
         }
     }
 
+    fn is_equipped(&self) -> bool {
+        self.is_equipped
+    }
+
     fn folder(&mut self, command: &str) -> PathBuf {
         let bench = self.bench.as_ref();
         bench
@@ -58,6 +66,16 @@ impl Stage for Case {
             .folder()
             .to_owned()
     }
+}
+
+/// Whether a program can be started. Only Windows may lack one.
+#[allow(clippy::print_stdout, reason = "what a system cannot try")]
+fn is_here(program: &str) -> bool {
+    let is_here = !cfg!(windows) || Command::new(program).arg("--version").output().is_ok();
+    if !is_here {
+        println!("cases that need {program} are not tried: there is none");
+    }
+    is_here
 }
 
 #[test]
@@ -73,6 +91,7 @@ fn every_case_shows_what_is_written_below_it() {
                 let mut case = Case {
                     machine: MACHINE.to_owned(),
                     bench: None,
+                    is_equipped: true,
                 };
                 agree(&path, &replayed(&text, &mut case));
             });

@@ -15,6 +15,11 @@ pub(crate) trait Stage {
     /// Takes a block that is not a console.
     fn take(&mut self, _kind: &str, _text: &str) {}
 
+    /// Whether this system has the programs that the commands need.
+    fn is_equipped(&self) -> bool {
+        true
+    }
+
     /// The folder in which a command is called.
     fn folder(&mut self, command: &str) -> PathBuf;
 }
@@ -35,7 +40,8 @@ pub(crate) fn replayed(text: &str, stage: &mut impl Stage) -> String {
         }
         let is_inside = |line: &&str| line.trim_end() != fence;
         let block: Vec<&str> = lines.by_ref().take_while(is_inside).collect();
-        if kind.trim_end() == "console" {
+        let kind = kind.trim_end();
+        if kind == "console" && stage.is_equipped() {
             let mut below = String::new();
             for command in block.iter().filter_map(|line| line.strip_prefix("$ ")) {
                 let _ = write!(fresh, "$ {command}");
@@ -46,7 +52,9 @@ pub(crate) fn replayed(text: &str, stage: &mut impl Stage) -> String {
                 }
             }
         } else {
-            stage.take(kind.trim_end(), &block.concat());
+            if kind != "console" {
+                stage.take(kind, &block.concat());
+            }
             fresh.extend(block);
         }
         let _ = writeln!(fresh, "{fence}");
@@ -99,8 +107,7 @@ impl Typed {
         let printed = [stdout(&output), stderr(&output)];
         for (printed, is_silent) in printed.into_iter().zip(self.is_silent) {
             if !is_silent {
-                // The name of the tool on Windows.
-                push(&mut text, &printed.replace("frictcomp.exe", "frictcomp"));
+                push(&mut text, &printed);
             }
         }
         match output.status.code() {

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use frictcomp::audit::AxisAudit;
 use frictcomp::interpreter::Options;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, LeftOutFiles, Machines};
-use frictcomp_report::html::render_audit;
-use frictcomp_report::results::audit::{AuditReport, MachineAudit, Word};
+use frictcomp_report::html::render_with_lines;
+use frictcomp_report::results::audit::{AuditReport, MachineAudit, Word, document};
 use serde::Serialize;
 
 use crate::dropped::{Dropped, Kind};
@@ -126,7 +126,7 @@ pub(crate) fn report(dropped: &mut Dropped, enable: &[String]) -> Result<Vec<u8>
         return Err(failure);
     }
     let mut written = Vec::new();
-    render_audit(&report, &mut Texts(dropped.disk()), &mut written)
+    render_with_lines(&document(&report), &mut Texts(dropped.disk()), &mut written)
         .map_err(|error| Refusal::new(error.to_string()))?;
     Ok(written)
 }

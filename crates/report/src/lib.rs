@@ -26,7 +26,7 @@ pub mod svg;
 mod timeline;
 mod wording;
 
-pub use document::{Document, Headline, ShownDocument, Standing, Table};
+pub use document::{Document, Headline, Length, ShownDocument, Standing, Table};
 pub use messages::{Listing, ListingFormat, ProgramResult, Tally, concise_line};
 pub use timeline::{
     Blocks, Csv, Json, MessageExtent, Ndjson, Positions, Report, Runs, Text, TextOptions,

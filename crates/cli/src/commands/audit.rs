@@ -21,12 +21,12 @@ use frictcomp_host::{
     ArchiveAuditor, AuditOptions, FileRegistry, Input, Machines, MendedFile, MendedProgram,
     find_programs, programs_in_order, write_mended,
 };
-use frictcomp_report::html::render_audit;
+use frictcomp_report::html::render_with_lines;
 use frictcomp_report::results::audit::{
-    AuditReport, Length, SequenceReport, also_mended_text, changed_text, missed_text, records,
-    render_csv, render_text, sequence_records, sequence_text, to_write_text,
+    AuditReport, SequenceReport, also_mended_text, changed_text, document, missed_text, records,
+    render_csv, sequence_records, sequence_text, to_write_text,
 };
-use frictcomp_report::{counted, fitted};
+use frictcomp_report::{Length, counted, fitted};
 
 /// Show what the order of programs does, and end its hazards
 ///
@@ -182,16 +182,20 @@ impl AuditArgs {
         } else {
             Length::Folded
         };
+        let document = document(&report);
         let width = target.look.width;
         let printed = target.text(&match self.format {
             AuditFormat::Text if self.quiet => fitted(&format!("{}\n", report.headline()), width),
-            AuditFormat::Text => fitted(&render_text(&report, length, console.detail), width),
+            AuditFormat::Text => {
+                let shown = document.shown(console.detail).with_length(length);
+                fitted(&shown.to_string(), width)
+            }
             AuditFormat::Csv => render_csv(&report),
             AuditFormat::Json => RecordsFormat::Json.records("", &records(&report)),
             AuditFormat::Ndjson => RecordsFormat::Ndjson.records("", &records(&report)),
         })?;
         if let Some(html) = &mut html {
-            render_audit(&report, &mut Files, html).map_err(Failure::output)?;
+            render_with_lines(&document, &mut Files, html).map_err(Failure::output)?;
         } else if printed == Printed::Unread && failures.is_empty() {
             return Ok(exit::CLEAN);
         }

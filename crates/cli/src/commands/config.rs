@@ -76,8 +76,7 @@ fn show(args: &ShowArgs, console: Console) -> Result<u8, Failure> {
     if !loaded.programs.is_empty() {
         output.push('\n');
         let width = console.stdout().look.width;
-        render_parameters(&[], &loaded.programs, width, &mut output)
-            .map_err(|_| Failure::new("the table of the programs cannot be written"))?;
+        output += &render_parameters(&[], &loaded.programs, width);
     }
     console.print_painted(&console.fitted(&output), parts)?;
     let errors: Vec<Diagnostic> = loaded.errors().cloned().collect();

@@ -195,10 +195,7 @@ fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<
         return Ok(exit::CLEAN);
     }
     if args.listing.format == ListingFormat::Text {
-        let mut table = String::from("\n");
-        render_drives(&reports, &mut table)
-            .map_err(|_| Failure::new("the table of the drives cannot be written"))?;
-        console.print_painted(&table, parts)?;
+        console.print_painted(&format!("\n{}", render_drives(&reports)), parts)?;
     }
     outputs.finish()?;
     if args.listing.format == ListingFormat::Text {

@@ -106,8 +106,7 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
     let mut table = String::new();
     if args.show && args.listing.format == ListingFormat::Text {
         for report in &reports {
-            render_parameters(&report.reports, &report.programs, width, &mut table)
-                .map_err(|_| Failure::new("the table of the parameters cannot be written"))?;
+            table += &render_parameters(&report.reports, &report.programs, width);
         }
     }
     if let Some(path) = &args.svg {

@@ -20,9 +20,9 @@ use frictcomp_host::{
     Naming, OpenText, SingleRun, find_programs, run_alone,
 };
 use frictcomp_report::html::{
-    GivenForRun, RunDigest, RunInputs, Sources, render_audit, render_run,
+    GivenForRun, RunDigest, RunInputs, Sources, render_run, render_with_lines,
 };
-use frictcomp_report::results::audit::AuditReport;
+use frictcomp_report::results::audit::{self, AuditReport};
 
 /// The timeline of a program as an HTML report.
 pub(super) const SHOW_TIMELINE: &str = "frictcomp.showTimeline";
@@ -158,7 +158,7 @@ fn audit(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, 
     found.left_out.forget_read(&unheard);
     let report = AuditReport::new(auditor.described(), archives, found.left_out.in_words());
     let mut page = Vec::new();
-    render_audit(&report, &mut Texts(disk), &mut page)
+    render_with_lines(&audit::document(&report), &mut Texts(disk), &mut page)
         .map_err(|error| Refusal::Failed(error.to_string()))?;
     Ok(CommandResult {
         html: String::from_utf8_lossy(&page).into_owned(),

@@ -1,17 +1,21 @@
-//! A result as a document: the verdict, then sections of sentences, findings, tables and figures.
+//! A result as a document: the verdict, then sections of sentences, findings, lists, tables and figures.
 //!
 //! Each kind of result makes one; a terminal, a page and the page without installation each show it with one renderer.
 //! A terminal shows no titles and no figures, and what is in detail only with `-v`.
 
 mod headline;
+mod list;
+mod phrase;
 mod shown;
 mod table;
 
 use std::fmt;
 
 pub use headline::{Headline, Standing};
-pub use shown::ShownDocument;
+pub(crate) use list::DocumentList;
+pub(crate) use phrase::{Phrase, PhrasePiece, ProgramLine, Tone};
 pub(crate) use shown::{CaptionedTable, DocumentBlock, blocks};
+pub use shown::{Length, ShownDocument};
 pub use table::Table;
 
 use super::svg::{BandChart, Frame, LineChart, PlaneChart, PolarChart};
@@ -25,14 +29,27 @@ pub struct Document<'a> {
     /// What has to be known before the verdict.
     pub(crate) remark: Option<String>,
     pub(crate) headline: Headline,
+    verdict: VerdictPlace,
+    /// What a command says on standard error, and a page in its verdict.
+    aside: Option<String>,
     pub(crate) sections: Vec<DocumentSection<'a>>,
+}
+
+/// Place of the verdict in a terminal. In a page it is always first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum VerdictPlace {
+    First,
+    /// It is below everything else, as for each command that streams (R18.20).
+    Last,
 }
 
 /// A section of a document, with a title in a page.
 #[derive(Debug)]
 pub(crate) struct DocumentSection<'a> {
-    /// Empty for the one right below the verdict.
+    /// Empty for the one right below the verdict. A page joins sections of one title.
     pub(crate) title: String,
+    /// Heading, in a terminal too, that tells it from others of its title.
+    pub(crate) subject: Option<String>,
     pub(crate) extent: SectionExtent,
     pub(crate) parts: Vec<DocumentPart<'a>>,
 }
@@ -42,9 +59,11 @@ pub(crate) struct DocumentSection<'a> {
 pub(crate) enum SectionExtent {
     /// It is shown everywhere.
     Brief,
+    /// It is shown everywhere, in a page below all others that are open.
+    Below,
     /// A terminal shows it in full detail only.
     Full,
-    /// So it does, and a page folds it, below all others.
+    /// A terminal shows it in full detail only, and a page folds it, below all others.
     Folded,
 }
 
@@ -55,6 +74,7 @@ pub(crate) enum DocumentPart<'a> {
     Lines(String),
     /// A table; a line right above it is its caption.
     Table(Table),
+    List(DocumentList),
     Finding(TraceFinding),
     /// Text whose line ends and blanks stay.
     Verbatim(String),
@@ -126,6 +146,8 @@ impl<'a> Document<'a> {
             title: title.into(),
             remark: None,
             headline,
+            verdict: VerdictPlace::First,
+            aside: None,
             sections: Vec::new(),
         };
         document.begin(String::new(), SectionExtent::Brief);
@@ -137,9 +159,36 @@ impl<'a> Document<'a> {
         self.remark = remark.map(|it| visible_line(it).into_owned());
     }
 
+    /// Moves the verdict to the end of the text for a terminal.
+    pub(crate) fn conclude_with_verdict(&mut self) {
+        self.verdict = VerdictPlace::Last;
+    }
+
+    /// Adds what a command says on standard error.
+    pub(crate) fn aside(&mut self, aside: Option<String>) {
+        self.aside = aside;
+    }
+
+    /// Returns the verdict with all that a page says in it.
+    pub(crate) fn whole_verdict(&self) -> Headline {
+        let mut verdict = match &self.remark {
+            None => self.headline.clone(),
+            Some(remark) => self.headline.after(remark),
+        };
+        if let Some(aside) = &self.aside {
+            verdict.text = format!("{}; {aside}", verdict.text);
+        }
+        verdict
+    }
+
     /// Begins a section.
     pub(crate) fn section(&mut self, title: impl Into<String>) {
         self.begin(title.into(), SectionExtent::Brief);
+    }
+
+    /// Begins a section that a page shows below all others that are open.
+    pub(crate) fn below(&mut self, title: impl Into<String>) {
+        self.begin(title.into(), SectionExtent::Below);
     }
 
     /// Begins a section that a terminal shows in full detail only.
@@ -155,15 +204,26 @@ impl<'a> Document<'a> {
     fn begin(&mut self, title: String, extent: SectionExtent) {
         self.sections.push(DocumentSection {
             title,
+            subject: None,
             extent,
             parts: Vec::new(),
         });
     }
 
+    /// Returns the last section.
+    fn last(&mut self) -> &mut DocumentSection<'a> {
+        let last = self.sections.last_mut();
+        last.expect("a document begins with a section")
+    }
+
     /// Returns the parts of the last section.
     fn parts(&mut self) -> &mut Vec<DocumentPart<'a>> {
-        let last = self.sections.last_mut();
-        &mut last.expect("a document begins with a section").parts
+        &mut self.last().parts
+    }
+
+    /// Tells the last section from others of its title.
+    pub(crate) fn subject(&mut self, subject: Option<String>) {
+        self.last().subject = subject;
     }
 
     /// Appends a text.
@@ -185,6 +245,15 @@ impl<'a> Document<'a> {
     /// Appends a table.
     pub(crate) fn table(&mut self, table: Table) {
         self.parts().push(DocumentPart::Table(table));
+    }
+
+    /// Appends a list, unless it is empty.
+    pub(crate) fn list(&mut self, title: impl Into<String>, items: Vec<Phrase>) {
+        let title = title.into();
+        if !items.is_empty() {
+            let list = DocumentList { title, items };
+            self.parts().push(DocumentPart::List(list));
+        }
     }
 
     /// Appends findings.

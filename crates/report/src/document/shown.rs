@@ -5,9 +5,32 @@ use std::fmt::{self, Display};
 
 use serde::{Serialize, Serializer};
 
-use super::{Document, DocumentPart, DocumentSection, DrawnFigure, Headline, SectionExtent, Table};
+use super::{
+    Document, DocumentList, DocumentPart, DocumentSection, DrawnFigure, Headline, SectionExtent,
+    Table, VerdictPlace,
+};
 use crate::wording::{Detail, visible_line};
 use frictcomp_recordings::identify::TraceFinding;
+
+/// Length at which a terminal shows tables and lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Length {
+    /// Their beginnings; the rest is counted.
+    #[default]
+    Folded,
+    /// All of them.
+    Whole,
+}
+
+impl Length {
+    pub(super) fn of(self, folded: usize) -> usize {
+        match self {
+            Self::Folded => folded,
+            Self::Whole => usize::MAX,
+        }
+    }
+}
 
 /// A document in the extent that is asked for. A terminal shows it as it is displayed, the page without installation
 /// renders its data.
@@ -18,18 +41,46 @@ pub struct ShownDocument<'a> {
     headline: &'a Headline,
     #[serde(rename = "blocks", serialize_with = "serialize_blocks")]
     sections: Vec<&'a DocumentSection<'a>>,
+    #[serde(skip)]
+    verdict: VerdictPlace,
+    #[serde(skip)]
+    length: Length,
 }
 
 impl<'a> ShownDocument<'a> {
     pub(super) fn new(document: &'a Document<'a>, detail: Detail) -> Self {
         let sections = document.sections.iter();
         let is_shown = |section: &&DocumentSection<'_>| {
-            detail == Detail::Full || section.extent == SectionExtent::Brief
+            let is_brief = matches!(section.extent, SectionExtent::Brief | SectionExtent::Below);
+            detail == Detail::Full || is_brief
         };
         Self {
             remark: document.remark.as_deref(),
             headline: &document.headline,
             sections: sections.filter(is_shown).collect(),
+            verdict: document.verdict,
+            length: Length::default(),
+        }
+    }
+
+    /// Returns it with tables and lists of a length.
+    #[must_use]
+    pub fn with_length(self, length: Length) -> Self {
+        Self { length, ..self }
+    }
+}
+
+impl ShownDocument<'_> {
+    fn write_part(&self, part: &DocumentPart<'_>, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match part {
+            DocumentPart::Lines(text) | DocumentPart::Verbatim(text) => f.write_str(text),
+            DocumentPart::Table(table) => table.write(self.length, f),
+            DocumentPart::List(list) => list.write(self.length, f),
+            DocumentPart::Finding(finding) => {
+                let [said, help] = finding_lines(finding);
+                writeln!(f, "\n{said}\n{help}")
+            }
+            DocumentPart::Figure(_) => Ok(()),
         }
     }
 }
@@ -39,17 +90,24 @@ impl Display for ShownDocument<'_> {
         if let Some(remark) = self.remark {
             writeln!(f, "{remark}\n")?;
         }
-        writeln!(f, "{}", self.headline)?;
-        let mut parts = self.sections.iter().flat_map(|section| &section.parts);
-        parts.try_for_each(|part| match part {
-            DocumentPart::Lines(text) | DocumentPart::Verbatim(text) => f.write_str(text),
-            DocumentPart::Table(table) => table.fmt(f),
-            DocumentPart::Finding(finding) => {
-                let [said, help] = finding_lines(finding);
-                writeln!(f, "\n{said}\n{help}")
+        if self.verdict == VerdictPlace::First {
+            writeln!(f, "{}", self.headline)?;
+        }
+        let mut subject = None;
+        for section in &self.sections {
+            let before = std::mem::replace(&mut subject, section.subject.as_ref());
+            if let Some(subject) = subject.filter(|it| before != Some(it)) {
+                writeln!(f, "{subject}\n")?;
             }
-            DocumentPart::Figure(_) => Ok(()),
-        })
+            section
+                .parts
+                .iter()
+                .try_for_each(|part| self.write_part(part, f))?;
+        }
+        if self.verdict == VerdictPlace::Last {
+            writeln!(f, "{}", self.headline)?;
+        }
+        Ok(())
     }
 }
 
@@ -75,6 +133,7 @@ pub(crate) struct CaptionedTable<'a> {
 pub(crate) enum DocumentBlock<'a> {
     Line(&'a str),
     Table(CaptionedTable<'a>),
+    List(&'a DocumentList),
     Finding(&'a TraceFinding),
     Verbatim(&'a str),
     Figure(&'a DrawnFigure<'a>),
@@ -89,6 +148,7 @@ pub(crate) fn blocks<'a>(
         match part {
             DocumentPart::Lines(lines) => blocks.extend(lines.lines().map(DocumentBlock::Line)),
             DocumentPart::Verbatim(text) => blocks.push(DocumentBlock::Verbatim(text)),
+            DocumentPart::List(list) => blocks.push(DocumentBlock::List(list)),
             DocumentPart::Finding(finding) => blocks.push(DocumentBlock::Finding(finding)),
             DocumentPart::Figure(figure) => blocks.push(DocumentBlock::Figure(figure)),
             DocumentPart::Table(table) => {
@@ -123,6 +183,10 @@ fn serialize_blocks<S: Serializer>(
         DocumentBlock::Line(text) => vec![line(text)],
         DocumentBlock::Verbatim(text) => text.lines().map(line).collect(),
         DocumentBlock::Table(table) => vec![BlockRecord::Table(table)],
+        DocumentBlock::List(list) => {
+            let lines = list.lines(Length::Whole);
+            lines.map(|it| BlockRecord::Line(it.into())).collect()
+        }
         DocumentBlock::Finding(finding) => {
             let lines = finding_lines(finding).map(|it| BlockRecord::Line(it.into()));
             lines.into()

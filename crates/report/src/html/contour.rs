@@ -5,9 +5,9 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::document::render_with;
+use super::document::DocumentPage;
 use super::page::PagePart;
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, linked};
 use super::reversed::ReversedFiles;
 use super::source::Sources;
 use crate::pictures::ContourPicture;
@@ -42,7 +42,12 @@ pub fn render_contour(
         let picture = picture.clone();
         picture.linked_chart(&name, |file, line| files.link(file, line))
     });
-    render_with(&document, &[LINES, SOURCE], out, |page| {
+    let page = DocumentPage {
+        document: &document,
+        further: &[LINES, SOURCE],
+        link: &|at| files.link(&at.file, at.line),
+    };
+    page.render(out, |page| {
         page.part(LINES, &table(reversals, &files))?;
         page.long_part(SOURCE, |page| match (reversals, is_whole) {
             ([], true) => page.push(&html! { p { "No axis reverses." } }),
@@ -87,10 +92,7 @@ fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
             html! { (most(|it| it.glitch_um.all_off)) },
         ];
         let name = format!("{file}:{line}");
-        match files.link(file, *line) {
-            Some(link) => HtmlRow::leading(&name, &link, cells),
-            None => HtmlRow::new(&name, cells),
-        }
+        HtmlRow::under(linked(&name, files.link(file, *line)), cells)
     });
     let table = HtmlTable {
         caption: Caption::Shown("Reversals by line and axis; glitches in µm, feeds in mm/min"),

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::digest::{Message, RunDigest};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, times, with_code};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, linked, times, with_code};
 
 /// The table of all messages, in the order in which they were given.
 pub(super) fn render(digest: &RunDigest) -> Markup {
@@ -34,14 +34,12 @@ fn row(message: &Message) -> HtmlRow {
     let diagnostic = &message.diagnostic;
     let severity = diagnostic.severity.as_str();
     let place = format!("{}:{}", diagnostic.place.file, diagnostic.place.start());
+    let link = message
+        .shown
+        .map(|at| format!("#{}", line_id(at.file, at.line)));
     let cells = [
         html! { span.sev.(severity) { (severity) } },
-        html! {
-            @match message.shown {
-                Some(at) => a href={ "#" (line_id(at.file, at.line)) } { (place) },
-                None => (place),
-            }
-        },
+        linked(&place, link),
         html! {
             (with_code(&diagnostic.message)) (times(message.times)) (reached(message))
             @if message.shown.is_none() { (help(message)) }

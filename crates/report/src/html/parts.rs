@@ -40,11 +40,13 @@ pub(super) enum ColumnHeading<'a> {
     Text(&'a str),
     /// Of numbers.
     Number(&'a str),
+    /// Of single words.
+    Word(&'a str),
 }
 
 impl<'a> ColumnHeading<'a> {
     fn name(self) -> &'a str {
-        let (Self::Text(name) | Self::Number(name)) = self;
+        let (Self::Text(name) | Self::Number(name) | Self::Word(name)) = self;
         name
     }
 
@@ -56,7 +58,7 @@ impl<'a> ColumnHeading<'a> {
 
     fn class(self) -> Option<&'static str> {
         match self {
-            Self::Text(_) => None,
+            Self::Text(_) | Self::Word(_) => None,
             Self::Number(_) => Some("num"),
         }
     }
@@ -71,23 +73,19 @@ pub(super) struct HtmlRow {
 
 impl HtmlRow {
     pub(super) fn new(heading: &str, cells: impl Into<Vec<Markup>>) -> Self {
-        Self {
-            heading: html! { (heading) },
-            cells: cells.into(),
-        }
+        Self::under(html! { (heading) }, cells)
     }
 
-    /// A row with a linked heading.
-    pub(super) fn leading(heading: &str, href: &str, cells: impl Into<Vec<Markup>>) -> Self {
-        Self {
-            heading: html! { a href=(href) { (heading) } },
-            cells: cells.into(),
-        }
+    /// A row with a heading of markup.
+    pub(super) fn under(heading: Markup, cells: impl Into<Vec<Markup>>) -> Self {
+        let cells = cells.into();
+        Self { heading, cells }
     }
 }
 
 impl HtmlTable<'_> {
-    /// The table, in a frame that scrolls by itself on narrow screens; the rows of a wide one become blocks there.
+    /// The table, in a frame that scrolls by itself on narrow screens; the rows of a wide one and of one of words become blocks
+    /// there.
     pub(super) fn render(&self, rows: impl IntoIterator<Item = HtmlRow>) -> Markup {
         self.render_under(Headings::Shown, rows)
     }
@@ -103,10 +101,11 @@ impl HtmlTable<'_> {
             Caption::Heard(caption) => (caption, Some("unseen")),
         };
         html! {
-            @let is_wide = self.columns.len() > MOST_COLUMNS;
+            @let has_words = self.columns.iter().any(|it| matches!(it, ColumnHeading::Word(_)));
+            @let is_wide = has_words || self.columns.len() > MOST_COLUMNS;
             @let leading = self.columns[0];
             div.wide tabindex="0" role="region" aria-label=(caption) {
-                table.stacked[is_wide] {
+                table.stacked[is_wide].words[has_words] {
                     caption class=[class] { (caption) }
                     thead.unseen[headings == Headings::Heard] {
                         tr {
@@ -154,6 +153,16 @@ pub(super) fn with_code(text: &str) -> Markup {
     html! {
         @for (at, piece) in text.split('`').enumerate() {
             @if at % 2 == 0 { (piece) } @else { code { (piece) } }
+        }
+    }
+}
+
+/// A text that leads to a place of the page, if there is one.
+pub(super) fn linked(text: &str, href: Option<String>) -> Markup {
+    html! {
+        @match href {
+            Some(href) => a href=(href) { (text) },
+            None => (text),
         }
     }
 }

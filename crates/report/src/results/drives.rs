@@ -1,7 +1,5 @@
 //! The torque interface of drives, `drive`.
 
-use std::fmt::{self, Write};
-
 use serde_json::{Value, json};
 
 use crate::document::{Headline, Standing, Table};
@@ -46,18 +44,10 @@ pub fn drives_headline(reports: &[DriveReport]) -> Headline {
     )
 }
 
-/// Writes what is known about the drive of each axis.
-///
-/// # Errors
-/// Only those of `out`.
-pub fn render_drives(reports: &[DriveReport], out: &mut dyn Write) -> fmt::Result {
-    for (at, report) in reports.iter().enumerate() {
-        if at > 0 {
-            writeln!(out)?;
-        }
-        render_drive(report, out)?;
-    }
-    Ok(())
+/// Returns what is known about the drive of each axis.
+pub fn render_drives(reports: &[DriveReport]) -> String {
+    let drives = reports.iter().map(render_drive);
+    drives.collect::<Vec<_>>().join("\n")
 }
 
 /// Returns the evidence on the drive of an axis as a record.
@@ -69,7 +59,7 @@ pub fn drive_record(report: &DriveReport) -> Value {
     record
 }
 
-fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
+fn render_drive(report: &DriveReport) -> String {
     let name = match report.axis.as_str() {
         "" => "without a name".into(),
         name => visible_line(name),
@@ -88,7 +78,6 @@ fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
     } else {
         "; friction compensation is not configured"
     };
-    writeln!(out, "axis {name} ({kind}{simulated}{configured})")?;
     let mut rows = Table::plain(["signal", "presence"]);
     let presences = [&report.additive_torque, &report.actual_torque];
     for (signal, presence) in Signal::ALL.iter().zip(presences) {
@@ -108,5 +97,5 @@ fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
         let percent = format!("{:.1} % of the rated torque", largest / 10.0);
         rows.row(&[&"  largest compensation", &percent]);
     }
-    write!(out, "{rows}")
+    format!("axis {name} ({kind}{simulated}{configured})\n{rows}")
 }

@@ -1,7 +1,5 @@
 //! The table of effective parameters, `lists --show`.
 
-use std::fmt;
-
 use crate::wording::visible_line;
 use frictcomp::lists::{AxisType, Parameter};
 use frictcomp::machine::{Axis, AxisReport};
@@ -9,76 +7,51 @@ use frictcomp::machine::{Axis, AxisReport};
 /// Minimum width of an origin, however wide the other columns are.
 const MIN_ORIGIN: usize = 16;
 
-/// Writes one table per axis, and one of the programs: number, key, value with unit, origin. A
-/// parameter that does not fit on a line of `width` columns takes two.
-///
-/// # Errors
-/// Only those of `out`.
-pub fn render_parameters(
-    reports: &[AxisReport],
-    programs: &[Parameter],
-    width: usize,
-    out: &mut dyn fmt::Write,
-) -> fmt::Result {
-    for (at, report) in reports.iter().enumerate() {
-        if at > 0 {
-            writeln!(out)?;
-        }
-        render_axis(report, width, out)?;
-    }
-    if !programs.is_empty() {
-        if !reports.is_empty() {
-            writeln!(out)?;
-        }
-        writeln!(out, "programs and macros of the channel")?;
-        render_rows(programs, width, out)?;
-    }
-    Ok(())
+/// Returns one table per axis, and one of the programs: number, key, value with unit, origin. A parameter that does not
+/// fit on a line of `width` columns takes two.
+pub fn render_parameters(reports: &[AxisReport], programs: &[Parameter], width: usize) -> String {
+    let axes = reports.iter().map(|report| {
+        let name = match report.axis.as_str() {
+            "" => "without a name".into(),
+            name => visible_line(name),
+        };
+        let what = match report.axis_type {
+            AxisType::Linear => "linear",
+            AxisType::Rotary => "rotary",
+            AxisType::Spindle => "spindle",
+        };
+        (
+            format!("axis {name} ({what})"),
+            report.parameters.as_slice(),
+        )
+    });
+    let title = "programs and macros of the channel".to_owned();
+    let programs = (!programs.is_empty()).then_some((title, programs));
+    let tables = axes.chain(programs);
+    let tables = tables.map(|(title, rows)| format!("{title}\n{}", render_rows(rows, width)));
+    tables.collect::<Vec<_>>().join("\n")
 }
 
-fn render_axis(report: &AxisReport, room: usize, out: &mut dyn fmt::Write) -> fmt::Result {
-    let name = if report.axis.is_empty() {
-        "without a name"
-    } else {
-        &visible_line(&report.axis)
-    };
-    let what = match report.axis_type {
-        AxisType::Linear => "linear",
-        AxisType::Rotary => "rotary",
-        AxisType::Spindle => "spindle",
-    };
-    writeln!(out, "axis {name} ({what})")?;
-    render_rows(&report.parameters, room, out)
-}
-
-fn render_rows(parameters: &[Parameter], room: usize, out: &mut dyn fmt::Write) -> fmt::Result {
+fn render_rows(parameters: &[Parameter], room: usize) -> String {
     let rows: Vec<[String; 4]> = parameters.iter().map(cells).collect();
     let width = |column: usize| rows.iter().map(|row| columns(&row[column])).max();
     let [number, key, value] = [0, 1, 2].map(|column| width(column).unwrap_or_default());
     let taken = 2 + number + 2 + key + 2 + value + 2;
-    if room < taken + MIN_ORIGIN {
-        for [n, k, v, origin] in &rows {
-            let gap = if 4 + columns(n) + columns(k) > room {
-                "\n"
-            } else {
-                ""
-            };
-            writeln!(out, "  {n}{gap}  {k}")?;
-            writeln!(
-                out,
-                "    {v}  {}",
-                shortened(origin, room.saturating_sub(6 + columns(v)).max(8))
-            )?;
+    let rows = rows.iter().map(|[n, k, v, origin]| {
+        if room >= taken + MIN_ORIGIN {
+            let origin = shortened(origin, room - taken);
+            let line = format!("  {n:number$}  {k:key$}  {v:value$}  {origin}");
+            return format!("{}\n", line.trim_end());
         }
-        return Ok(());
-    }
-    let room = room - taken;
-    for [n, k, v, origin] in &rows {
-        let origin = shortened(origin, room);
-        let line = format!("  {n:number$}  {k:key$}  {v:value$}  {origin}");
-        writeln!(out, "{}", line.trim_end())?;
-    }
-    Ok(())
+        let gap = if 4 + columns(n) + columns(k) > room {
+            "\n"
+        } else {
+            ""
+        };
+        let origin = shortened(origin, room.saturating_sub(6 + columns(v)).max(8));
+        format!("  {n}{gap}  {k}\n    {v}  {origin}\n")
+    });
+    rows.collect()
 }
 
 /// Returns the origin of P-AXIS-00522 of an axis in words.

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::document::{Document, Headline, Standing, Table};
+use crate::document::{Document, Headline, Phrase, Standing, Table};
 use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, StartUpRelation};
 use crate::wording::{counted, visible_line};
 use frictcomp::comp::State;
@@ -42,8 +42,12 @@ fn push_axis(out: &mut Document<'_>, axis: &ReplayedAxis, replayed: &Replayed) {
     let at = |time_s: f64| format!("  {time_s:>10.3} s");
     let mut table = Table::plain(["time", "block of the dry run", "state"]);
     for change in &axis.changes {
-        let state = state(change.active).as_str();
-        table.row(&[&at(change.t_s), &at_place(&change.at), &state]);
+        let (time, place) = (at(change.t_s), at_place(&change.at));
+        table.cells([
+            time.into(),
+            place.into(),
+            Phrase::state(state(change.active)),
+        ]);
     }
     if !axis.changes.is_empty() {
         out.table(table);

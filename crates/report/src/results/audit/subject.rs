@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::document::{Headline, Standing};
+use crate::document::{Headline, Standing, Tone};
 use crate::wording::counted;
 use frictcomp::audit::{
     Archive, AxisAudit, AxisFinding, Cure, Ending, ProgramAudit, ProgramEffect,
 };
-use frictcomp::comp::Kind;
+use frictcomp::comp::{Kind, State};
 use frictcomp::machine::Machine;
 use frictcomp::text::shown_path;
 use frictcomp::timeline::ReadingsInForce;
@@ -70,7 +70,7 @@ impl MachineAudit {
 
 /// The place of a block that ends the hazards of a program, in its file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum CurePlace {
+pub(super) enum CurePlace {
     Beginning,
     Before(u32),
     End,
@@ -78,7 +78,7 @@ pub(crate) enum CurePlace {
 
 impl MachineAudit {
     /// Returns the findings that have any content: a kind that no program switches is left out.
-    pub(crate) fn shown(&self) -> impl Iterator<Item = &AxisFinding> {
+    pub(super) fn shown(&self) -> impl Iterator<Item = &AxisFinding> {
         let programs = self.archive.programs();
         let is_switched = move |at: usize| {
             let mut programs = programs.iter();
@@ -88,20 +88,18 @@ impl MachineAudit {
         findings.filter(move |it| it.kind == Kind::Frict || is_switched(it.at))
     }
 
-    /// Returns the programs, each with its effect on the axes of [`shown`](Self::shown), the most dangerous first.
-    pub(crate) fn by_danger(&self) -> Vec<(&ProgramAudit, Vec<Word>)> {
-        let words = |program: &ProgramAudit| {
-            let axes = self.shown().map(|it| Word::of(&program.axes[it.at]));
-            axes.collect::<Vec<_>>()
-        };
-        let programs = self.archive.programs().iter();
-        let mut rows: Vec<_> = programs.map(|it| (it, words(it))).collect();
-        rows.sort_by_key(|(_, words)| words.iter().min().copied());
-        rows
+    /// Returns the programs, those with the most dangerous effect on an axis first.
+    pub(super) fn by_danger(&self, findings: &[&AxisFinding]) -> Vec<&ProgramAudit> {
+        let mut programs: Vec<&ProgramAudit> = self.archive.programs().iter().collect();
+        programs.sort_by_cached_key(|program| {
+            let words = findings.iter().map(|it| Word::of(&program.axes[it.at]));
+            words.min()
+        });
+        programs
     }
 
     /// Returns the programs that the cure of an axis changes, each with the place of its block.
-    pub(crate) fn cures(&self, finding: &AxisFinding) -> Vec<(&ProgramAudit, CurePlace)> {
+    pub(super) fn cures(&self, finding: &AxisFinding) -> Vec<(&ProgramAudit, CurePlace)> {
         let place = |program: &ProgramAudit| {
             let motion = program.axes[finding.at].inherits.motion();
             match (finding.cure(), program.ending, motion) {
@@ -207,7 +205,7 @@ impl AuditReport {
     }
 
     /// The readings on which the findings rest.
-    pub(crate) fn rests_on(&self) -> ReadingsInForce {
+    pub(super) fn rests_on(&self) -> ReadingsInForce {
         let mut all = ReadingsInForce::default();
         for machine in &self.machines {
             all.extend(machine.rests_on.clone());
@@ -216,7 +214,7 @@ impl AuditReport {
     }
 
     /// The assumptions about axes on which the findings rest.
-    pub(crate) fn assumptions(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn assumptions(&self) -> impl Iterator<Item = &str> {
         self.machines
             .iter()
             .filter_map(|it| it.assumption.as_deref())
@@ -235,7 +233,7 @@ impl AuditReport {
     }
 
     /// Whether the effect of some program on some axis is not known.
-    pub(crate) fn has_unknown(&self) -> bool {
+    fn has_unknown(&self) -> bool {
         self.findings().any(|finding| !finding.unknown.is_empty())
     }
 
@@ -305,6 +303,17 @@ impl Word {
         }
     }
 
+    /// Returns the tone of a cell with the word.
+    pub(super) fn tone(self) -> Tone {
+        match self {
+            Self::Both | Self::Leaves | Self::Depends => Tone::Away,
+            Self::Unknown => Tone::State(State::Unknown),
+            Self::Inherits | Self::Perhaps => Tone::State(State::Inactive),
+            Self::StartUp => Tone::State(State::Active),
+            Self::Keeps => Tone::Quiet,
+        }
+    }
+
     /// Returns the meaning.
     pub fn meaning(self) -> &'static str {
         match self {
@@ -313,7 +322,7 @@ impl Word {
             }
             Self::Leaves => "leaves the axis away from its start-up state",
             Self::Depends => {
-                "leaves the axis away from its start-up state, depending on a condition below"
+                "leaves the axis away from its start-up state, depending on a condition"
             }
             Self::Unknown => "it is not known offline what the program leaves or inherits",
             Self::Inherits => "moves the axis in the state that it finds",
@@ -329,7 +338,7 @@ impl Word {
 }
 
 /// An axis, with its kind if that is not friction compensation.
-pub(crate) fn axis_name(axis: &str, kind: Kind) -> String {
+pub(super) fn axis_name(axis: &str, kind: Kind) -> String {
     if kind == Kind::Frict {
         axis.to_owned()
     } else {

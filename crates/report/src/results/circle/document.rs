@@ -93,7 +93,7 @@ fn table(report: &CircleReport) -> Table {
     for row in figure_rows(&columns) {
         table.cells(row.cells(decimals));
     }
-    table.cells(Vec::new());
+    table.row(&[]);
     for row in shape_rows(&columns) {
         table.cells(row.cells(decimals));
     }

@@ -6,7 +6,7 @@ use super::places::ProgramBlock;
 use super::recorder::ContourRecorder;
 use super::remarks::{compensation, conditions, contour_remarks, not_judged};
 use crate::assumptions::{not_modelled, not_modelled_line};
-use crate::document::{Document, Headline, Standing, Table};
+use crate::document::{Document, Headline, Phrase, Standing, Table};
 use crate::wording::{Detail, counted, glitch_in_words, visible_line};
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{
@@ -412,17 +412,18 @@ fn push_worst(out: &mut Document<'_>, worst: &[ContourReversal], program: &str) 
             format!(" ({})", glitch_in_words(reversal))
         };
         let feed = reversal.programmed_mm_per_min;
-        table.row(&[
-            &reversal.line,
-            &visible_line(&reversal.axis),
-            &reversal.state.as_str(),
-            &feed.map_or("-".to_owned(), |feed| format!("{feed:.0}")),
-            &format_args!("{:.0}", reversal.feed_mm_per_min),
-            &format_args!("{:.0}", reversal.acceleration_mm_per_s2.round() + 0.0),
-            &programmed,
-            &all_on,
-            &all_off,
-            &format_args!("{block}{why}"),
+        table.cells([
+            Phrase::leading(reversal.line.to_string(), &reversal.file, reversal.line),
+            visible_line(&reversal.axis).into(),
+            Phrase::state(reversal.state),
+            feed.map_or("-".to_owned(), |feed| format!("{feed:.0}"))
+                .into(),
+            format!("{:.0}", reversal.feed_mm_per_min).into(),
+            format!("{:.0}", reversal.acceleration_mm_per_s2.round() + 0.0).into(),
+            programmed.into(),
+            all_on.into(),
+            all_off.into(),
+            format!("{block}{why}").into(),
         ]);
     }
     out.push_str("\nworst reversals, glitch in µm, feeds in mm/min\n");

@@ -99,7 +99,7 @@ fn of_list(checked: Checked<'_>, parts: &[&str]) -> String {
         writeln!(text, "read: {}", report.files.join(", ")).expect("text");
     }
     if has("parameters") {
-        render_parameters(&report.reports, &report.programs, WIDTH, &mut text).expect("text");
+        text += &render_parameters(&report.reports, &report.programs, WIDTH);
     }
     text
 }

@@ -429,18 +429,18 @@ impl BlockScratch {
     /// Whether the words of the block ask for nothing but a motion, and nothing is said on it or left to be done after it.
     #[inline]
     pub(crate) fn is_done(&self) -> bool {
-        let is_done = (self.has_plain_words || self.asks_for_nothing())
+        (self.has_plain_words || self.asks_for_nothing())
             && self.messages.diagnostics.is_empty()
             && self.messages.of_some_ways.is_empty()
             && self.aside.withheld.is_empty()
             && self.passed.is_empty()
-            && self.left.is_empty();
-        debug_assert!(!is_done || self.asks_for_nothing());
-        is_done
+            && self.left.is_empty()
+            // The program that the machine calls at the start may let the PLC act.
+            && !self.read.plc_acts
     }
 
     /// Whether the words of the block ask for nothing but a motion, as plain ones do.
-    fn asks_for_nothing(&self) -> bool {
+    pub(crate) fn asks_for_nothing(&self) -> bool {
         let (actions, read) = (&self.actions, &self.read);
         actions.goes_on()
             && actions.calls.is_empty()

@@ -547,7 +547,7 @@ impl Executor {
     #[inline]
     fn move_on(&mut self, at: &BlockContext<'_>) {
         self.move_axes(at);
-        debug_assert!(self.scratch.is_quiet(), "{}", at.text);
+        debug_assert!(self.scratch.asks_for_nothing(), "{}", at.text);
         self.state.work.grant(at.text);
         self.state.remember_last(at);
         self.show_ways();

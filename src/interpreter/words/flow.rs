@@ -133,7 +133,7 @@ impl Executor {
                     end: *end,
                     step: *step,
                 };
-                self.pass(&count, entry, span, at)?
+                self.pass(&count, (entry, at), span, at)?
             }
             Flow::EndFor => return self.next_pass(links.opener, span, at),
             Flow::While(condition) | Flow::Do(Some(condition)) => {
@@ -307,24 +307,26 @@ impl Executor {
         Ok(is_repeated.then_some(ControlStep::Jump(region.start)))
     }
 
-    /// Goes through the loop once more, or leaves it when the counter passed the end.
+    /// Goes through the loop once more, or leaves it when the counter passed the end. `head` is the `$FOR`, `span` the
+    /// statement of the block that asks.
     fn pass(
         &mut self,
         count: &Count,
-        opener: EntryIndex,
+        (opener, head): (EntryIndex, &BlockContext<'_>),
         span: Span,
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
+        let statement = || flow_span(head.block).of(head.text).trim();
         let counter = &count.counter;
-        let end = self.loop_value(count.end, at)?;
-        let step = self.loop_value(count.step, at)?;
+        let end = self.loop_value(count.end, head)?;
+        let step = self.loop_value(count.step, head)?;
         let region_end = self.state.control.frames.running().map_or(opener, |frame| {
             self.programs.index(frame.unit).links(opener).end
         });
         for value in [counter, &end, &step] {
             if let Value::Unknown(cause) = value {
                 let goals = [opener + 1, region_end + 1].map(Goal::block);
-                self.part_at_count(cause, span, goals, at);
+                self.part_at_count((cause, statement()), span, goals, at);
                 return Ok(None);
             }
         }
@@ -335,7 +337,7 @@ impl Executor {
         };
         if is_last_pass_open(counter, end, step) {
             let goals = [opener + 1, region_end + 1].map(Goal::block);
-            self.part_at_count(&Unknown::Rounding, span, goals, at);
+            self.part_at_count((&Unknown::Rounding, statement()), span, goals, at);
             return Ok(None);
         }
         let passed = if step > 0.0 {
@@ -398,7 +400,9 @@ impl Executor {
             end,
             step,
         };
-        let mut step = self.pass(&count, opener, span, &head).map_err(shown)?;
+        let mut step = self
+            .pass(&count, (opener, &head), span, at)
+            .map_err(shown)?;
         if let Some(ControlStep::Jump(entry)) = &mut step {
             // After a jump into the loop its opener was not executed; the index has it all the same.
             *entry = (*entry).max(opener + 1);

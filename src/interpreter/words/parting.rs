@@ -148,10 +148,10 @@ impl Executor {
         }
     }
 
-    /// The same where a counter decides.
+    /// The same where the counter of a `$FOR` decides.
     pub(crate) fn part_at_count(
         &mut self,
-        cause: &Unknown,
+        (cause, statement): (&Unknown, &str),
         span: Span,
         goals: [Goal; 2],
         at: &BlockContext<'_>,
@@ -159,7 +159,7 @@ impl Executor {
         let question = MachineQuestion {
             kind: ConditionKind::Loop,
             span,
-            texts: vec![span.of(at.text).trim().into()],
+            texts: vec![statement.into()],
             cause: cause.clone(),
             reads: None,
             kept: None,

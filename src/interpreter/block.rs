@@ -367,7 +367,7 @@ pub(crate) struct BlockMessages {
 impl BlockReading {
     /// Whether a variable was read whose reading the control may refuse.
     #[inline]
-    pub(crate) fn has_warned(&mut self) -> bool {
+    pub(crate) fn may_be_refused(&mut self) -> bool {
         self.flushing.get_mut().is_some() || self.undeclared.get_mut().is_some()
     }
 }

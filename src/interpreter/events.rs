@@ -375,8 +375,8 @@ pub trait Observer {
     fn event(&mut self, event: Event<'_>) -> ControlFlow<()>;
 
     /// Returns whether an event is to follow about a quiet block, as most are: it switches nothing, nothing is said on it,
-    /// and its axes have moved before. An observer that needs no more of it than this saves most of the
-    /// time that events take.
+    /// and its axes have moved before. An observer that needs no more of it than this saves most of the time that events
+    /// take.
     #[inline]
     fn takes_quiet(&mut self, _block: &BlockMove<'_>) -> bool {
         true

@@ -175,8 +175,8 @@ impl Recorder<'_> {
         }))
     }
 
-    /// Whether a block is one of the many that only move: it needs no message, nothing about it has
-    /// to be remembered, and no comment in it can allow anything.
+    /// Whether a block is quiet and moves as earlier ones did: it needs no message, nothing about it has to be remembered,
+    /// and no comment in it can allow anything.
     #[inline]
     fn is_quiet(&self, executed: &Executed<'_>) -> bool {
         executed.diagnostics.is_empty()

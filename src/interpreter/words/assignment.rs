@@ -342,7 +342,7 @@ impl Executor {
             return Ok(Value::Number(number));
         }
         let value = self.with_evaluator(at, |evaluator, stack| evaluator.value(operand, stack));
-        if self.scratch.read.has_warned() {
+        if self.scratch.read.may_be_refused() {
             self.warn_of_reading(at);
         }
         value

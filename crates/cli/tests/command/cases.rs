@@ -73,7 +73,7 @@ impl Stage for Case {
 fn is_here(program: &str) -> bool {
     let is_here = !cfg!(windows) || Command::new(program).arg("--version").output().is_ok();
     if !is_here {
-        println!("cases that need {program} are not tried: there is none");
+        println!("not tried: the cases that need `{program}`, which is not installed");
     }
     is_here
 }

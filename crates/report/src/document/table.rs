@@ -219,6 +219,7 @@ mod tests {
             "  µm  axis    at\n              mm\n1.25  X        7\n   -  軸    1000\n  12\n"
         );
     }
+
     #[test]
     fn a_long_table_counts_the_rows_that_it_folds() {
         // R10.5

@@ -142,7 +142,7 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
-const FOLDERS: [(&str, &str, &[&str]); 30] = [
+const FOLDERS: [(&str, &str, &[&str]); 29] = [
     ("interpreter", "", &["motion", "programs", "values", "ways"]),
     (
         "interpreter",
@@ -157,8 +157,7 @@ const FOLDERS: [(&str, &str, &[&str]); 30] = [
         "words",
         &["motion", "programs", "values", "ways"],
     ),
-    ("syntax", "", &["ast", "lower"]),
-    ("syntax", "lower", &["ast"]),
+    ("syntax", "", &["lower"]),
     ("circle", "fitted", &["recorded", "tune"]),
     ("circle", "learn", &["recorded", "tune"]),
     ("simulation", "", &["friction"]),
@@ -197,14 +196,7 @@ const FOLDERS: [(&str, &str, &[&str]); 30] = [
     (
         "report",
         "results",
-        &[
-            "assumptions",
-            "document",
-            "pictures",
-            "svg",
-            "timeline",
-            "wording",
-        ],
+        &["assumptions", "document", "pictures", "svg", "wording"],
     ),
     ("report", "svg", &["wording"]),
     (

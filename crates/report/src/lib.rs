@@ -34,7 +34,8 @@ pub use timeline::{
 };
 pub use wording::{
     Detail, FALLBACK_WIDTH, Look, Paint, TextChange, assumed_limits, command_line, counted,
-    feed_moves_text, fitted, leading, render, render_unified, rounded, visible, visible_line, wrap,
+    feed_moves_text, fitted, leading, render, render_unified, rounded, to_json, visible,
+    visible_line, wrap,
 };
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use frictcomp::machine::{AxisSet, Machine, Parameterisation};
 use frictcomp_host::{CONFIG_NAME, FileRegistry, LoadedMachine};
 use frictcomp_report::results::lists::render_parameters;
 use frictcomp_report::results::schema::{config_schema, plant_schema};
-use frictcomp_report::{Table, counted, visible_line};
+use frictcomp_report::{Table, counted, to_json, visible_line};
 
 /// Show the configuration in effect, or its schema
 #[derive(Debug, Subcommand)]
@@ -62,7 +62,7 @@ pub(crate) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
                 SchemaOf::Config => config_schema(),
                 SchemaOf::Plant => plant_schema(),
             };
-            console.print(&format!("{schema:#}\n"))?;
+            console.print(&to_json(&schema))?;
             Ok(exit::CLEAN)
         }
     }

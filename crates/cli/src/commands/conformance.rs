@@ -13,7 +13,7 @@ use frictcomp_host::conformance::{
     Answers, Case, CaseError, Compared, Mismatch, Totals, export, find_cases, run_case,
 };
 use frictcomp_host::{FileRegistry, HostError, read_text};
-use frictcomp_report::fitted;
+use frictcomp_report::{fitted, to_json};
 
 /// Run the conformance cases on this engine, write them for a control, or compare what a control
 /// answered
@@ -71,7 +71,7 @@ pub(crate) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failur
     outputs.check()?;
     let text = match args.result.format {
         ResultFormat::Text => fitted(&text(&totals, answered.as_ref()), result.look.width),
-        ResultFormat::Json => format!("{:#}\n", document(&totals, answered.as_ref())),
+        ResultFormat::Json => to_json(&document(&totals, answered.as_ref())),
     };
     result.text(&text)?;
     outputs.finish()?;

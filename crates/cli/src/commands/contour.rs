@@ -15,7 +15,7 @@ use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::results::contour::{
     ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_json,
-    summary_record, why_not_judged,
+    render_summary, why_not_judged,
 };
 use frictcomp_report::svg::Frame;
 
@@ -100,11 +100,7 @@ pub(crate) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let text = match args.result.format {
         ContourFormat::Text => document(&mut contour, &subject).text(console.detail, width),
         ContourFormat::Json => render_json(&mut contour, &limits),
-        ContourFormat::Ndjson => {
-            let mut record = summary_record(&contour, &limits);
-            record["record"] = "summary".into();
-            format!("{record}\n")
-        }
+        ContourFormat::Ndjson => render_summary(&contour, &limits),
         ContourFormat::Csv => String::new(),
     };
     let said = said(&contour, &loaded);

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, exit};
 use frictcomp_host::FileRegistry;
 use frictcomp_physics::stiction::{Quantity, StictionError, solve};
-use frictcomp_report::results::stiction::{document, guideline, record};
+use frictcomp_report::results::stiction::{document, guideline, render_json};
 
 /// Compute stiction compensation of the Heidenhain TNC 407, 415 and 425 (MP1511 to MP1513)
 ///
@@ -100,9 +100,7 @@ pub(crate) fn run(args: &StictionArgs, console: Console) -> Result<u8, Failure> 
     let solution = solve(&args.given())
         .map_err(|error| Failure::new(error.to_string()).with_help(help(&error)))?;
     let job = Job::new(&args.result, &FileRegistry::default(), console)?.with_page(&args.html)?;
-    job.finish(&document(&solution), || {
-        format!("{:#}\n", record(&solution))
-    })?;
+    job.finish(&document(&solution), || render_json(&solution))?;
     for kept in &solution.guidelines {
         Console::talk(&format!("warning: {}", guideline(*kept)));
     }

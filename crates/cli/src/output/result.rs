@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use frictcomp::timeline::SCHEMA;
+use frictcomp_report::to_json;
 
 /// A format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -34,7 +35,7 @@ impl RecordsFormat {
     pub(crate) fn records(self, text: &str, records: &[Value]) -> String {
         match self {
             Self::Text => text.to_owned(),
-            Self::Json => format!("{:#}\n", json!({ "schema": SCHEMA, "records": records })),
+            Self::Json => to_json(&json!({ "schema": SCHEMA, "records": records })),
             Self::Ndjson => records
                 .iter()
                 .fold(String::new(), |lines, it| lines + &it.to_string() + "\n"),

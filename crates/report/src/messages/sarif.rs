@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::text::Place;
 
-use crate::wording::to_pretty;
+use crate::wording::to_json;
 
 use super::message_format::MessageFormat;
 use super::tally::Tally;
@@ -83,7 +83,7 @@ impl MessageFormat for Sarif {
 
 /// Appends a value as printed at some column.
 fn indented(out: &mut Vec<u8>, value: &Value, column: usize) {
-    let text = to_pretty(value);
+    let text = to_json(value);
     for (at, line) in text.lines().enumerate() {
         if at > 0 {
             out.push(b'\n');

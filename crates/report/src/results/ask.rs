@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use crate::document::{Document, Headline, Standing};
-use crate::wording::{counted, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp::comp::CncBuild;
 use frictcomp::machine::Machine;
 use frictcomp::readings::{Basis, Question};
@@ -31,7 +31,7 @@ pub fn render_json(machine: &Machine, build: Option<CncBuild>) -> String {
     let questions: Vec<Value> = questions.map(|it| record(it, machine)).collect();
     let headline = headline(machine, build);
     let list = json!({ "schema": 1, "headline": headline, "questions": questions });
-    format!("{list:#}\n")
+    to_json(&list)
 }
 
 /// The answers of a control; a reason for several undecidable ones is given once.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::document::{Document, Headline, Standing, Table};
-use crate::wording::{rounded, to_pretty, visible_line};
+use crate::wording::{to_json, visible_line};
 use frictcomp_recordings::commission::{LearnReport, LearnedAxis, NextStep, Prediction};
 
 /// The record as JSON.
@@ -17,7 +17,7 @@ pub fn render_json(report: &LearnReport) -> String {
         schema: u32,
         plant: &'a str,
         not_modelled: Vec<&'static str>,
-        feeds: Vec<f64>,
+        feeds: &'a [f64],
         axes: &'a [LearnedAxis; 2],
         predictions: &'a [[Option<Prediction>; 2]],
         next: &'a NextStep,
@@ -27,12 +27,12 @@ pub fn render_json(report: &LearnReport) -> String {
         schema: 1,
         plant: &report.plant.name,
         not_modelled: not_modelled([&report.plant.x, &report.plant.y]),
-        feeds: report.feeds.iter().copied().map(rounded).collect(),
+        feeds: &report.feeds,
         axes: &report.axes,
         predictions: &report.predictions,
         next: &report.next,
     };
-    to_pretty(&record) + "\n"
+    to_json(&record)
 }
 
 /// The verdict: the best lists so far, and the next step (R18.20).

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::document::{Document, Headline, Phrase, Standing, Table};
 use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, StartUpRelation};
-use crate::wording::{counted, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::replay::{
@@ -268,7 +268,7 @@ pub fn render_json(report: &ReplayReport<'_>) -> String {
             document[key] = reason.as_str().into();
         }
     }
-    format!("{document:#}\n")
+    to_json(&document)
 }
 
 fn axis_record(axis: &ReplayedAxis) -> Value {

@@ -1,6 +1,7 @@
 //! Stiction compensation, `stiction`.
 
 use crate::document::{Document, Headline, Standing, Table};
+use crate::wording::to_json;
 use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
@@ -63,7 +64,11 @@ pub fn guideline(guideline: Guideline) -> &'static str {
 }
 
 /// The values as a JSON document.
-pub fn record(solution: &Solution) -> Value {
+pub fn render_json(solution: &Solution) -> String {
+    to_json(&record(solution))
+}
+
+fn record(solution: &Solution) -> Value {
     let values = solution.values.iter().map(|solved| {
         let value = json!({
             "value": solved.value,

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::channels;
-use crate::wording::{counted, to_pretty, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
 
 /// A trace as read.
@@ -181,7 +181,7 @@ struct ChannelRecord<'a> {
 /// The channels as JSON.
 pub fn render_json(report: &TraceReport<'_>) -> String {
     let recording = report.recording;
-    to_pretty(&TraceDocument {
+    to_json(&TraceDocument {
         schema: 1,
         file: &report.name,
         layout: recording.layout().as_str(),

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::friction_trend;
-use crate::wording::{counted, to_pretty, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp_recordings::identify::{
     DatedFriction, FrictionChange, FrictionParameter, TrendReport,
 };
@@ -173,7 +173,7 @@ pub fn render_json(report: &TrendReport) -> String {
         part: it.part,
         errors: it.errors,
     });
-    to_pretty(&TrendDocument {
+    to_json(&TrendDocument {
         schema: 1,
         headline: headline(report),
         axis: report.axis.as_deref(),

@@ -2,19 +2,19 @@
 
 use std::fmt::Write as _;
 
+use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp_physics::circle::{
+    Candidate, FeedResult, Method, RemainingGlitch, Robust, Task, Tuned, TunedAxis,
+};
+use frictcomp_physics::stiction::StictionParameters;
+use frictcomp_recordings::value_lists::{TunedFor, tuned_range};
 use serde::Serialize;
 
 use super::circle::stiction_line;
 use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::tuning;
-use crate::wording::{last_part, rounded, to_pretty, visible_line};
-use frictcomp::lists::{FrictionList, TablePoint};
-use frictcomp_physics::circle::RemainingGlitch;
-use frictcomp_physics::circle::Robust;
-use frictcomp_physics::circle::{Candidate, FeedResult, Method, Task, Tuned, TunedAxis};
-use frictcomp_physics::stiction::StictionParameters;
-use frictcomp_recordings::value_lists::{TunedFor, tuned_range};
+use crate::wording::{last_part, to_json, visible_line};
 
 /// A tuned plant.
 #[derive(Debug, Clone)]
@@ -269,8 +269,8 @@ struct PlantRecord<'a> {
     parameters: Option<TunedParameters>,
     axes: AxisRecords,
     tuned_for: Accelerations,
-    feeds: Vec<FeedResult>,
-    check: Vec<RemainingGlitch>,
+    feeds: &'a [FeedResult],
+    check: &'a [RemainingGlitch],
     #[serde(skip_serializing_if = "Option::is_none")]
     robust: Option<Robust>,
     glitch_max: f64,
@@ -334,16 +334,7 @@ impl AxisTuningRecord {
 
 impl<'a> PlantRecord<'a> {
     fn of(report: &'a TuneReport) -> Self {
-        let feeds = report.tuned.feeds.iter().map(|row| FeedResult {
-            feed_mm_per_min: rounded(row.feed_mm_per_min),
-            radius_mm: rounded(row.radius_mm),
-            acceleration_mm_per_s2: rounded(row.acceleration_mm_per_s2),
-            glitch_off_um: rounded(row.glitch_off_um),
-            glitch_on_um: rounded(row.glitch_on_um),
-            glitch_friction_minus20_um: rounded(row.glitch_friction_minus20_um),
-            glitch_friction_plus20_um: rounded(row.glitch_friction_plus20_um),
-        });
-        let [acceleration_min, acceleration_max] = report.tuned.accelerations().map(rounded);
+        let [acceleration_min, acceleration_max] = report.tuned.accelerations();
         let [x, y] = &report.tuned.axes;
         Self {
             plant: &report.plant,
@@ -361,22 +352,11 @@ impl<'a> PlantRecord<'a> {
                 acceleration_min,
                 acceleration_max,
             },
-            glitch_max: rounded(report.tuned.worst_um()),
-            feeds: feeds.collect(),
-            check: report.tuned.check.iter().map(rounded_row).collect(),
+            glitch_max: report.tuned.worst_um(),
+            feeds: &report.tuned.feeds,
+            check: &report.tuned.check,
             robust: report.tuned.robust,
         }
-    }
-}
-
-fn rounded_row(row: &RemainingGlitch) -> RemainingGlitch {
-    RemainingGlitch {
-        acceleration_mm_per_s2: rounded(row.acceleration_mm_per_s2),
-        glitch_off_um: rounded(row.glitch_off_um),
-        glitch_on_um: rounded(row.glitch_on_um),
-        glitch_half_stiff_um: rounded(row.glitch_half_stiff_um),
-        glitch_double_stiff_um: rounded(row.glitch_double_stiff_um),
-        glitch_uneven_um: rounded(row.glitch_uneven_um),
     }
 }
 
@@ -391,7 +371,5 @@ pub fn render_json(reports: &[TuneReport]) -> String {
         first: PlantRecord::of(first),
         compared: others.iter().map(PlantRecord::of).collect(),
     };
-    let mut text = to_pretty(&document);
-    text.push('\n');
-    text
+    to_json(&document)
 }

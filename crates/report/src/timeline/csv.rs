@@ -9,7 +9,7 @@ use frictcomp::timeline::{End, Join, Record, Row, Sink, StateView};
 
 use super::output::{Gathered, Output};
 use super::view::View;
-use crate::wording::{KeptText, any_byte, integer, is_command, visible, visible_line};
+use crate::wording::{KeptText, integer, push_field, visible_line};
 
 /// Last column of a row that is not a block.
 const JOIN: &[u8] = b"join";
@@ -77,12 +77,12 @@ impl<W: Write> Csv<W> {
         let out = &mut self.output.bytes;
         out.extend_from_slice(b"program,seq,file,line,n,text,");
         for axis in &state.machine.axes {
-            field(out, &axis.name);
+            push_field(out, &axis.name);
             out.push(b',');
         }
         if self.positions == Positions::Shown {
             for axis in &state.machine.axes {
-                field(out, &axis.name);
+                push_field(out, &axis.name);
                 out.extend_from_slice(b"_pos,");
             }
             out.extend_from_slice(b"frame,");
@@ -105,7 +105,7 @@ impl<W: Write> Csv<W> {
             integer(out, number);
         }
         out.push(b',');
-        field(out, row.text);
+        push_field(out, row.text);
         out.push(b',');
         out.extend_from_slice(
             self.states
@@ -122,7 +122,7 @@ impl<W: Write> Csv<W> {
                 });
             }
         }
-        field(out, &self.changes);
+        push_field(out, &self.changes);
         out.push(b',');
         for diagnostic in row.diagnostics {
             join(&mut self.held.codes, |list| {
@@ -131,7 +131,7 @@ impl<W: Write> Csv<W> {
         }
         self.place.clear();
         if let Some(words) = row.branch_in_words() {
-            field(&mut self.held.branch, &words);
+            push_field(&mut self.held.branch, &words);
             append_place(&mut self.place, row.file, row.line);
         }
     }
@@ -185,7 +185,7 @@ impl<W: Write> Csv<W> {
         if let Some(start) = self.output.open.take() {
             let out = &mut self.output.bytes;
             if self.held.wanted {
-                field(out, &self.held.codes);
+                push_field(out, &self.held.codes);
                 out.push(b',');
                 out.extend_from_slice(&self.held.branch);
                 out.push(b'\n');
@@ -232,7 +232,7 @@ impl<W: Write> Gathered for Csv<W> {
 }
 
 fn append_file(out: &mut Vec<u8>, file: &str) {
-    field(out, &visible_line(file));
+    push_field(out, &visible_line(file));
     out.push(b',');
 }
 
@@ -266,43 +266,6 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
         PositionFrame::Machine => b"machine,",
         _ => b"programmed,",
     });
-}
-
-/// Appends a text as a field, quoted where it must be. Hidden characters have pictures; a text that
-/// a spreadsheet would compute, once it has passed over what it takes for blanks, gets a `'` before it,
-/// which makes it a text there (R9.76, R9.94).
-pub(crate) fn field(out: &mut Vec<u8>, text: &str) {
-    if text.is_empty() {
-        return;
-    }
-    let is_special = |byte: u8| !(0x20..0x7f).contains(&byte) || matches!(byte, b',' | b'"');
-    let computes = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    if !computes && !any_byte(text.as_bytes(), is_special) {
-        out.extend_from_slice(text.as_bytes());
-        return;
-    }
-    // A line of a cell is a line of the output, and none of those is a command of a runner.
-    let text = if text.lines().skip(1).any(is_command) {
-        visible_line(text)
-    } else {
-        visible(text)
-    };
-    let quoted = text.contains([',', '"', '\n']);
-    if quoted {
-        out.push(b'"');
-    }
-    if computes {
-        out.push(b'\'');
-    }
-    for &byte in text.as_bytes() {
-        if byte == b'"' {
-            out.push(b'"');
-        }
-        out.push(byte);
-    }
-    if quoted {
-        out.push(b'"');
-    }
 }
 
 /// Appends an item to a list with `;` between its items.

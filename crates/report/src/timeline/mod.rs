@@ -9,7 +9,6 @@ mod records;
 mod text;
 mod view;
 
-pub(crate) use csv::field;
 pub use csv::{Csv, Positions};
 pub use format::{TimelineFormat, TimelineOptions};
 pub use json::Json;

@@ -1,4 +1,4 @@
-//! Values as JSON, numbers and counts.
+//! Texts and values as JSON, integers and counts.
 
 use std::borrow::{Borrow, Cow};
 use std::fmt::Display;
@@ -60,21 +60,9 @@ impl<K> KeptText<K> {
     }
 }
 
-/// A value as a JSON document without hidden characters.
-pub(crate) fn to_pretty(value: &impl Serialize) -> String {
-    let text = serde_json::to_string_pretty(value).expect("numbers and texts are always JSON");
-    shown_json(&text).into_owned()
-}
-
 /// Appends an integer.
 pub(crate) fn integer(out: &mut Vec<u8>, number: impl itoa::Integer) {
     out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
-}
-
-/// Rounds a number for reports: no more digits than are meaningful.
-pub fn rounded(value: f64) -> f64 {
-    // No negative zero.
-    (value * 1e6).round() / 1e6 + 0.0
 }
 
 /// Returns a count with its noun in English: `1 block`, `2 blocks`.

@@ -3,8 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
-
 use super::{DiffArgs, contours, version_of};
 use crate::args::{say_left_out, undescribed_remark};
 use crate::output::{
@@ -17,7 +15,7 @@ use frictcomp_host::{
 };
 use frictcomp_physics::compare::{Agreement, ContourAgreement, Version, VersionComparison};
 use frictcomp_report::fitted;
-use frictcomp_report::results::compare::{VersionsReport, document, render_json};
+use frictcomp_report::results::compare::{VersionsReport, document, render_json_since};
 
 /// A program in both versions; it may be missing from one of them.
 struct ProgramVersions {
@@ -103,7 +101,7 @@ fn compare(
             let text = texts.collect::<Vec<_>>().join("\n");
             result.painted(&fitted(&text, result.look.width), difference)?
         }
-        ResultFormat::Json => result.text(&record(&reports, revision))?,
+        ResultFormat::Json => result.text(&render_json_since(&reports, revision))?,
     };
     outputs.finish()?;
     let count = reports.len();
@@ -146,16 +144,6 @@ fn named(report: &VersionsReport) -> String {
         Some(_) => String::new(),
         None => format!("{}:\n", shown(Path::new(&report.new))),
     }
-}
-
-fn record(reports: &[VersionsReport], revision: &str) -> String {
-    let programs = reports.iter().map(render_json);
-    let programs = programs.filter_map(|text| serde_json::from_str::<Value>(&text).ok());
-    let programs: Vec<Value> = programs.collect();
-    format!(
-        "{:#}\n",
-        json!({ "schema": 1, "revision": revision, "programs": programs })
-    )
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -16,7 +16,7 @@ use frictcomp::diagnostic::{Code, did_you_mean};
 use frictcomp::documents::PARAMETER_PAGES;
 use frictcomp::lists::ChannelKey;
 use frictcomp_host::FileRegistry;
-use frictcomp_report::fitted;
+use frictcomp_report::{fitted, to_json};
 
 /// Explain a code, parameter, rule or word; without one, list all codes
 #[derive(Debug, Args)]
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
                 ResultFormat::Text => target.painted(&format!("{page}\n"), titles)?,
                 ResultFormat::Json => {
                     let document = json!({ "schema": 1, "word": word.trim(), "page": page });
-                    target.text(&format!("{document:#}\n"))?
+                    target.text(&to_json(&document))?
                 }
             }
         }
@@ -79,7 +79,7 @@ fn codes_document() -> String {
         })
     });
     let document = json!({ "schema": 1, "codes": codes.collect::<Vec<_>>() });
-    format!("{document:#}\n")
+    to_json(&document)
 }
 
 /// Returns the page about a code, a parameter by its number or its key, a rule, an error number of the control or another

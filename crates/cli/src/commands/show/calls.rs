@@ -13,7 +13,7 @@ use frictcomp::interpreter::NoProgram;
 use frictcomp_host::{
     CallGraph, FileRegistry, GraphProgram, MissingCall, find_programs, processors,
 };
-use frictcomp_report::{Headline, Standing, counted, visible_line};
+use frictcomp_report::{Headline, Standing, counted, to_json, visible_line};
 
 /// The deepest call that is indented; deeper ones begin a separate tree.
 const MAX_DEPTH: usize = 24;
@@ -78,7 +78,7 @@ fn graph(args: &CallsArgs, console: Console, failures: &mut Failures) -> Result<
     let printed = match args.result.format {
         CallsFormat::Text => target.painted(&shown.text(), parts)?,
         CallsFormat::Dot => target.text(&shown.dot())?,
-        CallsFormat::Json => target.text(&format!("{:#}\n", shown.json()))?,
+        CallsFormat::Json => target.text(&to_json(&shown.json()))?,
     };
     if printed == Printed::Read {
         outputs.finish()?;

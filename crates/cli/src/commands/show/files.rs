@@ -13,7 +13,7 @@ use crate::output::{
 use frictcomp::text::shown_path;
 use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{FileRegistry, FoundPrograms, Input, LeftOutFile, Naming, find_programs};
-use frictcomp_report::{Headline, Standing, counted};
+use frictcomp_report::{Headline, Standing, counted, to_json};
 
 /// Show which files are taken as programs, which are not, and why
 ///
@@ -53,7 +53,7 @@ fn files(args: &FilesArgs, console: Console, failures: &mut Failures) -> Result<
     outputs.check()?;
     let printed = match args.result.format {
         ResultFormat::Text => target.text(&args.text(&found))?,
-        ResultFormat::Json => target.text(&format!("{:#}\n", args.json(&found)))?,
+        ResultFormat::Json => target.text(&to_json(&args.json(&found)))?,
     };
     if printed == Printed::Read {
         outputs.finish()?;

@@ -1,7 +1,9 @@
 //! An audit as a table: one row per program, axis and kind.
 
+use serde_json::Value;
+
 use super::subject::AuditReport;
-use crate::timeline::field;
+use crate::wording::push_row;
 use frictcomp::audit::Site;
 
 const HEADER: &str = "machine,file,axis,kind,effect,by_file,by_line,reason,inherits,inherits_file,inherits_line,motion,inherits_if\n";
@@ -19,7 +21,7 @@ pub fn render_csv(report: &AuditReport) -> String {
                 let reason = axis.reason.as_ref().map(|it| it.message.as_str());
                 let reason = reason.or(when.as_deref()).unwrap_or_default();
                 let condition = motion.and_then(|motion| motion.condition(&program.file));
-                let fields = [
+                let cells = [
                     machine.origin.as_deref().unwrap_or_default(),
                     &program.file,
                     &axis.axis,
@@ -34,13 +36,7 @@ pub fn render_csv(report: &AuditReport) -> String {
                     motion.map_or("", |motion| motion.motion.as_str()),
                     condition.as_deref().unwrap_or_default(),
                 ];
-                for (at, text) in fields.into_iter().enumerate() {
-                    if at > 0 {
-                        out.push(b',');
-                    }
-                    field(&mut out, text);
-                }
-                out.push(b'\n');
+                push_row(&mut out, &cells.map(Value::from));
             }
         }
     }

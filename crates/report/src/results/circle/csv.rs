@@ -1,9 +1,9 @@
 //! The radial deviations as CSV.
 
-use crate::wording::rounded;
-use std::fmt::Write as _;
+use serde_json::json;
 
 use super::subject::CircleReport;
+use crate::wording::push_row;
 use frictcomp_physics::circle::UM_PER_M;
 
 /// Rows of the CSV per turn: one every 0.1°.
@@ -11,21 +11,26 @@ const ROWS: usize = 3600;
 
 /// The radial deviations: a row every 0.1° for each path.
 pub fn render_csv(report: &CircleReport) -> String {
-    let mut out = String::from("compensation,direction,angle_deg,deviation_um\n");
+    let mut out = Vec::from("compensation,direction,angle_deg,deviation_um\n");
     for side in &report.sides {
         for (direction, profile) in side.side.paths.iter() {
             let deviations = profile.deviations_m();
-            for (row, deviation) in deviations
-                .iter()
-                .step_by(deviations.len() / ROWS)
-                .enumerate()
-            {
+            let deviations = deviations.iter().step_by(deviations.len() / ROWS);
+            for (row, deviation) in deviations.enumerate() {
                 #[allow(clippy::cast_precision_loss)] // at most 3600
                 let angle = row as f64 / 10.0;
-                let deviation = rounded(deviation * UM_PER_M);
-                let _ = writeln!(out, "{},{direction},{angle},{deviation}", side.name);
+                let deviation_um = deviation * UM_PER_M;
+                push_row(
+                    &mut out,
+                    &[
+                        json!(side.name),
+                        json!(direction),
+                        json!(angle),
+                        json!(deviation_um),
+                    ],
+                );
             }
         }
     }
-    out
+    String::from_utf8_lossy(&out).into_owned()
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast};
 use crate::assumptions::not_modelled;
 use crate::document::Headline;
-use crate::wording::{rounded, to_pretty};
+use crate::wording::to_json;
 use frictcomp_physics::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, Glitch, Method, PathCentre, PathFigures,
     Recording, WorseTurn,
@@ -19,11 +19,11 @@ struct CircleDocument<'a> {
     #[serde(flatten)]
     conditions: ConditionsRecord<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    off: Option<SideRecord>,
+    off: Option<SideRecord<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    on: Option<SideRecord>,
+    on: Option<SideRecord<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    recorded: Option<SideRecord>,
+    recorded: Option<SideRecord<'a>>,
 }
 
 #[derive(Serialize)]
@@ -60,7 +60,7 @@ struct ConditionsRecord<'a> {
 }
 
 #[derive(Serialize)]
-struct SideRecord {
+struct SideRecord<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     ccw: Option<PathRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -74,7 +74,7 @@ struct SideRecord {
     #[serde(rename = "D")]
     d: Option<f64>,
     glitch_max: Option<f64>,
-    advice: Vec<Diagnosis>,
+    advice: &'a [Diagnosis],
 }
 
 #[derive(Serialize)]
@@ -142,8 +142,8 @@ struct Ellipse {
 impl AxisRecord {
     fn of(shape: &AxisShape) -> Self {
         Self {
-            step: rounded(shape.step_um),
-            peak: rounded(shape.peak_um),
+            step: shape.step_um,
+            peak: shape.peak_um,
             is_settled: shape.is_settled,
         }
     }
@@ -169,46 +169,42 @@ impl PathRecord {
         let shape = figures.shape.as_ref();
         let glitches = shape.map(|shape| &shape.glitches);
         Self {
-            g_mz: rounded(figures.g_mz_um),
-            g_lsc: rounded(figures.g_lsc_um),
-            f_max: figures.f_max_um.map(rounded),
-            f_min: figures.f_min_um.map(rounded),
-            d: figures.d_um.map(rounded),
-            glitch: ByCrossing::of(glitches, |glitch| rounded(glitch.height_um)),
+            g_mz: figures.g_mz_um,
+            g_lsc: figures.g_lsc_um,
+            f_max: figures.f_max_um,
+            f_min: figures.f_min_um,
+            d: figures.d_um,
+            glitch: ByCrossing::of(glitches, |glitch| glitch.height_um),
             shape: ByCrossing::of(glitches, |glitch| Bulges {
-                outward: rounded(glitch.outward_um),
-                inward: rounded(glitch.inward_um),
+                outward: glitch.outward_um,
+                inward: glitch.inward_um,
             }),
-            glitch_window_deg: shape.map(|shape| rounded(shape.window_deg)),
+            glitch_window_deg: shape.map(|shape| shape.window_deg),
             axes: ByAxis {
                 x: shape.map(|shape| AxisRecord::of(&shape.axes[0])),
                 y: shape.map(|shape| AxisRecord::of(&shape.axes[1])),
             },
             ellipse: shape.map(|shape| Ellipse {
-                along_axes: rounded(shape.ellipse_um[0]),
-                at_45_deg: rounded(shape.ellipse_um[1]),
+                along_axes: shape.ellipse_um[0],
+                at_45_deg: shape.ellipse_um[1],
             }),
         }
     }
 }
 
-impl SideRecord {
-    fn of(side: &NamedSide) -> Self {
+impl<'a> SideRecord<'a> {
+    fn of(side: &'a NamedSide) -> Self {
         let figures = &side.side.figures;
-        let diagnosis = |advice: &Diagnosis| Diagnosis {
-            size_um: rounded(advice.size_um),
-            ..*advice
-        };
         Self {
             ccw: figures.ccw.as_ref().map(PathRecord::of),
             cw: figures.cw.as_ref().map(PathRecord::of),
             centre: figures.centre,
-            centre_distance: figures.centre_distance_um.map(rounded),
-            g_b: figures.g_b_um.map(rounded),
-            h: figures.h_um.map(rounded),
-            d: figures.d_um.map(rounded),
-            glitch_max: figures.glitch_max_um().map(rounded),
-            advice: side.advice.iter().map(diagnosis).collect(),
+            centre_distance: figures.centre_distance_um,
+            g_b: figures.g_b_um,
+            h: figures.h_um,
+            d: figures.d_um,
+            glitch_max: figures.glitch_max_um(),
+            advice: &side.advice,
         }
     }
 }
@@ -251,7 +247,7 @@ pub fn render_json(report: &CircleReport) -> String {
         Subject::Recorded(recording) => ConditionsRecord {
             source: "recorded",
             diameter_mm: recording.commanded.radius_mm.map(|radius| 2.0 * radius),
-            feed_mm_min: report.driven().1.map(rounded),
+            feed_mm_min: report.driven().1,
             cycle_time_s: None,
             plant: None,
             model: None,
@@ -274,9 +270,7 @@ pub fn render_json(report: &CircleReport) -> String {
         on: side("on"),
         recorded: side("recorded"),
     };
-    let mut text = to_pretty(&document);
-    text.push('\n');
-    text
+    to_json(&document)
 }
 
 fn worse_turns(recording: &Recording) -> Vec<WorseTurn> {

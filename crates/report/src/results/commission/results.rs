@@ -9,7 +9,7 @@ use super::picture::glitches_by_feed;
 use super::plants::{FittedPlantRecord, lacking, push_plants};
 use super::words::{number, told};
 use crate::document::{Document, Headline, Standing, Table};
-use crate::wording::{counted, to_pretty, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp_recordings::commission::{
     AxisVerdict, InputFile, RecordingOutcome, RecordingResult, Results, ResultsReport, Round,
     Shows, ValueListUsed,
@@ -249,7 +249,7 @@ struct ResultsDocument<'a> {
 
 /// The results as JSON.
 pub fn render_results_json(report: &ResultsReport) -> String {
-    to_pretty(&ResultsDocument {
+    to_json(&ResultsDocument {
         schema: Results::SCHEMA,
         headline: headline(report),
         complete: report.is_complete(),

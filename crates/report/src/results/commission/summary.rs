@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::words::{number, told};
 use crate::document::{Document, Headline, Standing, Table};
-use crate::wording::{counted, to_pretty, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp_recordings::commission::{MeasuringProgram, PlanFile, PlanReport, Stage};
 
 /// The verdict: the stage, and how long its programs take (R18.20).
@@ -30,7 +30,7 @@ struct PlanDocument {
 
 /// The plan with its verdict as JSON.
 pub fn render_json(report: &PlanReport) -> String {
-    to_pretty(&PlanDocument {
+    to_json(&PlanDocument {
         headline: headline(report),
         file: report.file(),
     })

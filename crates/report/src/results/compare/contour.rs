@@ -177,11 +177,6 @@ struct ContourHindrance {
     message: String,
 }
 
-/// A number with three decimals.
-fn rounded(value: f64) -> f64 {
-    (value * 1000.0).round() / 1000.0 + 0.0
-}
-
 impl<'a> ChangeRecord<'a> {
     fn new(change: &'a BlockChange) -> Self {
         let BlockChange { block, old, new } = change;
@@ -191,9 +186,9 @@ impl<'a> ChangeRecord<'a> {
             old_line: old.map(|(line, _)| line),
             n: block.number,
             text: &block.text,
-            old: old.map(|(_, um)| rounded(um)),
-            new: rounded(new.deviation_um),
-            position: new.place.map(rounded),
+            old: old.map(|(_, um)| um),
+            new: new.deviation_um,
+            position: new.place,
         }
     }
 }
@@ -204,9 +199,9 @@ impl<'a> ContourRecord<'a> {
         let [old, new] = [Which::Old, Which::New].map(|which| {
             let deviations = comparison.deviations(which);
             FiguresRecord {
-                max: rounded(deviations.max_um()),
+                max: deviations.max_um(),
                 max_at: record(deviations.max_at().map(|at| &**at)),
-                rms: rounded(deviations.rms_um()),
+                rms: deviations.rms_um(),
             }
         });
         let obstacles = comparison

@@ -4,4 +4,4 @@ mod contour;
 mod report;
 
 pub use contour::ContoursReport;
-pub use report::{VersionsReport, document, render_json};
+pub use report::{VersionsReport, document, render_json, render_json_since};

@@ -5,7 +5,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::contour::{ContourRecord, ContoursReport, push_contours};
 use crate::document::{Document, Headline, Standing, Table};
-use crate::wording::{counted, to_pretty, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp::comp::{Kind, State};
 use frictcomp_physics::compare::{
     Agreement, ChangedMoves, Obstacle, PairedSwitch, Reason, Switch, VersionComparison, Which,
@@ -289,6 +289,25 @@ impl<'a> Hindrance<'a> {
 
 /// The comparison as a JSON document.
 pub fn render_json(report: &VersionsReport) -> String {
+    to_json(&record(report))
+}
+
+/// The comparisons of the programs that changed since a revision as one JSON document.
+pub fn render_json_since(reports: &[VersionsReport], revision: &str) -> String {
+    #[derive(Serialize)]
+    struct ComparisonsDocument<'a> {
+        schema: u32,
+        revision: &'a str,
+        programs: Vec<ComparisonDocument<'a>>,
+    }
+    to_json(&ComparisonsDocument {
+        schema: 1,
+        revision,
+        programs: reports.iter().map(record).collect(),
+    })
+}
+
+fn record(report: &VersionsReport) -> ComparisonDocument<'_> {
     let comparison = &report.comparison;
     let moves = comparison.moves().iter().map(|it| MovesRecord {
         version: it.which.as_str(),
@@ -296,7 +315,7 @@ pub fn render_json(report: &VersionsReport) -> String {
         count: it.count,
         line: it.line,
     });
-    let document = ComparisonDocument {
+    ComparisonDocument {
         schema: 1,
         old: &report.old,
         new: &report.new,
@@ -311,6 +330,5 @@ pub fn render_json(report: &VersionsReport) -> String {
         moves: moves.collect(),
         obstacles: comparison.obstacles().map(Hindrance::new).collect(),
         contour: report.contours.as_ref().map(ContourRecord::new),
-    };
-    to_pretty(&document) + "\n"
+    }
 }

@@ -5,8 +5,9 @@ use serde_json::{Value, json};
 use super::document::headline;
 use super::places::record;
 use super::recorder::ContourRecorder;
-use super::records::{reversal_record, rounded};
+use super::records::reversal_record;
 use crate::assumptions::not_modelled;
+use crate::wording::{to_json, to_json_line};
 use frictcomp_physics::contour::{
     ContourLimits, ContourOptions, ContourReversal, ContourSink, ContourSummary, ContourVerdict,
     Deviations, ListSource, ProgramContour,
@@ -15,22 +16,19 @@ use frictcomp_physics::motion::{AssumedLimits, Departure};
 
 fn figures(deviations: &Deviations) -> Value {
     json!({
-        "max": rounded(deviations.max_um(), 3),
+        "max": deviations.max_um(),
         "max_at": record(deviations.max_at().map(|at| &**at)),
-        "rms": rounded(deviations.rms_um(), 4),
-        "outermost": rounded(deviations.outermost_um, 3),
+        "rms": deviations.rms_um(),
+        "outermost": deviations.outermost_um,
         "outermost_at": record(deviations.outermost_at.as_deref()),
-        "innermost": rounded(deviations.innermost_um, 3),
+        "innermost": deviations.innermost_um,
         "innermost_at": record(deviations.innermost_at.as_deref()),
     })
 }
 
 /// The counts of an axis, its drive, and the relation of its list to that.
 fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
-    let glitch = |of: fn(&ContourReversal) -> f64| {
-        let dearest = counted.dearest.as_ref();
-        rounded(dearest.map_or(0.0, of), 3)
-    };
+    let glitch = |of: fn(&ContourReversal) -> f64| counted.dearest.as_ref().map_or(0.0, of);
     let mut axis = json!({
         "axis": counted.axis,
         "cutting": counted.cutting,
@@ -44,7 +42,7 @@ fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
     });
     if let Some(worst) = &counted.worst {
         axis["worst"] = record(Some(worst));
-        axis["worst"]["glitch"] = rounded(worst.glitch_um.programmed, 3).into();
+        axis["worst"]["glitch"] = worst.glitch_um.programmed.into();
     }
     let driven = options.axes.iter().find(|it| it.name == counted.axis);
     if let Some(driven) = driven {
@@ -54,11 +52,8 @@ fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
             ListSource::Given(file) => file.as_str().into(),
             ListSource::Plant => "plant".into(),
         };
-        axis["newtons_per_unit"] = rounded(driven.newtons_per_unit(), 6).into();
-        axis["list_to_friction"] = fit
-            .and_then(|fit| fit.share())
-            .map(|it| rounded(it, 3))
-            .into();
+        axis["newtons_per_unit"] = driven.newtons_per_unit().into();
+        axis["list_to_friction"] = fit.and_then(|fit| fit.share()).into();
         axis["belongs"] = fit.is_none_or(|fit| fit.belongs()).into();
     }
     axis
@@ -66,19 +61,19 @@ fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
 
 fn feed_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
     let feed = contour.feed();
-    let rounded = |value: f64| rounded(value, 3);
     json!({
-        "programmed": feed.programmed_mm_per_min().map(rounded),
-        "reached": feed.reached_mm_per_min().map(rounded),
-        "slow_share": rounded(feed.slow_share()),
-        "slow_share_assumed": rounded(contour.slow_share_by_assumed()),
+        "programmed": feed.programmed_mm_per_min(),
+        "reached": feed.reached_mm_per_min(),
+        "slow_share": feed.slow_share(),
+        "slow_share_assumed": contour.slow_share_by_assumed(),
     })
 }
 
 /// Returns the treatment of the transitions between feed moves, lengths in µm.
 fn transitions_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
     let transitions = contour.transitions();
-    let departure = |from: &Departure| json!({ "max": rounded(from.um, 3), "max_at": record(from.at.as_deref()) });
+    let departure =
+        |from: &Departure| json!({ "max": from.um, "max_at": record(from.at.as_deref()) });
     json!({
         "joined": transitions.joined,
         "rounded": transitions.rounded,
@@ -98,10 +93,7 @@ fn limits_record(axis: &AssumedLimits) -> Value {
 }
 
 /// The figures of the three runs, the counts of each axis, and their totals.
-pub fn summary_record(
-    contour: &ProgramContour<ContourRecorder<'_>>,
-    limits: &ContourLimits,
-) -> Value {
+fn summary_record(contour: &ProgramContour<ContourRecorder<'_>>, limits: &ContourLimits) -> Value {
     let deviations = contour.deviations();
     let due = contour.due();
     let obstacles = contour.obstacles();
@@ -112,13 +104,13 @@ pub fn summary_record(
     json!({
         "schema": 1,
         "headline": headline(contour),
-        "machine_time": rounded(contour.machine_time_s(), 6),
+        "machine_time": contour.machine_time_s(),
         "verdict": verdict.map(ContourVerdict::as_str),
         "not_judged": reasons.collect::<Vec<String>>(),
         "programmed": figures(&deviations.programmed),
         "all_on": figures(&deviations.all_on),
         "all_off": figures(&deviations.all_off),
-        "due": { "max": rounded(due.um, 3), "max_at": record(due.at.as_deref()) },
+        "due": { "max": due.um, "max_at": record(due.at.as_deref()) },
         "feed": feed_record(contour),
         "transitions": transitions_record(contour),
         "assumed_limits": contour.assumed_limits().map(limits_record).collect::<Vec<Value>>(),
@@ -126,10 +118,20 @@ pub fn summary_record(
         "left_out": contour.left_out(),
         "cut_short": contour.is_cut_short(),
         "whole": contour.is_whole(),
-        "time_not_of_the_machine": rounded(contour.time_not_of_the_machine_s(), 6),
+        "time_not_of_the_machine": contour.time_not_of_the_machine_s(),
         "not_modelled": not_modelled(contour.options().axes.iter().map(|axis| &axis.drive)),
         "rests_on": contour.rests_on(),
     })
+}
+
+/// The figures and counts as one line, below the reversals.
+pub fn render_summary(
+    contour: &ProgramContour<ContourRecorder<'_>>,
+    limits: &ContourLimits,
+) -> String {
+    let mut record = summary_record(contour, limits);
+    record["record"] = "summary".into();
+    to_json_line(&record)
 }
 
 /// Everything as one document.
@@ -148,11 +150,12 @@ pub fn render_json(
         .iter()
         .map(|switch| reversal_record(switch, &names));
     document["switches"] = switches.collect::<Vec<Value>>().into();
-    let blocks = recorder.blocks().iter().map(
-        |((file, line), max)| json!({ "file": &**file, "line": line, "max": rounded(*max, 3) }),
-    );
+    let blocks = recorder
+        .blocks()
+        .iter()
+        .map(|((file, line), max)| json!({ "file": &**file, "line": line, "max": max }));
     document["blocks"] = blocks.collect::<Vec<Value>>().into();
-    format!("{document:#}\n")
+    to_json(&document)
 }
 
 /// The names of the driven axes.

@@ -12,7 +12,6 @@ mod remarks;
 pub use agreed::AgreedContour;
 pub use document::{ContourSubject, document, headline};
 pub use golden::{GoldenContour, agreed_contour};
-pub use json::{render_json, summary_record};
+pub use json::{render_json, render_summary};
 pub use recorder::ContourRecorder;
-pub use records::{CSV_HEADER, csv_row, reversal_record};
 pub use remarks::{contour_remarks, exceeded, why_not_judged};

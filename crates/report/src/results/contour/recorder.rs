@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-use super::records::{CSV_HEADER, csv_row, reversal_record};
+use super::records::{CSV_HEADER, push_csv_row, reversal_record};
 use crate::pictures::ContourPicture;
+use crate::wording::to_json_line;
 use frictcomp_physics::contour::{ContourPoint, ContourReversal, ContourSink};
 use frictcomp_physics::motion::Movement;
 
@@ -161,10 +162,12 @@ impl ContourSink for ContourRecorder<'_> {
             ReversalSink::Ndjson(writer) => {
                 let mut record = reversal_record(reversal, &self.names);
                 record["record"] = "reversal".into();
-                writeln!(writer, "{record}")
+                writer.write_all(to_json_line(&record).as_bytes())
             }
             ReversalSink::Csv(writer) => {
-                writer.write_all(csv_row(reversal, &self.names).as_bytes())
+                let mut row = Vec::new();
+                push_csv_row(&mut row, reversal, &self.names);
+                writer.write_all(&row)
             }
         };
         if let Err(error) = written {

@@ -96,7 +96,7 @@ fn misfit(axis: &ContourAxis, options: &ContourOptions) -> Option<String> {
 
 /// "compensation of X: the list of the machine, 5 N a drive unit"
 pub(super) fn compensation(axis: &ContourAxis) -> String {
-    let newtons = rounded(axis.newtons_per_unit());
+    let newtons = (axis.newtons_per_unit() * 1000.0).round() / 1000.0;
     let name = visible_line(&axis.name);
     match &axis.source {
         ListSource::Machine => {
@@ -111,10 +111,6 @@ pub(super) fn compensation(axis: &ContourAxis) -> String {
              machine has no list that the control takes, and without one the control adds nothing"
         ),
     }
-}
-
-fn rounded(newtons: f64) -> f64 {
-    (newtons * 1000.0).round() / 1000.0
 }
 
 /// Why a contour is not judged: one line each.

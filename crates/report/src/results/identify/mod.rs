@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::{friction_curve, residuals_over_position, segments_on_trace};
-use crate::wording::{counted, to_pretty, visible_line};
+use crate::wording::{counted, to_json, visible_line};
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{
     AxisRecording, BranchPoint, DirectionBranches, Fit, FrictionCurve, Identified, TraceFinding,
@@ -393,8 +393,8 @@ struct AxesDocument<T> {
 pub(crate) fn json_of_axes<T: Serialize>(records: impl Iterator<Item = T>) -> String {
     let records: Vec<T> = records.collect();
     match &records[..] {
-        [only] => to_pretty(only),
-        _ => to_pretty(&AxesDocument {
+        [only] => to_json(only),
+        _ => to_json(&AxesDocument {
             schema: 1,
             axes: records,
         }),

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::PointRecord;
 use crate::document::{Document, Headline, Standing, Table};
-use crate::wording::{to_pretty, visible_line};
+use crate::wording::{to_json, visible_line};
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, OnCircles, TraceFinding};
 
@@ -135,7 +135,7 @@ pub fn render_json(report: &OnCirclesReport) -> String {
             input: speed * PER_MM,
             out: *friction,
         });
-    to_pretty(&OnCirclesDocument {
+    to_json(&OnCirclesDocument {
         schema: 1,
         headline: report.headline(),
         axis: report.axis.as_deref(),

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{IdentifyReport, push_identified, record};
 use crate::document::{Document, Headline, Standing, Table};
 use crate::pictures::friction_states;
-use crate::wording::{to_pretty, visible_line};
+use crate::wording::{to_json, visible_line};
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::ComparedStates;
 
@@ -133,7 +133,7 @@ pub fn render_json(report: &StatesReport) -> String {
         frictions: &row.frictions,
         spread: row.spread,
     });
-    to_pretty(&StatesDocument {
+    to_json(&StatesDocument {
         schema: 1,
         headline: report.headline(),
         working: report.working_name(),

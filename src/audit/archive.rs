@@ -6,11 +6,10 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 
-use super::effect::{FirstMotion, Site, WhyUnknown};
+use super::effect::{FirstMotion, Selected, Site, WhyUnknown};
 use super::mending::{Cure, Mending};
 use super::observation::{Observation, SelectionOrigin};
 use super::program::{Auditor, AxisAudit, ProgramAudit};
-use super::scope::Selected;
 use crate::comp::Kind;
 use crate::interpreter::{EndedBy, Event, FoundVariables, Interpreter, Observer, PossibleStates};
 use crate::readings::{Question, QuestionSet};

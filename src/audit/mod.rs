@@ -14,16 +14,14 @@
 mod archive;
 mod effect;
 mod mending;
-mod motions;
 mod observation;
 mod program;
 mod runs;
-mod scope;
 
 pub use archive::{Archive, AxisFinding, MendedEnd, Sequence, Step, StepAxis};
+pub use effect::{AuditedKind, Scope, Selected};
 pub use effect::{FirstMotion, Inherits, ProgramEffect, Site, WhyUnknown};
 pub use mending::{
     Affected, Cure, CuredMotions, Insertion, Mended, Mending, Missed, WhyMissed, insertions, mend,
 };
 pub use program::{Auditor, AxisAudit, Ending, ProgramAudit};
-pub use scope::{AuditedKind, Scope, Selected};

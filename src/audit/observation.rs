@@ -1,12 +1,11 @@
-//! The effect of one run of a program on each axis.
+//! The effect of one run of a program on each axis, and the selection at every motion, so that two runs can be compared (R10.8).
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
-use super::effect::{FirstMotion, Site, WhyUnknown};
-use super::motions::{SelectionAtMotions, Stood};
+use super::effect::{AuditedKind, FirstMotion, Scope, Selected, Site, WhyUnknown};
 use super::runs::Within;
-use super::scope::{AuditedKind, Scope, Selected};
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{
@@ -540,5 +539,120 @@ fn reason(said: &Diagnostic, site: Option<Site>) -> WhyUnknown {
         code: Some(said.code),
         message: said.message.clone(),
         site,
+    }
+}
+
+/// Number of changes kept individually; for the rest only a fingerprint is compared.
+const MOST: usize = 4096;
+
+/// The selection at a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Stood {
+    pub(super) selected: Selected,
+    /// A digest of the ways to each state, if more than one is possible.
+    pub(super) ways: u64,
+}
+
+impl Stood {
+    /// The selection of a subject, with its possible states if there are several.
+    pub(super) fn new(selected: Selected, possible: Option<&PossibleStates>) -> Self {
+        let mut digest = DefaultHasher::new();
+        if let Some(possible) = possible {
+            // Inserted blocks shift the lines.
+            possible.without_lines().hash(&mut digest);
+        }
+        Self {
+            selected,
+            ways: possible.map_or(0, |_| digest.finish()),
+        }
+    }
+}
+
+/// The selection of one kind on one axis at every motion, in the order of the run.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct SelectionAtMotions {
+    stretches: Vec<(Stood, u64)>,
+    /// A digest of the changes that are not kept.
+    rest: u64,
+}
+
+impl SelectionAtMotions {
+    #[inline]
+    pub(super) fn note(&mut self, stood: Stood) {
+        match self.stretches.last_mut() {
+            Some((last, count)) if *last == stood && self.rest == 0 => *count += 1,
+            _ => self.change(stood),
+        }
+    }
+
+    #[inline(never)]
+    fn change(&mut self, stood: Stood) {
+        if self.rest == 0 && self.stretches.len() < MOST {
+            self.stretches.push((stood, 1));
+            return;
+        }
+        // FNV-1a.
+        let step = self.rest ^ stood.selected.digit() ^ stood.ways;
+        self.rest = step.wrapping_mul(0x0100_0000_01b3).max(1);
+    }
+
+    /// Whether every motion of another run has the same selection as in this one, or the wanted
+    /// one.
+    pub(super) fn only_become(&self, after: &Self, wanted: Selected) -> bool {
+        if self == after {
+            return true;
+        }
+        if self.rest != 0 || after.rest != 0 {
+            return false;
+        }
+        let (mut before, mut after) = (self.stretches.iter(), after.stretches.iter());
+        let (mut old, mut new) = (before.next().copied(), after.next().copied());
+        loop {
+            let (Some((was, left)), Some((is, more))) = (old, new) else {
+                return old.is_none() && new.is_none();
+            };
+            if was != is && is.selected != wanted {
+                return false;
+            }
+            let common = left.min(more);
+            let rest = |of: Stood, count: u64| (count > common).then(|| (of, count - common));
+            old = rest(was, left).or_else(|| before.next().copied());
+            new = rest(is, more).or_else(|| after.next().copied());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str) -> SelectionAtMotions {
+        let mut motions = SelectionAtMotions::default();
+        for letter in text.chars() {
+            let selected = match letter {
+                '1' => Selected::On,
+                '0' => Selected::Off,
+                _ => Selected::Unknown,
+            };
+            motions.note(Stood::new(selected, None));
+        }
+        motions
+    }
+
+    #[test]
+    fn motions_may_only_become_what_is_wanted() {
+        // R10.8
+        for (before, after, only) in [
+            ("", "", true),
+            ("1100", "1100", true),
+            ("1100", "1111", true),
+            ("0?0", "1?1", true),
+            ("1100", "1000", false),
+            ("110", "1100", false),
+            ("11", "1?", false),
+        ] {
+            let found = of(before).only_become(&of(after), Selected::On);
+            assert_eq!(found, only, "{before} {after}");
+        }
     }
 }

@@ -6,11 +6,10 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
+use super::effect::{AuditedKind, Inherits, ProgramEffect, Scope, Site, WhyUnknown};
 use super::mending::Cure;
 use super::observation::{FoundSide, Observation};
 use super::runs::{ProgramRuns, RunStart};
-use super::scope::{AuditedKind, Scope};
 use crate::comp::{Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{

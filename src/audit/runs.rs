@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
+use super::effect::{Inherits, ProgramEffect, Scope, Selected, Site, WhyUnknown};
 use super::observation::{Observation, SelectionOrigin};
-use super::scope::{Scope, Selected};
 use crate::interpreter::{EndedBy, Executed, VariableUse};
 use crate::readings::QuestionSet;
 

@@ -5,13 +5,11 @@
 //! the COMP commands that it meets and gets the changes, or the control's own error.
 
 mod compensation;
-mod error;
-mod facts;
 mod kind;
 
+pub use compensation::CompensationError;
 pub use compensation::{
     AxisIndex, AxisSetup, Change, CompCommand, Compensation, Coupling, Selection, State,
 };
-pub use error::CompensationError;
-pub use facts::{CncBuild, Facts, NoBuild};
+pub use kind::{CncBuild, Facts, NoBuild};
 pub use kind::{Kind, KindSet, Membership, UnknownKind};

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use toml::de::DeTable;
 
-use super::axis::{AXIS, AxisTable, VALUE, one_more_axis};
-use super::error::{ConfigError, no_toml};
-use super::machine::{MACHINE, MachineTable, selected_readings};
-use super::section::{Section, Shape};
+use super::machine::{
+    AXIS, AxisTable, MACHINE, MachineTable, VALUE, one_more_axis, selected_readings,
+};
+use super::section::{ConfigError, Section, Shape, no_toml};
 use crate::diagnostic::{Code, Levels, NamedFix, Severity};
 use crate::lists::{Given, Written};
 use crate::readings::Readings;

@@ -1,8 +1,9 @@
 //! The form of the value of each key, for editors of TOML (R17.6).
 
-use super::axis::{AXIS, VALUE};
 use super::file::{CHECK, LINT, ROOT, VARIABLES};
-use super::machine::{CONFIRMATION, CONFIRMED, EXTERNAL_KEEPS, MACHINE, READING, WORDS};
+use super::machine::{
+    AXIS, CONFIRMATION, CONFIRMED, EXTERNAL_KEEPS, MACHINE, READING, VALUE, WORDS,
+};
 use super::section::Shape;
 
 /// The form of a value.

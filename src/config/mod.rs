@@ -4,20 +4,18 @@
 // Without the feature, the items that only they see are in effect private.
 #![cfg_attr(not(feature = "unstable"), allow(unreachable_pub, dead_code))]
 
-mod axis;
-mod error;
 mod file;
 mod forms;
 mod machine;
 mod section;
 
-pub(crate) use axis::AxisTable;
-pub use error::ConfigError;
-#[cfg(feature = "unstable")]
-pub use error::example;
 pub(crate) use file::{ConfigFile, ConfiguredVariable};
 #[cfg(feature = "unstable")]
 pub use forms::{CONFIG_FORMS, Form, KeyForm, TableForm};
+pub(crate) use machine::AxisTable;
 pub(crate) use machine::MachineTable;
+pub use section::ConfigError;
+#[cfg(feature = "unstable")]
+pub use section::example;
 #[cfg(feature = "unstable")]
 pub use section::{Section, Shape, keys};

@@ -2,16 +2,14 @@
 
 mod advice;
 mod codes;
-mod filter;
 mod fix;
 mod message;
-mod spelling;
 
 pub use advice::{Advice, Budget, Wording};
+pub use advice::{UnknownName, did_you_mean, nearest};
 pub use codes::{Code, UnknownCode};
-pub use filter::{CodeFilter, Levels};
+pub use codes::{CodeFilter, Levels};
 pub use fix::{Edit, Fix, FixForm, Fixed, NamedFix, Safety, edited, edits};
 pub use message::{
     Collected, Diagnostic, Label, MAX_MESSAGES, ReachedFrom, ReadableNumber, Rounded, Severity,
 };
-pub use spelling::{UnknownName, did_you_mean, nearest};

@@ -6,9 +6,8 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use super::network::{Device, Network, NetworkObject, Protocol, Slave};
 use super::settings::{DriveSettings, Telegram, TorqueScale};
-use super::signal::{DriveType, Signal};
+use super::signal::{Device, DriveType, Network, NetworkObject, Protocol, Signal, Slave};
 use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::lists::{Entry, FrictionList, Given, Origin};
 use crate::text::Place;

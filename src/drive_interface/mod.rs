@@ -6,13 +6,12 @@
 //! assumed to be present.
 
 mod judge;
-mod network;
 mod settings;
 mod signal;
 
 pub use judge::{
     DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, TorqueEvidence, check_drive,
 };
-pub use network::{Device, Network, NetworkObject, OwnFriction, Protocol, Slave};
 pub use settings::{DriveSettings, TorqueScale};
+pub use signal::{Device, Network, NetworkObject, OwnFriction, Protocol, Slave};
 pub use signal::{DriveType, Signal, channel};

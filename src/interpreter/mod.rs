@@ -31,13 +31,13 @@ pub use events::{
     ProgramEnd,
 };
 pub(crate) use motion::block::BlockMotion;
-pub use motion::contouring::{Contouring, Joining};
 pub use motion::form::{
     Arc as CircularArc, ArcShape, AxisWord, BlockEnd, Centre, Motion, Motions, MovedAxis, PathFeed,
     PathForm, SAME_PLACE, ToolSide, Travel, Turn,
 };
 pub use motion::modal::{AxisPosition, GFunctions, Modal, PositionFrame};
 pub use motion::pace::ProgrammedFeed;
+pub use motion::pace::{Contouring, Joining};
 pub use options::{
     Branches, Limits, NoSearchedBlock, Options, RunOutcome, SearchedBlock, StopPolicy,
 };

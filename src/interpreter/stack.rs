@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::block::BlockContext;
 use crate::interpreter::events::EndedBy;
-use crate::interpreter::motion::saved;
+use crate::interpreter::motion::modal::Saved;
 use crate::interpreter::programs::calls::{WantedCall, holds_program_end, is_main_program};
 use crate::interpreter::programs::index::{EntryIndex, JumpAcross, LabelName, ProgramId};
 use crate::interpreter::programs::store::ProgramStore;
@@ -39,7 +39,7 @@ pub(crate) struct CallFrame {
     /// Place of the call.
     pub(crate) called_from: Option<Box<Place>>,
     /// State that the end of a cycle restores.
-    pub(crate) restores: Option<Box<saved::Saved>>,
+    pub(crate) restores: Option<Box<Saved>>,
     pub(crate) retains: Retains,
     /// Programs that are called before the next block, the first one last.
     pub(crate) waiting: Vec<Request>,

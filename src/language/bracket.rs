@@ -5,8 +5,7 @@
 //! PM/n is page n of the TF5200 programming manual.
 
 use super::hash::Plc;
-use super::motion::{Certainty, MotionEffect, MotionKind, Moves};
-use super::simplification::Simplification;
+use super::motion::{Certainty, MotionEffect, MotionKind, Moves, Simplification};
 
 /// A command by its keyword; one that begins with `MC_` by the start of its keyword.
 struct BracketRow {

@@ -8,8 +8,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::hash::Flushes;
-use super::motion::{AxisWords, Certainty, ChainStep, MotionEffect, MotionKind, Moves, OnOff};
-use super::simplification::{Holds, Simplification};
+use super::motion::{
+    AxisWords, Certainty, ChainStep, Holds, MotionEffect, MotionKind, Moves, OnOff, Simplification,
+};
 
 /// A G function of the language, or neighbours that have everything in common.
 #[derive(Debug)]

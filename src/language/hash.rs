@@ -10,8 +10,7 @@ use std::ops::Deref;
 
 use serde::{Deserialize, Deserializer, Serializer};
 
-use super::motion::{Certainty, ChainStep, MotionEffect, MotionKind, Moves};
-use super::simplification::{Holds, Simplification};
+use super::motion::{Certainty, ChainStep, Holds, MotionEffect, MotionKind, Moves, Simplification};
 use crate::readings::Question;
 
 /// A `#` command of the language.

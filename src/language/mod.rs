@@ -21,7 +21,6 @@ mod g;
 mod hash;
 mod motion;
 mod refusal;
-mod simplification;
 mod system_variable;
 
 pub(crate) use bracket::AxisAction;
@@ -34,9 +33,9 @@ pub(crate) use hash::{
     HashArguments, HashCommand, HashWords, MembersBy, PathFlow, Plc, SlopeForm, Touches,
     is_command,
 };
+pub(crate) use motion::Holds;
 pub(crate) use motion::{AxisWords, ChainStep, MotionEffect, Moves, OnOff};
 pub use motion::{Certainty, MotionKind};
+pub use motion::{Simplification, Simplifications};
 pub use refusal::{ControlError, ControlErrorCheck};
-pub(crate) use simplification::Holds;
-pub use simplification::{Simplification, Simplifications};
 pub(crate) use system_variable::is_read_only;

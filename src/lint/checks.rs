@@ -1,11 +1,9 @@
-//! The lints, one file each, and their assignment to commands, motions and ends.
+//! The lints, and their assignment to commands, motions and ends.
 
+mod command;
 mod jump;
 mod left_away;
 mod moved_before;
-mod repeated;
-mod shared_block;
-mod undescribed;
 
 use super::linter::{LeftAway, Linter, Taken};
 use super::memory;
@@ -17,7 +15,7 @@ use crate::text::Span;
 /// The lints on a command, before it is recorded; the first one with a message wins, so that a command is not reported
 /// twice.
 const ON_COMMAND: [fn(&Linter<'_>, &Taken<'_>) -> Option<Diagnostic>; 2] =
-    [repeated::lint, undescribed::lint];
+    [command::repeated, command::undescribed];
 
 impl Linter<'_> {
     /// Checks an executed block and appends the messages.
@@ -64,7 +62,7 @@ impl Linter<'_> {
             said.extend(ON_COMMAND.iter().find_map(|lint| lint(self, &taken)));
             self.memory.command(axis, outcome);
         }
-        said.extend(shared_block::lint(executed));
+        said.extend(command::shared_block(executed));
     }
 
     /// Checks the state that an ended program leaves, and records what made it. A program stopped by a budget is not

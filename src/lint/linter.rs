@@ -1,7 +1,6 @@
 //! State and messages of the lints.
 
-use super::memory::{ProgramEffects, SwitchAfterMove};
-use super::session_states::{LeftAwayNotice, SessionStates};
+use super::memory::{LeftAwayNotice, ProgramEffects, SessionStates, SwitchAfterMove};
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{BlockMotion, Executed, Outcome, WayCondition};

@@ -6,9 +6,8 @@
 mod checks;
 mod linter;
 mod memory;
-mod session_states;
 
 pub use linter::EndNote;
 pub(crate) use linter::Linter;
-pub use session_states::Maker;
-pub(crate) use session_states::{LeftAwayNotice, SessionStates};
+pub use memory::Maker;
+pub(crate) use memory::{LeftAwayNotice, SessionStates};

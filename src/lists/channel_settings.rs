@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::channel_keys::number_of;
-use super::entry::{Entry, Given, Number};
-use super::line::Entries;
+use super::keywords::number_of;
+use super::line::{Entries, Entry, Given, Number};
 use super::parameter::Parameter;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::language::GFunction;

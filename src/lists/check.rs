@@ -1,8 +1,8 @@
 //! The control's checks of a friction value list (chapter 3.4), and values that it accepts although they are implausible
 //! (FC139).
 
-use super::entry::{Given, Number, Written};
 use super::friction::{Field, FrictionDraft, FrictionList, TablePoint};
+use super::line::{Given, Number, Written};
 use super::parameter::{AxisType, Parameter};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Diagnostic, ReadableNumber, Severity};

@@ -11,8 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::check::{Conditions, Verdict};
-use super::entry::{Entry, Given, Number, Written};
-use super::line::Entries;
+use super::line::{Entries, Entry, Given, Number, Written};
 use super::parameter::{AxisType, Origin, Parameter};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Diagnostic, Severity, nearest};

@@ -1,7 +1,6 @@
 //! The kind of a list, which its keys decide (R3.44).
 
-use super::entry::Entry;
-use super::line::Entries;
+use super::line::{Entries, Entry};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::lines_of;
 

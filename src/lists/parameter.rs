@@ -6,8 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::entry::{Entry, Given};
 use super::keywords::{is_known, known_keys};
+use super::line::{Entry, Given};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::Span;
 

@@ -20,9 +20,8 @@ use quick_xml::escape::unescape;
 use quick_xml::events::{BytesStart, Event};
 use thiserror::Error;
 
-use super::entry::Given;
 use super::kind::ListKind;
-use super::line::Entries;
+use super::line::{Entries, Given};
 use crate::text::{SourceFile, Span};
 
 /// Depth of nested elements that no project reaches.

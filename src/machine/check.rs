@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::assemble::{AxisReport, on_spindle};
-use super::axis::{Parameterisation, ValueList};
+use super::axis::{AxisReport, Parameterisation, ValueList, on_spindle};
 use super::configuration::Configuration;
 use super::description::Machine;
-use super::embedded::EmbeddedLists;
-use super::files::{ListFiles, describe, has_nothing};
+use super::loader::{EmbeddedLists, ListFiles, describe, has_nothing};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::drive_interface::{DriveSettings, Evidence, check_drive};

@@ -1,18 +1,22 @@
 //! Reads the lists that other lists name, and reports those that are missing once for each folder (R3.12).
+//!
+//! The control resolves relative paths from its own working folder, which is somewhere above the
+//! start-up list, and Windows paths on its own disk. The library opens no files: it gives the paths
+//! to try, and the host determines which of them exists.
+//! Lists within TwinCAT projects have places as item and line of the list (R3.42).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::assemble::AxisDraft;
-use super::axis::ValueList;
+use super::axis::{AxisDraft, ValueList};
 use super::configuration::not_project;
-use super::embedded::EmbeddedLists;
-use super::files::{ListFiles, NoList, describe, folder, is_absolute, join};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::drive_interface::{DriveReport, Presence};
 use crate::lists::{
-    AxisValues, ChannelDraft, ChannelPrograms, ChannelSettings, Entries, Given, ListKind, is_xml,
+    AxisValues, ChannelDraft, ChannelPrograms, ChannelSettings, Entries, Given, ListKind, Origin,
+    is_xml,
 };
-use crate::text::SourceFile;
+use crate::text::{Place, SourceFile, lines_of};
 
 /// More nested folders above a list than on any disk.
 const MAX_ABOVE: usize = 64;
@@ -311,4 +315,226 @@ impl MissingLists {
 /// Returns the list that names a path, and the folder of the path.
 fn whereabouts(asked: &Given<String>) -> (Arc<str>, String) {
     (asked.file().into(), join("", folder(&asked.value)))
+}
+
+/// The reason for which a path has no list.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoList {
+    /// Nothing exists there.
+    #[error("it is not found")]
+    Missing,
+    /// Something exists there that cannot be read; the reason.
+    #[error("{0}")]
+    Unreadable(String),
+}
+
+/// Provides list files to the library, which opens none itself.
+pub trait ListFiles {
+    /// Reads the list at a path. A relative path has been resolved against the folder in the name
+    /// of the referring list, if that name has one. Diagnostics show the name of the source, and
+    /// further paths are resolved against it.
+    ///
+    /// # Errors
+    /// It does not exist or cannot be read.
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList>;
+
+    /// Returns the folder above a folder; an empty text means the folder in which relative paths
+    /// begin. `None` if there is none, or the host does not know it.
+    fn above(&self, folder: &str) -> Option<String> {
+        parent(folder).map(str::to_owned)
+    }
+}
+
+/// A host without list files.
+pub struct NoLists;
+
+impl ListFiles for NoLists {
+    fn read(&mut self, _path: &str) -> Result<SourceFile, NoList> {
+        Err(NoList::Missing)
+    }
+}
+
+/// Returns the folder of a path as written, without its separator; empty for a bare name.
+pub(super) fn folder(path: &str) -> &str {
+    match path.rfind(['/', '\\']) {
+        Some(0) => "/",
+        Some(at) => &path[..at],
+        None => "",
+    }
+}
+
+/// Returns the folder above if the path itself contains it.
+fn parent(path: &str) -> Option<&str> {
+    let named = !matches!(path, "" | "." | "/") && !path.ends_with("..");
+    named.then(|| folder(path))
+}
+
+pub(super) fn is_absolute(path: &str) -> bool {
+    path.starts_with(['/', '\\']) || path.get(1..2) == Some(":")
+}
+
+/// Returns a path relative to a folder, with `/` between its parts and without `.` parts.
+pub(super) fn join(folder: &str, path: &str) -> String {
+    let slashed = path.replace('\\', "/");
+    if is_absolute(path) {
+        return slashed;
+    }
+    let mut joined = folder.to_owned();
+    for part in slashed.split('/').filter(|part| !matches!(*part, "" | ".")) {
+        if !joined.is_empty() && !joined.ends_with('/') {
+            joined.push('/');
+        }
+        joined.push_str(part);
+    }
+    joined
+}
+
+/// Returns the kind of a file with its article: `a value list`, `a program`.
+pub(super) fn describe(entries: &Entries) -> &'static str {
+    if let Some(kind) = ListKind::detect(entries) {
+        return kind.noun();
+    }
+    let text = entries.source().text();
+    let first = lines_of(text)
+        .map(str::trim)
+        .find(|line| !line.is_empty() && !line.starts_with('#'));
+    let Some(first) = first else {
+        return "an empty file";
+    };
+    let tables = ["[machine", "[[axis", "[variables", "[lint", "[check"];
+    if let Some(what) = entries.unread_kind() {
+        what
+    } else if first.starts_with('<') {
+        "an XML file"
+    } else if tables.iter().any(|table| first.starts_with(table)) {
+        "a `frictcomp.toml`"
+    } else if is_block(first) {
+        "a program"
+    } else if entries.entries.is_empty() {
+        "no list of the control"
+    } else {
+        "a list of a kind that is not known"
+    }
+}
+
+/// Whether a list contains nothing before its `Ende` except comments, like a template.
+pub(super) fn has_nothing(entries: &Entries) -> bool {
+    let is_plain = entries.diagnostics.is_empty() && entries.entries.is_empty();
+    is_plain && !entries.source().text().trim().is_empty()
+}
+
+/// Whether a line begins like an NC program: with a name, a comment or a letter with its number.
+fn is_block(line: &str) -> bool {
+    let word = line.split([' ', '\t', '[']).next().unwrap_or_default();
+    let mut letters = word.chars();
+    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
+    match letters.next() {
+        Some('%' | ';' | '(' | '$' | '/') => true,
+        Some(first) => first.is_ascii_alphabetic() && letters.all(number),
+        None => false,
+    }
+}
+
+/// The lists that are parts of project files.
+#[derive(Debug, Clone, Default)]
+pub struct EmbeddedLists(Vec<EmbeddedList>);
+
+/// A list within a project file.
+#[derive(Debug, Clone)]
+pub(super) struct EmbeddedList {
+    /// The project file.
+    pub(super) file: Arc<str>,
+    /// The item, and the element of the list.
+    pub(super) item: String,
+    pub(super) element: String,
+    /// The lines of the file that the list takes.
+    pub(super) lines: std::ops::RangeInclusive<u32>,
+}
+
+impl EmbeddedLists {
+    /// Returns the number of lists.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    pub(super) fn add(&mut self, list: EmbeddedList) {
+        self.0.push(list);
+    }
+
+    fn list(&self, file: &str, line: u32) -> Option<(&EmbeddedList, u32)> {
+        let mut lists = self.0.iter();
+        let found = lists.find(|list| &*list.file == file && list.lines.contains(&line))?;
+        Some((found, line - found.lines.start() + 1))
+    }
+
+    fn words(&self, place: &Place) -> Option<String> {
+        let (list, line) = self.list(&place.file, place.start().line)?;
+        let EmbeddedList { item, element, .. } = list;
+        Some(format!("item `{item}`, line {line} of `{element}`"))
+    }
+
+    /// Whether a place is in one of these lists, where nothing is written.
+    pub(super) fn holds(&self, place: &Place) -> bool {
+        self.words(place).is_some()
+    }
+
+    /// Names in diagnostics the item and the line within the list, and shows the lines to change in place of fixes:
+    /// nothing is written into a project.
+    pub fn explain(&self, diagnostics: &mut [Diagnostic]) {
+        for said in diagnostics.iter_mut().filter(|_| !self.0.is_empty()) {
+            let (within, plain) = std::mem::take(&mut said.fixes)
+                .into_iter()
+                .partition(|fix| self.holds(&fix.place));
+            said.fixes = plain;
+            let within: Vec<Fix> = within;
+            let lines = within.iter().filter_map(|fix| self.line_to_write(fix));
+            said.advice.extend(lines.map(Into::into));
+            if let Some(words) = self.words(&said.place)
+                && !said.message.contains(&words)
+            {
+                said.message = format!("{} ({words})", said.message);
+            }
+            for label in &mut said.labels {
+                if let Some(words) = self.words(&label.place)
+                    && !label.text.ends_with(&words)
+                {
+                    label.text = format!("{}; {words}", label.text);
+                }
+            }
+        }
+    }
+
+    /// Returns the line that a fix would write, in words.
+    fn line_to_write(&self, fix: &Fix) -> Option<String> {
+        let (_, line) = self.list(&fix.place.file, fix.place.start().line)?;
+        if let Some(added) = fix.text.strip_prefix('\n') {
+            return Some(format!("add `{added}` after line {line} of the list"));
+        }
+        let mut written = fix.place.text.to_string();
+        written.replace_range(fix.place.span.range(), &fix.text);
+        Some(format!(
+            "write line {line} of the list as `{}`",
+            written.trim()
+        ))
+    }
+
+    /// Names the items and the lines within the lists in place of those of the file in what is known about a drive.
+    pub fn rename_evidence(&self, drive: &mut DriveReport) {
+        for presence in [&mut drive.additive_torque, &mut drive.actual_torque] {
+            if let Presence::Present { evidence } | Presence::Missing { evidence } = presence {
+                self.rename(&mut evidence.origin);
+            }
+        }
+    }
+
+    /// Names the item and the line within the list in place of those of the file.
+    pub(super) fn rename(&self, origin: &mut Origin) {
+        if let Origin::File { file, line } = origin
+            && let Some((list, within)) = self.list(file, *line)
+        {
+            *file = format!("{file}, {}", list.item);
+            *line = within;
+        }
+    }
 }

@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use super::assemble::AxisDraft;
-use super::embedded::EmbeddedList;
-use super::files::{NoList, folder, join};
-use super::loader::Loader;
+use super::axis::AxisDraft;
+use super::loader::{EmbeddedList, Loader, NoList, folder, join};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::lists::{
     AxisPlacement, Given, ListKind, NamedList, NoProject, Project, ProjectList, ProjectReference,

@@ -1,8 +1,7 @@
 //! Reads the axes that a start-up list describes (R3.12 to R3.14).
 
-use super::assemble::AxisDraft;
-use super::files::folder;
-use super::loader::{FirstChannel, Loader};
+use super::axis::AxisDraft;
+use super::loader::{FirstChannel, Loader, folder};
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{

@@ -1,14 +1,20 @@
-//! Every diagnostic of a program, each once, in the order of the text; the comment that allows it there (R9.24, R12.5), and
-//! the fixes that may be made without a review (R9.82).
+//! The messages of programs.
+//!
+//! Every diagnostic of a program, each once, in the order of the text; the comment that allows it there (R9.24, R12.5), and the fixes
+//! that may be made without a review (R9.82). A message in a loop is reported once per place, with the number of its repetitions, and
+//! the messages of a file are limited (R2.85). Remarks on a whole program: FC326, it is plainly one of another control (R2.97); the
+//! machine is not described (R1.37). Those of many programs are reported one a cause (R17.1).
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Diagnostic, Fix, Safety, Severity};
-use crate::syntax::{MAX_LINE, allow, goes_on};
-use crate::text::{Position, SourceFile, Span};
-use crate::timeline::{Record, Repeat, Sink};
+use crate::diagnostic::{Advice, Code, Diagnostic, Fix, Safety, Severity};
+use crate::machine::Machine;
+use crate::syntax::{Foreign, MAX_LINE, allow, foreign, goes_on};
+use crate::text::{Place, Position, SourceFile, Span, StartsInOrder, lines_of};
+use crate::timeline::{EndNote, Record, Repeat, Sink};
 
 /// Key that is equal for equal diagnostics.
 type FindingKey = (Arc<str>, Position, Position, Code, String);
@@ -220,6 +226,299 @@ impl SafeFixes {
     }
 }
 
+/// Number of messages about such a file: this one and 20 others.
+pub(super) const MAX_SAID: usize = 21;
+
+/// Looks at the head of a program.
+pub(super) fn look(file: &str, head: &str) -> Option<Diagnostic> {
+    let found = foreign(head)?;
+    let mut lines = lines_of(head).zip(1..);
+    let (line, number) = lines.find(|(line, _)| !line.trim().is_empty())?;
+    let place = Place {
+        file: file.into(),
+        text: line.trim_end().into(),
+        first_line: number,
+        span: Span::new(0, line.trim_end().len()),
+    };
+    let Foreign {
+        dialect,
+        words,
+        blocks,
+        of,
+    } = found;
+    let words = words.join("`, `");
+    let message = format!(
+        "this is a program for {dialect}, not for an ISG control: {blocks} of the first {of} blocks have words such as `{words}`"
+    );
+    let help = "its other messages are meaningless; leave the program out, or translate it";
+    Some(Diagnostic::new(Code::Fc326, place, message).with_help(help))
+}
+
+/// Says that no machine is described, and how to mend it for the axes that the programs switch.
+/// `None` where one is.
+pub fn undescribed(machine: &Machine, switched: &[String]) -> Option<Advice> {
+    (!machine.is_described()).then(|| Advice::DescribeMachine(switched.to_vec()))
+}
+
+/// Key by which two messages have one cause (R17.3). The message names the kind of compensation.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+struct CauseKey {
+    file: Arc<str>,
+    first_line: u32,
+    span: Span,
+    code: Code,
+    severity: Severity,
+    axis: Option<String>,
+    message: String,
+}
+
+impl CauseKey {
+    fn of(said: &Diagnostic) -> Self {
+        if said.code == Code::Fc408 {
+            // That nothing describes an axis is one cause, whichever block switches it (R18.2).
+            return Self {
+                file: Arc::default(),
+                first_line: 0,
+                span: Span::default(),
+                code: said.code,
+                severity: said.severity,
+                axis: said.axis.clone(),
+                message: said.help().join("\n"),
+            };
+        }
+        Self {
+            file: Arc::clone(&said.place.file),
+            first_line: said.place.first_line,
+            span: said.place.span,
+            code: said.code,
+            severity: said.severity,
+            axis: said.axis.clone(),
+            message: said.uncounted().to_owned(),
+        }
+    }
+}
+
+/// The messages of many programs: those that arise at the same block of a called program are one,
+/// with the programs that reach it (R17.1).
+///
+/// ```
+/// use frictcomp::machine::Machine;
+/// use frictcomp::session::{Causes, SessionOptions};
+/// use frictcomp::interpreter::NoFiles;
+/// use frictcomp::text::SourceFile;
+///
+/// let mut causes = Causes::default();
+/// for name in ["a.nc", "b.nc"] {
+///     let program = SourceFile::new(name, "N10 Y[COMP ON FRICT]\nN20 M30\n");
+///     let (machine, options) = (Machine::enabled(["X"]), SessionOptions::default());
+///     causes.add(frictcomp::check(program, machine, options, &mut NoFiles));
+/// }
+/// // Each has its own block, so these are two.
+/// assert_eq!(causes.diagnostics().len(), 2);
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Causes {
+    said: Vec<Diagnostic>,
+    known: HashMap<CauseKey, usize>,
+}
+
+impl Causes {
+    /// Adds the messages of one program; returns their positions among [`diagnostics`](Self::diagnostics).
+    pub fn add(&mut self, findings: Findings) -> Vec<usize> {
+        let said = findings.into_diagnostics();
+        said.map(|said| self.say(said)).collect()
+    }
+
+    /// Adds one message, for example about a list; returns its position.
+    pub fn say(&mut self, said: Diagnostic) -> usize {
+        let next = self.said.len();
+        let at = *self.known.entry(CauseKey::of(&said)).or_insert(next);
+        let Some(known) = self.said.get_mut(at) else {
+            self.said.push(said);
+            return at;
+        };
+        if known.place != said.place {
+            return at;
+        }
+        known.reached_from.append(&said.reached_from);
+        if said.times > known.times {
+            (known.times, known.message) = (said.times, said.message);
+        }
+        // The changes that remain serve all the programs.
+        known.fixes.retain(|fix| said.fixes.contains(fix));
+        at
+    }
+
+    /// The messages, in the order in which they were said first.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.said
+    }
+}
+
+/// Different messages of one code at one place; further ones count with the last.
+const MAX_AT_A_PLACE: usize = 16;
+
+/// Whether a message is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum DedupVerdict {
+    /// It is new.
+    Say,
+    /// It was reported at this place before.
+    Repeated,
+    /// Its file has reached its limit; the message is only counted.
+    TooMany,
+}
+
+type SayingKey = (Code, Arc<str>, Position);
+
+/// A message that was reported.
+struct Saying {
+    /// A hash of its text.
+    hash: u64,
+    times: u64,
+    /// Its text, from the second time on.
+    message: String,
+}
+
+/// Messages of one file.
+#[derive(Default)]
+struct PerFile {
+    said: usize,
+    /// Number of messages left out, and the place of the first of them.
+    more: u64,
+    place: Option<Place>,
+}
+
+/// Messages of a program so far.
+pub(super) struct MessageDedup {
+    /// Limit of messages of a file.
+    most: usize,
+    places: HashMap<SayingKey, Vec<Saying>>,
+    files: HashMap<Arc<str>, PerFile>,
+    starts: StartsInOrder,
+}
+
+impl MessageDedup {
+    /// No message yet, with a limit of messages for each file.
+    pub(super) fn at_most(most: usize) -> Self {
+        Self {
+            most,
+            places: HashMap::new(),
+            files: HashMap::new(),
+            starts: StartsInOrder::default(),
+        }
+    }
+
+    /// Takes a message about an executed block; best in the order of their places.
+    pub(super) fn take(&mut self, diagnostic: &Diagnostic) -> DedupVerdict {
+        let place = &diagnostic.place;
+        let start = self.starts.start(place);
+        let mut hasher = DefaultHasher::new();
+        diagnostic.message.hash(&mut hasher);
+        let hash = hasher.finish();
+        let key = (diagnostic.code, place.file.clone(), start);
+        let sayings = self.places.get_mut(&key);
+        if let Some(sayings) = sayings {
+            let full = sayings.len() >= MAX_AT_A_PLACE;
+            let known = sayings.iter().position(|saying| saying.hash == hash);
+            let known = known.or(full.then(|| sayings.len() - 1));
+            if let Some(saying) = known.and_then(|known| sayings.get_mut(known)) {
+                if saying.times == 1 {
+                    saying.message.clone_from(&diagnostic.message);
+                }
+                saying.times += 1;
+                return DedupVerdict::Repeated;
+            }
+        }
+        if !self.has_room(place) {
+            return DedupVerdict::TooMany;
+        }
+        self.places.entry(key).or_default().push(Saying {
+            hash,
+            times: 1,
+            message: String::new(),
+        });
+        DedupVerdict::Say
+    }
+
+    /// Takes a message at the end, where none is repeated.
+    pub(super) fn take_last(&mut self, diagnostic: &Diagnostic) -> DedupVerdict {
+        if self.has_room(&diagnostic.place) {
+            DedupVerdict::Say
+        } else {
+            DedupVerdict::TooMany
+        }
+    }
+
+    /// Counts a message against the limit of its file.
+    fn has_room(&mut self, place: &Place) -> bool {
+        let file = match self.files.get_mut(&place.file) {
+            Some(file) => file,
+            None => self.files.entry(place.file.clone()).or_default(),
+        };
+        if file.said < self.most {
+            file.said += 1;
+            return true;
+        }
+        file.more += 1;
+        if file.place.is_none() {
+            file.place = Some(place.clone());
+        }
+        false
+    }
+
+    /// Returns the messages that applied more often than they were said, in the order of their places.
+    pub(super) fn repeats(&self) -> Vec<Repeat> {
+        let mut repeated = Vec::new();
+        for ((code, file, start), sayings) in &self.places {
+            for saying in sayings.iter().filter(|saying| saying.times > 1) {
+                repeated.push(Repeat {
+                    code: *code,
+                    file: file.to_string(),
+                    line: start.line,
+                    times: saying.times,
+                    start: *start,
+                    message: saying.message.clone(),
+                });
+            }
+        }
+        repeated.sort_by(|a, b| {
+            let order = (&a.file, a.line, a.code).cmp(&(&b.file, b.line, b.code));
+            let places = (a.start.line, a.start.column).cmp(&(b.start.line, b.start.column));
+            order.then(places).then_with(|| a.message.cmp(&b.message))
+        });
+        repeated
+    }
+
+    /// FC905 for each file with more messages; `unsaid` messages about the program's own file
+    /// were counted before they came here.
+    pub(super) fn rest(&mut self, unsaid: u64, seq: u64) -> Vec<EndNote> {
+        let mut full: Vec<(&Arc<str>, &mut PerFile)> = self
+            .files
+            .iter_mut()
+            .filter(|(_, file)| file.place.is_some())
+            .collect();
+        full.sort_by_key(|(name, _)| Arc::clone(name));
+        if let Some((_, first)) = full.first_mut() {
+            first.more = first.more.saturating_add(unsaid);
+        }
+        let most = self.most;
+        let notes = full.into_iter().filter_map(|(_, file)| {
+            let more = file.more;
+            let messages = if more == 1 { "message" } else { "messages" };
+            let message = format!(
+                "{most} messages about this file are shown; {more} more {messages}, from here on, are only counted"
+            );
+            Some(EndNote {
+                seq,
+                diagnostic: Diagnostic::new(Code::Fc905, file.place.clone()?, message)
+                    .with_help("correct what is shown and run again"),
+            })
+        });
+        notes.collect()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -238,5 +537,46 @@ mod tests {
             .map(|diagnostic| diagnostic.place.start().to_string())
             .collect();
         assert_eq!(starts, ["1:1", "1:4", "2:1"]);
+    }
+
+    #[test]
+    fn all_axes_are_proposed_in_one_list() {
+        // R1.37
+        let axes = ["X".to_owned(), "Y".to_owned()];
+        let said = undescribed(&Machine::unconfigured(), &axes).map(|said| said.to_string());
+        assert!(said.is_some_and(|said| said.ends_with("friction compensation of X, Y")));
+        let said = undescribed(&Machine::unconfigured(), &[]).map(|said| said.to_string());
+        assert!(said.is_some_and(|said| said.ends_with("assume friction compensation")));
+        assert_eq!(undescribed(&Machine::enabled(["X"]), &axes), None);
+    }
+
+    #[test]
+    fn equal_messages_at_one_place_are_one() {
+        // R17.1, R17.3
+        let file = SourceFile::new("sub.nc", "N1 X\nN2 Y");
+        let said = |start, message: &str, program: &str| {
+            let place = file.place(Span::new(start, start + 1));
+            let mut said = Diagnostic::new(Code::Fc401, place, message);
+            said.reached_from.add(&Arc::from(program));
+            said
+        };
+        let mut causes = Causes::default();
+        causes.say(said(3, "x", "a.nc"));
+        causes.say(said(3, "y", "a.nc"));
+        causes.say(said(3, "x", "b.nc"));
+        causes.say(said(0, "x", "b.nc"));
+        let mut warned = said(3, "x", "c.nc");
+        warned.severity = Severity::Info;
+        causes.say(warned);
+        let lines: Vec<_> = causes.diagnostics().iter().map(Diagnostic::line).collect();
+        assert_eq!(
+            lines,
+            [
+                "x (reached from 2 programs: a.nc, b.nc)",
+                "y (reached from a.nc)",
+                "x (reached from b.nc)",
+                "x (reached from c.nc)"
+            ]
+        );
     }
 }

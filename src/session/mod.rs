@@ -2,11 +2,8 @@
 //!
 //! Each program starts with the state that the one before it leaves.
 
-mod causes;
 mod findings;
-mod message_dedup;
 mod recorder;
-mod remarks;
 mod saved;
 mod totals;
 
@@ -14,9 +11,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-pub use causes::Causes;
+pub use findings::Causes;
+pub use findings::undescribed;
 pub use findings::{Findings, ProposedFixes, SafeFixes, allow_here};
-pub use remarks::undescribed;
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 
 use crate::comp::{AxisIndex, Compensation, Kind};
@@ -28,7 +25,7 @@ use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::syntax::VariableName;
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, Record, Sink, StateView, Summary};
-use message_dedup::MessageDedup;
+use findings::MessageDedup;
 use recorder::{NoteBook, Recorder};
 use saved::{fingerprint, storable};
 use totals::SessionTotals;
@@ -319,8 +316,10 @@ impl Session {
         sink: &mut dyn Sink,
     ) -> ControlFlow<(), EndedBy> {
         self.programs += 1;
-        let foreign = remarks::look(file, program.head());
-        let most = foreign.as_ref().map_or(MAX_MESSAGES, |_| remarks::MAX_SAID);
+        let foreign = findings::look(file, program.head());
+        let most = foreign
+            .as_ref()
+            .map_or(MAX_MESSAGES, |_| findings::MAX_SAID);
         let machine = Arc::clone(&self.machine);
         let mut recorder = Recorder {
             machine: &machine,

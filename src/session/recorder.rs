@@ -5,19 +5,19 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use super::findings::{DedupVerdict, MessageDedup};
+use super::totals::SessionTotals;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
-use crate::interpreter::EndedBy;
-use crate::interpreter::{BlockMove, Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
+use crate::interpreter::{
+    BlockMove, Ended, EndedBy, Event, Executed, Note, NoteKind, Observer, limit_to,
+};
 use crate::lint::{LeftAwayNotice, Linter};
 use crate::machine::Machine;
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span, lines_of};
 use crate::timeline::{ChangedBy, End, EndNote, Join, Record, Row, Sink, StateView};
-
-use super::message_dedup::{DedupVerdict, MessageDedup};
-use super::totals::SessionTotals;
 
 /// Number of blocks that the summary of an axis names.
 const MAX_NAMED: usize = 100;

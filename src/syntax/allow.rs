@@ -1,6 +1,6 @@
 //! `; frictcomp: allow FC402 reason`: a user's statement that a message is known (R9.24).
 
-use super::fault::Fault;
+use super::parse::Fault;
 use crate::diagnostic::{Code, did_you_mean, nearest};
 use crate::text::Span;
 

@@ -1,7 +1,7 @@
 //! The words of a COMP bracket: which kinds, switched how (R1.1 to R1.6).
 
-use super::fault::Fault;
-use super::upper_case::in_upper_case;
+use super::keywords::in_upper_case;
+use super::parse::Fault;
 use crate::comp::{CompCommand, Kind, KindSet, Selection};
 use crate::diagnostic::{Code, nearest};
 use crate::text::Span;

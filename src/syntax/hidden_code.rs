@@ -2,7 +2,7 @@
 //! value (R18.7, R9.94).
 
 use super::ast::{Address, Block, Operand, Word};
-use super::fault::Fault;
+use super::parse::Fault;
 use super::pieces::{PieceKind, is_blank, is_open_comment, pieces};
 use crate::diagnostic::{Code, Fix};
 use crate::language::GFunction;

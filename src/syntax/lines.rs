@@ -5,11 +5,10 @@
 
 use super::allow::MARK;
 use super::ast::Block;
-use super::fault::Fault;
-use super::hash_words::opening_command;
 use super::hidden_code::{faults_of_lines, open_region, reordered, words_without_value};
-use super::mask::{Masked, mask, mask_number};
-use super::pieces::is_blank;
+use super::keywords::opening_command;
+use super::parse::Fault;
+use super::pieces::{Masked, is_blank, mask, mask_number};
 use super::raw::{Comments, LatestRemarks, LostRemarks, MAX_LINE, RawBlock, Remark, Stretch};
 use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};

@@ -11,44 +11,31 @@ pub(crate) mod allow;
 pub mod ast;
 #[cfg(not(feature = "unstable"))]
 pub(crate) mod ast;
-mod brackets;
 mod comp;
+mod content;
 mod control_block;
-mod dialect;
 mod expression;
 mod fast;
-mod fault;
-mod flow_scan;
 mod grammar;
-mod hash_words;
 mod hidden_code;
 mod keywords;
 mod lines;
-#[cfg(feature = "unstable")]
-mod look_alike;
 mod lower;
-mod mask;
 mod names;
-mod no_program;
 mod parse;
 mod pieces;
 mod raw;
 mod scan;
 mod skip_levels;
-mod upper_case;
 mod variable_name;
 
-pub use brackets::MAX_BRACKETS;
+pub(crate) use content::{Foreign, foreign};
 #[cfg(not(feature = "unstable"))]
 pub(crate) use control_block::{ControlBlock, Part, control_part};
 #[cfg(feature = "unstable")]
 pub use control_block::{ControlBlock, Part, control_part};
-pub(crate) use dialect::{Foreign, foreign};
-pub use fault::Fault;
-pub(crate) use fault::repeated_word;
-pub use flow_scan::FlowScan;
 pub use grammar::bound_reading;
-pub(crate) use hash_words::hash_name;
+pub(crate) use keywords::hash_name;
 pub(crate) use keywords::{is_letter, is_program_number, is_statement, not_known};
 #[cfg(feature = "unstable")]
 pub use lines::BlockReader;
@@ -57,30 +44,34 @@ pub(crate) use lines::BlockReader;
 pub use lines::FastPath;
 pub use names::{AxisUse, axis_uses};
 pub(crate) use names::{MAX_MACROS, is_axis_name, with_macros};
+pub use parse::Fault;
 pub use parse::parse_comp;
+pub(crate) use parse::repeated_word;
 #[cfg(not(feature = "unstable"))]
 pub(crate) use parse::{is_lone_end, parse_block, parse_expression};
 #[cfg(feature = "unstable")]
 pub use parse::{is_lone_end, parse_block, parse_expression};
+pub use pieces::MAX_BRACKETS;
 pub use raw::{Comments, MAX_LINE, Remark};
 #[cfg(not(feature = "unstable"))]
 pub(crate) use raw::{LineFault, LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LineFault, LostRemarks, RawBlock, Stretch};
+pub use scan::FlowScan;
 
-#[cfg(feature = "unstable")]
-pub use look_alike::reads_as_program;
 #[cfg(not(feature = "unstable"))]
-pub(crate) use mask::code_of;
+pub(crate) use content::no_program;
 #[cfg(feature = "unstable")]
-pub use mask::code_of;
-pub(crate) use mask::goes_on;
+pub use content::reads_as_program;
+#[cfg(feature = "unstable")]
+pub use content::{HEAD, no_program};
 #[cfg(feature = "unstable")]
 pub use names::{NameInBlock, NameRole, Named, names_in};
 #[cfg(not(feature = "unstable"))]
-pub(crate) use no_program::no_program;
+pub(crate) use pieces::code_of;
 #[cfg(feature = "unstable")]
-pub use no_program::{HEAD, no_program};
+pub use pieces::code_of;
+pub(crate) use pieces::goes_on;
 #[cfg(feature = "unstable")]
 pub use pieces::{PieceKind, code_words, kind_at};
 pub(crate) use scan::may_call_file;

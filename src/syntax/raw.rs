@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::ast::Block;
-use super::fault::Fault;
+use super::parse::Fault;
 use crate::diagnostic::{Code, Diagnostic, MAX_MESSAGES};
 use crate::text::{Place, Span};
 

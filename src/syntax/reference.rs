@@ -7,10 +7,10 @@
 use fastrand::Rng;
 
 use super::ast::Block;
-use super::brackets::brackets;
 use super::grammar::Rule;
 use super::lines::{BlockReader, FastPath};
 use super::lower;
+use super::pieces::brackets;
 use super::raw::Stretch;
 use crate::diagnostic::Code;
 use crate::text::TextLines;

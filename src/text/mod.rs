@@ -6,14 +6,13 @@
 
 mod file;
 mod hidden;
-mod lines;
 mod numbering;
 mod place;
 
 pub use file::SourceFile;
+pub(crate) use file::lines_of;
+pub use file::{LineIndex, LineSource, PhysicalLine, TextLines, Utf16Position, line_end};
 pub use hidden::{changed_direction, is_hidden, shown_json};
-pub(crate) use lines::lines_of;
-pub use lines::{LineIndex, LineSource, PhysicalLine, TextLines, Utf16Position, line_end};
 pub(crate) use numbering::Numbering;
 pub(crate) use place::{MAX_WHOLE, StartsInOrder};
 pub use place::{Place, Position, Span, shown_path};

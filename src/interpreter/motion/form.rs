@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::comp::AxisIndex;
-use crate::interpreter::motion::contouring::Contouring;
+use crate::interpreter::motion::pace::Contouring;
 use crate::language::{Certainty, MotionKind, Simplifications};
 use crate::lists::SlopeProfile;
 use crate::text::Span;

@@ -1,13 +1,15 @@
-//! Modal state: the G functions in force, the feeds, and programmed positions (R2.45 to R2.47).
+//! Modal state: the G functions in force, the feeds, programmed positions (R2.45 to R2.47), and what the end of a cycle restores
+//! of it (P-CHAN-00210).
 
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
 use crate::comp::AxisIndex;
-use crate::interpreter::motion::contouring::Contouring;
 use crate::interpreter::motion::form::{AxisWord, BlockEnd, ToolSide, WordValue, shifted};
-use crate::interpreter::motion::pace::{LackingFeeds, Pace, ProgrammedFeed, SlopeSelection};
+use crate::interpreter::motion::pace::{
+    Contouring, LackingFeeds, Pace, ProgrammedFeed, SlopeSelection,
+};
 use crate::language::{
     ChainStep, ContouringCommand, GAction, GFunction, Group, GroupSet, HashCommand, HashWords,
     Holds, OnOff, Simplification, Simplifications,
@@ -787,5 +789,55 @@ impl GFunctions {
     /// Any mode may have a feed that the program does not say.
     pub(crate) fn perhaps_give_feeds(&mut self) {
         self.lacking = LackingFeeds::default();
+    }
+}
+
+/// G functions that separate positions from those of the machine.
+const TRANSFORMING: [&str; 2] = ["G41", "G21"];
+
+/// G functions and feeds before a cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Saved {
+    functions: GFunctions,
+    transformed: [bool; 2],
+}
+
+impl Saved {
+    /// Makes unknown what differs between two saved states.
+    pub(crate) fn join(&mut self, other: &Self) {
+        if self == other {
+            return;
+        }
+        for group in Group::ALL {
+            self.functions.unknown.insert(group);
+        }
+        for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
+            *mine = mine.filter(|_| *mine == theirs);
+        }
+        self.functions.lacking.join(other.functions.lacking);
+        for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
+            *mine |= theirs;
+        }
+    }
+}
+
+impl Modal {
+    /// Saves the state that a cycle may change and its end restores.
+    pub(crate) fn save(&self) -> Saved {
+        Saved {
+            functions: self.functions.clone(),
+            transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
+        }
+    }
+
+    /// The end of a cycle.
+    pub(crate) fn restore(&mut self, saved: &Saved) {
+        if self.functions.offset != saved.functions.offset {
+            self.havoc_positions();
+        }
+        self.functions = saved.functions.clone();
+        for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
+            self.transform(name, on);
+        }
     }
 }

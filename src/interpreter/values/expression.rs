@@ -8,12 +8,13 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::interpreter::values::externals::HeldValues;
-use crate::interpreter::values::functions::{binary, call, fault, numbers, numeric, wrong_type};
 use crate::interpreter::values::handover::VariableUse;
 use crate::interpreter::values::location::{Denoted, Location, Reads, Unknown};
 use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::names::Misuse;
-use crate::interpreter::values::value::{Slot, Value, rounded};
+use crate::interpreter::values::value::{
+    Slot, Value, binary, call, fault, numbers, numeric, rounded, wrong_type,
+};
 use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
 use crate::readings::Alternative;
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};

@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::{Advice, Budget};
 use crate::interpreter::values::externals::SetAt;
-use crate::interpreter::values::functions::numeric;
-use crate::interpreter::values::value::{Slot, Value, rounded};
+use crate::interpreter::values::value::{Slot, Value, numeric, rounded};
 use crate::language::{ControlError, is_command};
 use crate::syntax::ast::Owner;
 use crate::syntax::{Fault, Subscript, VariableName};

@@ -2,7 +2,6 @@
 
 pub(super) mod expression;
 pub(super) mod externals;
-pub(super) mod functions;
 pub(super) mod handover;
 pub(super) mod location;
 pub(super) mod memory;

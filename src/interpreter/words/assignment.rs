@@ -12,10 +12,9 @@ use crate::interpreter::motion::modal::PositionFrame;
 use crate::interpreter::values::expression::{
     Evaluator, ExpressionScope, Macros, ParameterSource, misused,
 };
-use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::location::{Denoted, Location, Unknown};
 use crate::interpreter::values::names::Sure;
-use crate::interpreter::values::value::{Slot, TypedValue, Value, ValueType, exact};
+use crate::interpreter::values::value::{Slot, TypedValue, Value, ValueType, exact, numeric};
 use crate::language::{Flushes, is_read_only};
 use crate::lists::AxisType;
 use crate::readings::{Alternative, Question};

@@ -15,10 +15,9 @@ use crate::interpreter::stack::{
     AwaitedBlock, CallFrame, ControlStep, Destination, Passage, Request,
 };
 use crate::interpreter::values::expression::unquoted;
-use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::handover::VariableUse;
 use crate::interpreter::values::location::Unknown;
-use crate::interpreter::values::value::{Value, rounded};
+use crate::interpreter::values::value::{Value, numeric, rounded};
 use crate::machine::Keeps;
 use crate::syntax::Fault;
 use crate::syntax::ast::{

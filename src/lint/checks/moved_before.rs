@@ -4,8 +4,7 @@ use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
 use crate::interpreter::{Certainty, Executed, MotionKind, MovedAxis, UntouchedOn};
 use crate::lint::linter::Linter;
-use crate::lint::memory::{Held, Touch, is_of_a_kind};
-use crate::lint::session_states::Maker;
+use crate::lint::memory::{Held, Maker, Touch, is_of_a_kind};
 use crate::syntax::code_of;
 use crate::text::lines_of;
 

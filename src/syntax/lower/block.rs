@@ -5,14 +5,12 @@ use pest::iterators::Pair;
 
 use crate::diagnostic::Code;
 use crate::syntax::ast::{Assignment, Block, CallScope, Effect, Item, Target};
-use crate::syntax::brackets::{Brackets, brackets};
 use crate::syntax::expression;
-use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule, gave_up};
-use crate::syntax::keywords::not_known;
-use crate::syntax::pieces::is_blank;
+use crate::syntax::keywords::{in_upper_case, not_known};
+use crate::syntax::parse::Fault;
+use crate::syntax::pieces::{Brackets, brackets, is_blank};
 use crate::syntax::skip_levels::SkipLevels;
-use crate::syntax::upper_case::in_upper_case;
 use crate::text::Span;
 
 /// Parses the code of a block into an empty block.

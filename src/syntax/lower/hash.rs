@@ -10,10 +10,11 @@ use crate::language::{
 };
 use crate::syntax::ast::{BracketArguments, Declaration, Effect, Hash, Item, Operand, Target};
 use crate::syntax::expression;
-use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule};
-use crate::syntax::hash_words::{CommandName, command_name, goes_on, hash_name, opening_command};
-use crate::syntax::keywords::not_known;
+use crate::syntax::keywords::{
+    CommandName, command_name, goes_on, hash_name, not_known, opening_command,
+};
+use crate::syntax::parse::Fault;
 use crate::syntax::pieces::is_blank;
 use crate::text::Span;
 

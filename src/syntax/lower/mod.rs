@@ -1,8 +1,6 @@
 //! pest pairs to blocks.
 
 mod block;
-mod bracket;
-mod call;
 mod flow;
 mod hash;
 mod word;

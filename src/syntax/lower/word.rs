@@ -1,12 +1,22 @@
-//! Words: block numbers, addresses with a value, axes with longer names, `G800[…]`.
+//! Words: block numbers, addresses with a value, axes with longer names, `G800[…]`, words of a spindle, and commands in the brackets
+//! of an axis or spindle.
 
+use pest::Parser;
 use pest::iterators::Pair;
 
-use super::block::{BlockLowering, span_of};
-use crate::diagnostic::Code;
-use crate::syntax::ast::{Address, BlockNumber, Effect, GCall, Item, Operand, Word};
-use crate::syntax::fault::{Fault, repeated_word};
-use crate::syntax::{expression, grammar::Rule};
+use super::block::{BlockLowering, not_closed, span_of, trimmed};
+use crate::diagnostic::{Code, Fix, did_you_mean, nearest};
+use crate::language::AxisCommand;
+use crate::syntax::ast::{
+    Address, Argument, BlockNumber, BracketArguments, Effect, GCall, Item, Operand, SpindleWord,
+    Word,
+};
+use crate::syntax::comp::{CompWords, end_of_command};
+use crate::syntax::expression;
+use crate::syntax::grammar::{NcParser, Rule};
+use crate::syntax::keywords::{is_spindle_command, is_spindle_word};
+use crate::syntax::parse::{Fault, repeated_word};
+use crate::syntax::pieces::is_blank;
 use crate::text::Span;
 
 impl BlockLowering<'_> {
@@ -201,4 +211,248 @@ fn address(byte: u8) -> Address {
     } else {
         Address::Letter(byte.to_ascii_uppercase())
     }
+}
+
+impl BlockLowering<'_> {
+    pub(super) fn axis_bracket(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut axis = span;
+        let mut body = None;
+        let mut closed = false;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::axis_name => axis = trimmed(span_of(&part), self.code),
+                Rule::bracket_body => body = Some(span_of(&part)),
+                Rule::bracket_end => closed = true,
+                _ => {}
+            }
+        }
+        let body = body.unwrap_or(span);
+        if !closed {
+            let open = self.code[axis.end as usize..].find('[').unwrap_or_default();
+            self.unclosed = None;
+            let open = axis.end as usize + open;
+            let mut fault = not_closed(open);
+            if let Some(end) = end_of_command(self.code, open + 1) {
+                fault = fault.with_fix(Fix::guess(Span::new(end, end), "]"));
+            }
+            self.refuse(fault, span);
+            return;
+        }
+        let words = words(self.code, body);
+        if words.iter().any(|word| word.of(self.code).contains('"')) {
+            // The code of a macro may be any part of the command.
+            self.unread(Effect::Everything, span);
+            return;
+        }
+        let keyword = words.first().copied();
+        let first = keyword.map_or("", |word| word.of(self.code));
+        if first.eq_ignore_ascii_case("COMP") {
+            let command = CompWords {
+                text: self.code,
+                axis,
+                whole: span,
+                words: &words,
+            }
+            .lower(&mut self.block.faults);
+            self.block.items.push(match command {
+                Some(command) => Item::Comp(command),
+                None => Item::BadCommand(span),
+            });
+        } else if let Some(keyword) = keyword {
+            let spindle = axis.of(self.code).starts_with(['S', 's']) && !near_comp(first);
+            let known = if spindle {
+                is_spindle_command(first)
+            } else {
+                AxisCommand::is_known(first)
+            };
+            if known {
+                let words: Vec<&str> = words.iter().map(|word| word.of(self.code)).collect();
+                let command = AxisCommand::of(first, &words);
+                let arguments = self.arguments_in(body);
+                let spindle = if spindle {
+                    self.spindle_words(&arguments)
+                } else {
+                    Vec::new()
+                };
+                self.block.items.push(Item::Bracket {
+                    axis,
+                    keyword,
+                    command,
+                    arguments,
+                    spindle,
+                    span,
+                });
+            } else if spindle {
+                self.unread(Effect::Spindle, span);
+            } else {
+                self.refuse(invalid_keyword(keyword, first), span);
+            }
+        } else {
+            self.refuse(
+                Fault::new(
+                    Code::PErr21301,
+                    span,
+                    "the bracket of the axis contains no keyword",
+                )
+                .with_help("write `X[COMP ON FRICT]`, or an expression for a position"),
+                span,
+            );
+        }
+    }
+
+    /// `S.POS180`
+    pub(super) fn spindle_word(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut name = span;
+        let mut value = None;
+        let mut bracketed = false;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::spindle_name => name = trimmed(span_of(&part), self.code),
+                Rule::expression => value = Some(expression::lower(part, 0, self.block)),
+                _ => bracketed = true,
+            }
+        }
+        let word = name.of(self.code).split('.').nth(1).unwrap_or_default();
+        if bracketed || !is_spindle_word(word) {
+            self.unread(Effect::Spindle, span);
+            return;
+        }
+        self.block.push_word(Word {
+            address: Address::Name(name),
+            value,
+            span,
+        });
+    }
+}
+
+/// The words of a bracket, separated by blanks.
+fn words(code: &str, body: Span) -> Vec<Span> {
+    let text = body.of(code);
+    let mut words = Vec::new();
+    let mut start = None;
+    for (at, c) in text.char_indices().chain([(text.len(), ' ')]) {
+        match (is_blank(c), start) {
+            (false, None) => start = Some(at),
+            (true, Some(from)) => {
+                words.push(Span::new(from, at).shifted(body.start));
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    words
+}
+
+fn near_comp(word: &str) -> bool {
+    did_you_mean(word, ["COMP"]).is_some()
+}
+
+fn invalid_keyword(span: Span, word: &str) -> Fault {
+    let known = AxisCommand::keywords().chain(["COMP"]);
+    let fault = Fault::new(
+        Code::PErr21301,
+        span,
+        format!("invalid first keyword `{word}` in an axis bracket"),
+    );
+    let near = nearest(word, known);
+    if near.is_empty() {
+        return fault.with_help("friction compensation is switched with `COMP ON FRICT`");
+    }
+    fault.with_near(span, &near)
+}
+
+impl BlockLowering<'_> {
+    /// The arguments in a part of the block.
+    pub(super) fn arguments_in(&mut self, part: Span) -> BracketArguments {
+        let mut arguments = Vec::new();
+        let (mut group, mut item) = (0, 0);
+        let read = NcParser::parse(Rule::arguments, part.of(self.read));
+        let read = read.into_iter().flatten().flat_map(Pair::into_inner);
+        for pair in read {
+            match pair.as_rule() {
+                Rule::argument_group => (group, item) = (group + 1, item + 1),
+                Rule::argument_next => item += 1,
+                Rule::argument | Rule::argument_other => {
+                    let mut argument = Argument {
+                        group,
+                        item,
+                        key: None,
+                        span: trimmed(span_of(&pair).shifted(part.start), self.code),
+                        value: None,
+                    };
+                    for inner in pair.into_inner() {
+                        self.take_part(inner, part.start, &mut argument);
+                    }
+                    arguments.push(argument);
+                }
+                _ => {}
+            }
+        }
+        BracketArguments(arguments)
+    }
+
+    /// Takes the key or the value of an argument.
+    fn take_part(&mut self, part: Pair<'_, Rule>, base: u32, argument: &mut Argument) {
+        let is_key = part.as_rule() == Rule::argument_key;
+        let Some(inner) = part.into_inner().next() else {
+            return;
+        };
+        let span = trimmed(span_of(&inner).shifted(base), self.code);
+        if is_key {
+            argument.key = Some(span);
+            return;
+        }
+        argument.span = span;
+        if inner.as_rule() == Rule::expression {
+            argument.value = self.value_of(inner, base);
+        }
+    }
+
+    /// The value of an argument; none where it cannot be read.
+    fn value_of(&mut self, pair: Pair<'_, Rule>, base: u32) -> Option<Operand> {
+        let (said, nodes) = (self.block.faults.len(), self.block.nodes.len());
+        let value = expression::lower(pair, base, self.block);
+        if self.block.faults.len() == said {
+            return Some(value);
+        }
+        self.block.faults.truncate(said);
+        self.block.nodes.truncate(nodes);
+        self.block.spans.truncate(nodes);
+        None
+    }
+
+    /// The words in the bracket of a spindle that are followed: `REV1200`, `REV=P1`, `M3`.
+    pub(super) fn spindle_words(&mut self, arguments: &BracketArguments) -> Vec<SpindleWord> {
+        let mut words = Vec::new();
+        for argument in arguments.iter() {
+            let word = argument.key.unwrap_or(argument.span);
+            let text = word.of(self.code);
+            if let Some(speed) = after_letters(text, "REV") {
+                let digits = Span::new(word.end as usize - speed.len(), word.end as usize);
+                let value = match argument.key {
+                    Some(_) => argument.value,
+                    None => self.lone_value(digits),
+                };
+                words.push(SpindleWord::Speed(value));
+            } else if let Some(number) = after_letters(text, "M")
+                && let Ok(number) = number.parse()
+            {
+                words.push(SpindleWord::M(number));
+            }
+        }
+        words
+    }
+
+    /// The value of a text that is one expression.
+    fn lone_value(&mut self, span: Span) -> Option<Operand> {
+        let read = NcParser::parse(Rule::lone_expression, span.of(self.read)).ok()?;
+        let value = read.flat_map(Pair::into_inner).next()?;
+        self.value_of(value, span.start)
+    }
+}
+
+/// The text after some letters, in either case.
+fn after_letters<'a>(word: &'a str, letters: &str) -> Option<&'a str> {
+    let (start, rest) = word.split_at_checked(letters.len())?;
+    start.eq_ignore_ascii_case(letters).then_some(rest)
 }

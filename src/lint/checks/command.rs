@@ -1,12 +1,13 @@
-//! FC402: a command that repeats an earlier one of the program, or switches off a kind that is not
-//! configured (R1.51, R18.3).
+//! What is said about a command at its place: FC402, FC405 and FC408.
 
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::Executed;
 use crate::lint::linter::{Linter, Taken};
 use crate::lint::memory::place;
 
-pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
+/// FC402: a command that repeats an earlier one of the program, or switches off a kind that is not configured (R1.51, R18.3).
+pub(super) fn repeated(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
     let command = &taken.outcome.command;
     let kinds = command.selection.kinds();
@@ -77,4 +78,42 @@ fn what(selection: Selection) -> String {
             format!("`{}`", words.join(" "))
         }
     }
+}
+
+/// FC408: a command to an axis that is not described, whose effect is therefore not known (R1.37, R18.2).
+pub(super) fn undescribed(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
+    let command = &taken.outcome.command;
+    let axis = linter.machine.axis(taken.axis);
+    let off = !matches!(command.selection, Selection::On(_));
+    if axis.is_described() || !off || !command.selection.kinds().contains(Kind::Frict) {
+        return None;
+    }
+    let name = &command.axis;
+    let message = format!(
+        "whether this leaves friction compensation of axis `{name}` off depends on a machine that \
+         is not described"
+    );
+    Some(
+        Diagnostic::new(Code::Fc408, place(taken.executed, command.span), message)
+            .with_axis(name.clone())
+            .with_help(axis.describing()),
+    )
+}
+
+/// FC405: the command takes effect before the motion of its block (R1.9, R1.55).
+pub(super) fn shared_block(executed: &Executed<'_>) -> Option<Diagnostic> {
+    if executed.moved.is_empty() {
+        return None;
+    }
+    let mut outcomes = executed.outcomes.iter();
+    let command = &outcomes.find(|outcome| outcome.result.is_ok())?.command;
+    Some(
+        Diagnostic::new(
+            Code::Fc405,
+            place(executed, command.span),
+            "COMP and motion share a block; the command takes effect before the motion",
+        )
+        .with_axis(command.axis.clone())
+        .with_help("write the command in a separate block"),
+    )
 }

@@ -1,18 +1,16 @@
 //! `frictcomp.identify`: from recorded torque to a value list.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, read_axis, refuse_copies};
 use frictcomp_physics::current::Switched;
 use frictcomp_physics::motion::check_cycle;
-use frictcomp_recordings::identify::Measured;
-use frictcomp_recordings::identify::TorqueKind;
-use frictcomp_recordings::identify::identify_measured_circles;
 use frictcomp_recordings::identify::{
-    IdentifyOptions, ListRequest, ListRequestError, identify as find,
+    AxisRecording, IdentifyOptions, ListRequest, ListRequestError, TorqueKind, identify as find,
+    identify_circles,
 };
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified};
@@ -51,20 +49,9 @@ struct AxisRecordings {
     recordings: Vec<PathBuf>,
     selection: ChannelSelection,
     cycle_s: Option<f64>,
-    said: TorqueStatement,
-}
-
-/// The caller's statements about the torque; they take precedence over the channels.
-#[derive(Clone, Copy)]
-struct TorqueStatement {
-    kind: Option<TorqueKind>,
+    /// The caller's statements about the torque.
+    torque_kind: Option<TorqueKind>,
     compensation: Option<Switched>,
-}
-
-impl TorqueStatement {
-    fn about(self, recorded: Measured) -> Measured {
-        recorded.stated(self.kind, self.compensation)
-    }
 }
 
 fn switched(word: &str) -> PyResult<Switched> {
@@ -123,10 +110,8 @@ pub(crate) fn identify(
         recordings: recordings.paths(),
         selection,
         cycle_s: cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?,
-        said: TorqueStatement {
-            kind: meant_if_given("torque_kind", torque_kind)?,
-            compensation: compensation.map(switched).transpose()?,
-        },
+        torque_kind: meant_if_given("torque_kind", torque_kind)?,
+        compensation: compensation.map(switched).transpose()?,
     };
     interruptible(py, move |_| {
         if circles {
@@ -169,6 +154,11 @@ impl Recordings {
 }
 
 impl AxisRecordings {
+    fn read(&self, path: &Path) -> Result<AxisRecording, Failure> {
+        let recording = read_axis(path, &self.selection, self.cycle_s, &Disk::default())?;
+        Ok(recording.stated(self.torque_kind, self.compensation))
+    }
+
     /// Constant speeds in one recording.
     fn at_speeds(self, options: &IdentifyOptions) -> Result<PyIdentified, Failure> {
         let [path] = self.recordings.as_slice() else {
@@ -179,9 +169,11 @@ impl AxisRecordings {
                 ),
             );
         };
-        let recording = read_axis(path, &self.selection, self.cycle_s, &Disk::default())?;
-        let mut options = *options;
-        options.measured = self.said.about(recording.measured);
+        let recording = self.read(path)?;
+        let options = IdentifyOptions {
+            measured: recording.measured,
+            ..*options
+        };
         let report = IdentifyReport {
             name: shown_path(path),
             axis: self.selection.axis.clone(),
@@ -202,25 +194,13 @@ impl AxisRecordings {
     /// Circles at several feeds.
     fn on_circles(self) -> Result<PyIdentified, Failure> {
         refuse_copies(&self.recordings)?;
-        let recordings = self.recordings.iter().map(|path| {
-            Ok::<_, Failure>(read_axis(
-                path,
-                &self.selection,
-                self.cycle_s,
-                &Disk::default(),
-            )?)
-        });
+        let recordings = self.recordings.iter().map(|path| self.read(path));
         let recordings: Vec<_> = recordings.collect::<Result<_, _>>()?;
-        let tracks: Vec<_> = recordings.iter().map(|it| it.track.clone()).collect();
-        let measured = recordings.iter().map(|it| self.said.about(it.measured));
-        // Only what is known about every recording.
-        let measured = measured.reduce(Measured::common).unwrap_or_default();
         let names = self.recordings.iter().map(|path| shown_path(path));
         let report = OnCirclesReport {
             names: names.collect(),
             axis: self.selection.axis.clone(),
-            found: identify_measured_circles(&tracks, &measured)
-                .map_err(Failure::of_identification)?,
+            found: identify_circles(&recordings).map_err(Failure::of_identification)?,
             recordings,
         };
         Ok(PyIdentified {

@@ -59,8 +59,8 @@ pub use outputs::{
     write_mended, write_new,
 };
 pub use recordings::{
-    TraceError, is_recording, read_axis, read_circles, read_commanded, read_trace, read_turns,
-    recordings_in, refuse_copies,
+    TraceError, commanded_axes, is_recording, read_axis, read_circles, read_commanded, read_trace,
+    read_turns, recordings_in, refuse_copies,
 };
 pub use run::{
     Axes, ContourSetup, GoldenDrift, GoldenFile, GoldenKind, GoldenResults, NoDrivenContour,

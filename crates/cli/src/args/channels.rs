@@ -9,7 +9,7 @@ use super::quantities;
 use crate::output::Failure;
 use frictcomp_host::{FileRegistry, MachineOptions, Machines};
 use frictcomp_physics::current::Switched;
-use frictcomp_recordings::identify::{Measured, TorqueKind, Track};
+use frictcomp_recordings::identify::{AxisRecording, TorqueKind, Track};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::visible_line;
 
@@ -34,6 +34,11 @@ pub(crate) struct MotionChannels {
 }
 
 impl MotionChannels {
+    /// Whether the user names the channels of the motion.
+    pub(crate) fn is_named(&self) -> bool {
+        !(self.position.is_empty() && self.velocity.is_empty())
+    }
+
     /// Returns the user's selection of the channels of one of some axes.
     pub(crate) fn of_axis(&self, name: &str, axes: &[&str]) -> Result<ChannelSelection, Failure> {
         let of = |option, given| ByAxis::new(option, given, axes).channel(name);
@@ -269,9 +274,9 @@ enum SwitchState {
 }
 
 impl TorqueArgs {
-    /// Returns the known properties of the torque, with those given by the user.
-    pub(crate) fn measured(&self, recorded: Measured) -> Measured {
-        recorded.stated(self.kind.torque_kind, self.switched())
+    /// Returns a recording with the properties of the torque that the user gave.
+    pub(crate) fn about(&self, recording: AxisRecording) -> AxisRecording {
+        recording.stated(self.kind.torque_kind, self.switched())
     }
 
     /// Returns the state of friction compensation, if it is given.

@@ -10,5 +10,7 @@ pub use recorded_files::{recordings_in, refuse_copies};
 pub(crate) use signatures::{SignedAt, signatures_of, switches_of};
 pub use trace_error::TraceError;
 pub(crate) use traces::read_motion;
-pub use traces::{is_recording, read_axis, read_circles, read_commanded, read_trace, read_turns};
+pub use traces::{
+    commanded_axes, is_recording, read_axis, read_circles, read_commanded, read_trace, read_turns,
+};
 pub(crate) use traces::{lacks, numbers_of, position_column};

@@ -17,8 +17,8 @@ use frictcomp_physics::current::{
 };
 use frictcomp_recordings::identify::{AxisChannels, AxisRecording};
 use frictcomp_recordings::trace::{
-    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Missing, Pick, SelectError,
-    TimeSource, TraceProblem, TraceReader, TraceRecording,
+    Channel, ChannelIndex, ChannelQuantity, ChannelRole, ChannelSelection, Choice, Missing, Pick,
+    SelectError, TimeSource, TraceProblem, TraceReader, TraceRecording,
 };
 
 /// Largest number of rows of a recorded circle; they are kept in memory until the circle is evaluated.
@@ -106,6 +106,30 @@ fn read(
         reader.feed(&piece[..length]).map_err(problem)?;
     }
     Ok(reader.finish().map_err(problem)?)
+}
+
+/// Returns the axes of a recording by whose names commanded positions or velocities are recognised, in the order of its
+/// channels; none where it has a column `x` or `v`, or the motion of one axis only.
+///
+/// # Errors
+/// The file cannot be read, or has other content.
+pub fn commanded_axes(path: &Path) -> Result<Vec<String>, HostError> {
+    let mut axes: Vec<String> = Vec::new();
+    let any = ChannelSelection::default();
+    read(path, MAX_ROWS, &Disk::default(), |channels| {
+        let quantities = [ChannelQuantity::Position, ChannelQuantity::Velocity];
+        let is_sole =
+            quantities.map(|quantity| any.find(quantity, channels)) != [Ok(None), Ok(None)];
+        let recognised = channels.iter().filter_map(Channel::recognised);
+        let motion = [ChannelRole::Position, ChannelRole::Velocity];
+        for axis in recognised.filter_map(|it| it.axis.filter(|_| motion.contains(&it.role))) {
+            if !is_sole && !axes.contains(&axis) {
+                axes.push(axis);
+            }
+        }
+        Ok(Choice::default())
+    })?;
+    Ok(axes)
 }
 
 /// Reads a commanded trace: positions in 0.1 µm or 0.0001°, or velocities in µm/s or 0.001°/s, or

@@ -5,6 +5,7 @@ use super::doubts;
 use super::finding::TraceFinding;
 use super::identified::IdentifyError;
 use super::measured::Measured;
+use super::recorded::AxisRecording;
 use super::statistics::{count, moving_average, samples_in};
 use super::track::{AxisSamples, Track, TrackError};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
@@ -61,21 +62,22 @@ const SETTLING_S: f64 = 0.05;
 /// A point with fewer samples is left out.
 const FEWEST: f64 = 200.0;
 
-/// Calls [`identify_measured_circles`] for the actual torque in drive units.
+/// Returns the friction in recordings of an axis on circles, of which only what all of them have in common is known
+/// about the torque.
 ///
 /// # Errors
-/// The recordings cannot be used.
-pub fn identify_circles(tracks: &[Track]) -> Result<OnCircles, IdentifyError> {
-    identify_measured_circles(tracks, &Measured::default())
+/// The recordings cannot be used, or are not what they seem.
+pub fn identify_circles(recordings: &[AxisRecording]) -> Result<OnCircles, IdentifyError> {
+    let measured = recordings.iter().map(|it| it.measured);
+    let measured = measured.reduce(Measured::common).unwrap_or_default();
+    let tracks = recordings.iter().map(|it| &it.track);
+    identify_measured(tracks, &measured)
 }
 
 /// Models the torque as the friction of the direction at points of the speed, linear in between, an inertia
 /// times the acceleration, and an offset, by least squares over all circles.
-///
-/// # Errors
-/// The recordings cannot be used, or are not what they seem.
-pub fn identify_measured_circles(
-    tracks: &[Track],
+fn identify_measured<'a>(
+    tracks: impl Iterator<Item = &'a Track>,
     measured: &Measured,
 ) -> Result<OnCircles, IdentifyError> {
     let compensation = doubts::check_compensation(measured)?;

@@ -32,7 +32,7 @@ mod verify;
 mod warnings;
 
 pub use branches::{BranchPoint, DirectionBranches};
-pub use circles::{OnCircles, identify_circles, identify_measured_circles};
+pub use circles::{OnCircles, identify_circles};
 pub use curve::{Fit, FrictionCurve};
 pub(crate) use curve::{along, solve_linear};
 pub use finding::TraceFinding;

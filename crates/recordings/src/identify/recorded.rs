@@ -52,6 +52,27 @@ pub struct AxisRecording {
     pub findings: Vec<TraceFinding>,
 }
 
+/// The actual torque in drive units, with nothing else known.
+impl From<Track> for AxisRecording {
+    fn from(track: Track) -> Self {
+        Self {
+            track,
+            ..Self::default()
+        }
+    }
+}
+
+impl AxisRecording {
+    /// Returns the recording with the user's statements about the torque, which take precedence over its channels.
+    #[must_use]
+    pub fn stated(self, kind: Option<TorqueKind>, compensation: Option<Switched>) -> Self {
+        Self {
+            measured: self.measured.stated(kind, compensation),
+            ..self
+        }
+    }
+}
+
 impl AxisChannels {
     /// The channels that the user names, those with the short names `t`, `v`, `x`, `torque`, and the
     /// state of friction compensation.

@@ -114,15 +114,17 @@ impl<W: Write> Csv<W> {
         if self.positions == Positions::Shown {
             append_positions(out, row);
         }
-        self.changes.clear();
-        for change in row.changes {
-            if self.view.kinds.contains(change.kind) {
-                join(&mut self.changes, |list| {
-                    push_change(list, *change, row.state);
-                });
+        if !row.changes.is_empty() {
+            self.changes.clear();
+            for change in row.changes {
+                if self.view.kinds.contains(change.kind) {
+                    join(&mut self.changes, |list| {
+                        push_change(list, *change, row.state);
+                    });
+                }
             }
+            push_field(out, &self.changes);
         }
-        push_field(out, &self.changes);
         out.push(b',');
         for diagnostic in row.diagnostics {
             join(&mut self.held.codes, |list| {
@@ -185,7 +187,9 @@ impl<W: Write> Csv<W> {
         if let Some(start) = self.output.open.take() {
             let out = &mut self.output.bytes;
             if self.held.wanted {
-                push_field(out, &self.held.codes);
+                if !self.held.codes.is_empty() {
+                    push_field(out, &self.held.codes);
+                }
                 out.push(b',');
                 out.extend_from_slice(&self.held.branch);
                 out.push(b'\n');

@@ -24,17 +24,17 @@ use frictcomp_physics::motion::PlannerOptions;
 /// column `comp` with `on` and `off` switches compensation as COMP would.
 #[derive(Debug, Args)]
 pub(crate) struct CurrentArgs {
-    /// The program, `-` for standard input, or the recorded motion of an axis
+    /// The program, `-` for standard input, or the recorded motion of axes
     #[arg(
         value_name = "FILE",
         required_unless_present = "recording",
         conflicts_with = "recording"
     )]
     file: Option<PathBuf>,
-    /// The axes to compute the current for; by default all of a program that have a value list
+    /// The axes to compute the current for; by default all of a recording, or those of a program that have a value list
     #[arg(long = "axis", value_name = "AXES", value_delimiter = ',')]
     pub(super) axes: Vec<String>,
-    /// The recorded motion of an axis, where its content does not tell it from a program
+    /// The recorded motion of axes, where its content does not tell it from a program
     #[arg(long, value_name = "RECORDING")]
     recording: Option<PathBuf>,
     /// The compensation value list of every axis, or `X=LIST`; for a program, replaces the one in the configuration

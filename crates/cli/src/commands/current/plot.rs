@@ -57,8 +57,9 @@ pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
 }
 
 /// Reports on which reading of the documents the sign of the currents depends (C12).
-pub(super) fn say_sign(list: &FrictionList) {
-    if list.table.iter().any(|point| point.output != 0.0) {
+pub(super) fn say_sign<'a>(mut lists: impl Iterator<Item = &'a FrictionList>) {
+    let adds = |list: &FrictionList| list.table.iter().any(|point| point.output != 0.0);
+    if lists.any(adds) {
         Console::talk(
             "C12: `out` is taken to have the sign of the torque at positive velocity; check the \
              sign on the machine first, `frictcomp explain P-COMP-00047` says how",

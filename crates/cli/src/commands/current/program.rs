@@ -108,13 +108,11 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let lists = followed
         .iter()
         .map(|axis| &loaded.machine.axis(*axis).friction);
-    let mut lists = lists.filter_map(|friction| match friction {
+    let lists = lists.filter_map(|friction| match friction {
         Parameterisation::Accepted(list) if cycles > 0 => Some(list),
         _ => None,
     });
-    if let Some(list) = lists.next() {
-        say_sign(list);
-    }
+    say_sign(lists);
     args.machine.say_unread(&machines, &registry, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed { exit::FOUND } else { exit::CLEAN })

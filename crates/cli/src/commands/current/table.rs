@@ -53,10 +53,15 @@ impl CurrentRows {
         options: TableOptions<'_>,
         plot: Option<Plot>,
     ) -> Self {
-        let mut table = Self {
+        let mut writer = BufWriter::new(writer);
+        Self {
             columns: options.columns.to_vec(),
-            writer: BufWriter::new(writer),
-            written: Ok(()),
+            written: writeln!(
+                writer,
+                "{}",
+                header(options.names, options.columns).join(",")
+            ),
+            writer,
             cycles: 0,
             watch: options.watch,
             program: options.program,
@@ -67,9 +72,7 @@ impl CurrentRows {
             last_s: 0.0,
             plot,
             block: None,
-        };
-        table.header(options.names);
-        table
+        }
     }
 
     /// Returns the times and lines at which the trace begins and resumes.
@@ -106,34 +109,31 @@ impl CurrentRows {
         std::mem::replace(&mut self.written, Ok(()))?;
         self.writer.flush()
     }
+}
 
-    /// Writes `t,x,v,…` for one axis, `t,x.X,v.X,…` for several.
-    fn header(&mut self, names: &[String]) {
-        let mut header = vec!["t".to_owned()];
-        for name in names {
-            let suffix = match names.len() {
-                1 => String::new(),
-                _ => format!(".{name}"),
-            };
-            let comp = self
-                .columns
-                .contains(&CurrentColumn::Comp)
-                .then_some("comp");
-            let columns = ["x", "v", "w_before", "w_after", "current", "output"];
-            for column in columns.into_iter().chain(comp) {
-                header.push(format!("{column}{suffix}"));
-            }
+/// Returns the columns: `t,x,v,…` for one axis, `t,x.X,v.X,…` for several.
+pub(super) fn header<N: AsRef<str>>(names: &[N], columns: &[CurrentColumn]) -> Vec<String> {
+    let mut header = vec!["t".to_owned()];
+    for name in names {
+        let suffix = match names.len() {
+            1 => String::new(),
+            _ => format!(".{}", name.as_ref()),
+        };
+        let comp = columns.contains(&CurrentColumn::Comp).then_some("comp");
+        let of_axis = ["x", "v", "w_before", "w_after", "current", "output"];
+        for column in of_axis.into_iter().chain(comp) {
+            header.push(format!("{column}{suffix}"));
         }
-        for (column, name) in [
-            (CurrentColumn::Line, "line"),
-            (CurrentColumn::Simplified, "simplified"),
-        ] {
-            if self.columns.contains(&column) {
-                header.push(name.to_owned());
-            }
-        }
-        self.written = writeln!(self.writer, "{}", header.join(","));
     }
+    for (column, name) in [
+        (CurrentColumn::Line, "line"),
+        (CurrentColumn::Simplified, "simplified"),
+    ] {
+        if columns.contains(&column) {
+            header.push(name.to_owned());
+        }
+    }
+    header
 }
 
 impl CurrentSink for CurrentRows {

@@ -72,27 +72,6 @@ pub(crate) struct IdentifyArgs {
 }
 
 impl IdentifyArgs {
-    /// Returns the values identified in a recording.
-    pub(super) fn identified(
-        &self,
-        (axis, path): (&str, &Path),
-        recording: AxisRecording,
-        options: &IdentifyOptions,
-    ) -> Result<IdentifyReport, Failure> {
-        let options = IdentifyOptions {
-            measured: self.torque.measured(recording.measured),
-            ..*options
-        };
-        let identified = identify(&recording.track, &options)
-            .map_err(|error| refusal(error, &recording.findings))?;
-        Ok(IdentifyReport {
-            name: shown_path(path),
-            axis: named(axis),
-            recording,
-            identified,
-        })
-    }
-
     /// Returns the value list of a report, with further remarks at its head.
     pub(super) fn list_of(&self, report: &IdentifyReport, remarks: &[String]) -> String {
         let made = IdentifiedFrom {
@@ -103,6 +82,26 @@ impl IdentifyArgs {
         };
         render_identified(&report.identified.list(), made, self.build.cnc_build)
     }
+}
+
+/// Returns the values identified in a recording.
+pub(super) fn identified(
+    (axis, path): (&str, &Path),
+    recording: AxisRecording,
+    options: &IdentifyOptions,
+) -> Result<IdentifyReport, Failure> {
+    let options = IdentifyOptions {
+        measured: recording.measured,
+        ..*options
+    };
+    let identified = identify(&recording.track, &options)
+        .map_err(|error| refusal(error, &recording.findings))?;
+    Ok(IdentifyReport {
+        name: shown_path(path),
+        axis: named(axis),
+        recording,
+        identified,
+    })
 }
 
 /// Returns why nothing was identified, with findings about the channels themselves.

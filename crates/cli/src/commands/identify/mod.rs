@@ -5,6 +5,7 @@ mod states;
 
 use std::path::Path;
 
+use args::identified;
 pub(crate) use args::{IdentifyArgs, refusal};
 
 use crate::args::{named, refuse_alike};
@@ -12,8 +13,7 @@ use crate::output::{Console, Failure, Job, Outputs, exit, write_text};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, OutputFile, read_axis, refuse_copies};
 use frictcomp_recordings::identify::{
-    AxisRecording, IdentifyError, IdentifyOptions, ListRequest, ListRequestError, Measured, Track,
-    identify_measured_circles,
+    AxisRecording, IdentifyError, IdentifyOptions, ListRequest, ListRequestError, identify_circles,
 };
 use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified};
 use frictcomp_report::results::identify::on_circles::{self, OnCirclesReport};
@@ -96,19 +96,20 @@ fn at_speeds(
     )?;
     let reports = axes.into_iter().zip(recordings);
     reports
-        .map(|(axis, recording)| args.identified((axis, path), recording, options))
+        .map(|(axis, recording)| identified((axis, path), recording, options))
         .collect()
 }
 
 /// Reads the channels of an axis.
-fn read(
+pub(super) fn read(
     args: &IdentifyArgs,
     (axis, path): (&str, &Path),
     registry: &FileRegistry,
 ) -> Result<AxisRecording, Failure> {
     let selection = args.channels.selection(axis, path, registry)?;
     let cycle = args.cycle.seconds()?;
-    Ok(read_axis(path, &selection, cycle, &Disk::default())?)
+    let recording = read_axis(path, &selection, cycle, &Disk::default())?;
+    Ok(args.torque.about(recording))
 }
 
 /// Returns the values identified on recorded circles, and writes their value list.
@@ -122,12 +123,6 @@ fn circles(
     let paths = args.recordings.iter();
     let recordings = paths.map(|path| read(args, (axis, path), registry));
     let recordings = recordings.collect::<Result<Vec<_>, _>>()?;
-    let tracks: Vec<Track> = recordings.iter().map(|it| it.track.clone()).collect();
-    let measured = recordings
-        .iter()
-        .map(|it| args.torque.measured(it.measured));
-    // The least that is known of any recording.
-    let measured = measured.reduce(Measured::common).unwrap_or_default();
     let report = OnCirclesReport {
         names: args
             .recordings
@@ -135,7 +130,7 @@ fn circles(
             .map(|path| shown_path(path))
             .collect(),
         axis: named(axis),
-        found: identify_measured_circles(&tracks, &measured)?,
+        found: identify_circles(&recordings)?,
         recordings,
     };
     for mut list in lists {

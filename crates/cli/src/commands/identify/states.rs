@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::IdentifyArgs;
+use super::args::{IdentifyArgs, identified};
+use super::read;
 use crate::output::{Console, Failure, Job, exit, write_text};
 use frictcomp::text::shown_path;
-use frictcomp_host::{Disk, FileRegistry, read_axis, refuse_copies};
+use frictcomp_host::{FileRegistry, refuse_copies};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
 use frictcomp_report::results::identify::states::{StatesReport, document, render_json};
 use frictcomp_report::visible_line;
@@ -39,17 +40,11 @@ pub(super) fn run(
     job.outputs.check()?;
     let paths: Vec<PathBuf> = recordings.iter().map(|it| it.1.clone()).collect();
     refuse_copies(&paths)?;
-    let cycle = args.cycle.seconds()?;
     let states = recordings.iter().map(|(name, path)| {
-        let recording = read_axis(
-            path,
-            &args.channels.selection(axis, path, &registry)?,
-            cycle,
-            &Disk::default(),
-        )?;
+        let recording = read(args, (axis, path), &registry)?;
         Ok((
             (*name).to_owned(),
-            args.identified((axis, path), recording, options)?,
+            identified((axis, path), recording, options)?,
         ))
     });
     let states = states.collect::<Result<Vec<_>, Failure>>()?;

@@ -6,7 +6,8 @@ use frictcomp_physics::circle::{Circle, CircularTest, Comparison, Direction, Lap
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, plant_list};
 use frictcomp_recordings::identify::{
-    IdentifyOptions, Predictor, Timing, Track, Verified, identify, identify_circles, verify,
+    AxisRecording, IdentifyOptions, Predictor, Timing, Track, Verified, identify, identify_circles,
+    verify,
 };
 
 use super::{identified, track};
@@ -32,9 +33,11 @@ fn friction_is_found_on_circles() {
         ripple_n: 0.0,
         ..Bench::default()
     };
-    let record = |feed: f64| track(bench.record_along(&circle(feed, 1.5)));
-    let tracks: Vec<Track> = [0.5, 1.0, 2.0, 5.0].into_iter().map(record).collect();
-    let found = identify_circles(&tracks).expect("friction");
+    let record = |feed: f64, turns: f64| {
+        AxisRecording::from(track(bench.record_along(&circle(feed, turns))))
+    };
+    let recordings = [0.5, 1.0, 2.0, 5.0].map(|feed| record(feed, 1.5));
+    let found = identify_circles(&recordings).expect("friction");
     let off = found
         .points
         .iter()
@@ -59,8 +62,7 @@ fn friction_is_found_on_circles() {
             .all(|pair| pair[0].input < pair[1].input)
     );
     // A short recording has too few samples at some speeds, which are left out and named.
-    let short = track(bench.record_along(&circle(5.0, 0.4)));
-    let found = identify_circles(&[short]).expect("friction");
+    let found = identify_circles(&[record(5.0, 0.4)]).expect("friction");
     assert!(!found.left_out.is_empty());
     assert!(identify_circles(&[]).is_err());
 }

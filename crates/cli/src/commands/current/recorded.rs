@@ -16,8 +16,8 @@ use frictcomp_physics::current::{Added, AdditiveCurrent, CommandedTrace, Reading
 use frictcomp_report::pictures::{AxisPlot, AxisSample};
 use frictcomp_report::visible_line;
 
-/// An axis of a recording.
-struct RecordedAxis<'a> {
+/// The recorded motion of an axis, and the current over it.
+struct RecordedMotion<'a> {
     /// Empty where the recording has only one.
     name: &'a str,
     list: FrictionList,
@@ -25,7 +25,7 @@ struct RecordedAxis<'a> {
     current: AdditiveCurrent,
 }
 
-impl RecordedAxis<'_> {
+impl RecordedMotion<'_> {
     /// Returns " of axis X", or nothing for the axis of a recording that has only one.
     fn of(&self) -> String {
         match self.name {
@@ -67,7 +67,7 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
     let reading = args.reading.over(Reading::default());
     let axes = names.iter().zip(lists).map(|(name, list)| {
         let selection = args.channels.of_axis(name, &names)?;
-        Ok(RecordedAxis {
+        Ok(RecordedMotion {
             name,
             trace: read_commanded(recording, &selection, args.trace_options()?)?,
             current: AdditiveCurrent::new(&list, reading),
@@ -83,7 +83,7 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
             });
         }
     }
-    let times = |axis: &RecordedAxis<'_>| axis.trace.rows().map(|row| row.time_s).collect();
+    let times = |axis: &RecordedMotion<'_>| axis.trace.rows().map(|row| row.time_s).collect();
     let times: Vec<Vec<f64>> = axes.iter().map(times).collect();
     if times.windows(2).any(|pair| pair[0] != pair[1]) {
         let message = "the recorded axes do not have the same cycles";
@@ -110,7 +110,7 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
 /// Writes the rows, and returns the verdict.
 fn write_csv(
     writer: &mut dyn Write,
-    axes: &mut [RecordedAxis<'_>],
+    axes: &mut [RecordedMotion<'_>],
     mut plot: Option<&mut Plot>,
 ) -> std::io::Result<String> {
     let mut writer = BufWriter::new(writer);

@@ -575,7 +575,7 @@ pub enum Operand {
     Expression(Expression),
 }
 
-/// A range of [`Block::nodes`](super::Block::nodes) whose last node is the expression's root.
+/// A range of [`Block::nodes`] whose last node is the expression's root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Expression {
     /// The first node.

@@ -2,8 +2,7 @@
 //!
 //! The control resolves relative paths from its own working folder, which is somewhere above the
 //! start-up list, and Windows paths on its own disk. The library opens no files: it gives the paths
-//! to try, and the host determines which of them exists.
-//! Lists within TwinCAT projects have places as item and line of the list (R3.42).
+//! to try, and the host determines which of them exists. Lists within TwinCAT projects have places as item and line of the list (R3.42).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

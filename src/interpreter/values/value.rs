@@ -1,5 +1,5 @@
-//! Values of the language: numbers, texts, what only the machine knows, and the types of declared variables (R2.101).
-//! Operators and functions on them (R2.30, R2.31, R2.35).
+//! Values of the language: numbers, texts, what only the machine knows, and the types of declared variables (R2.101);
+//! operators and functions on them (R2.30, R2.31, R2.35).
 
 use std::sync::Arc;
 

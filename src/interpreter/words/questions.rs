@@ -1,5 +1,5 @@
 //! Questions that only the machine answers: the run parts there (R14.1). One of them is at which block a program is started (R2.96);
-//! another what the program shares with the PLC: variables (R2.99), and programs that only the machine has (R2.83).
+//! others are about what it shares with the PLC: variables (R2.99), and programs that only the machine has (R2.83).
 //!
 //! The PLC may write `V.E.` variables at any time. Until a block in which it acts by design, what the program wrote
 //! answers conditions, and the other answer needs the variable to change in between. From that block on only the

@@ -9,7 +9,7 @@ use super::quantities;
 use crate::output::Failure;
 use frictcomp_host::{FileRegistry, MachineOptions, Machines};
 use frictcomp_physics::current::Switched;
-use frictcomp_recordings::identify::{AxisRecording, TorqueKind, Track};
+use frictcomp_recordings::identify::{AxisRecording, TorqueKind};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::visible_line;
 
@@ -215,16 +215,16 @@ pub(crate) fn named(axis: &str) -> Option<String> {
 }
 
 /// Refuses recordings of several axes of which two are the same: they have the same channels.
-pub(crate) fn refuse_alike<'a>(
-    recorded: impl Iterator<Item = (&'a str, &'a Track)>,
+pub(crate) fn refuse_alike<'a, T: PartialEq + 'a>(
+    recorded: impl Iterator<Item = (&'a str, &'a T)>,
 ) -> Result<(), Failure> {
-    let mut earlier: Vec<(&str, &Track)> = Vec::new();
+    let mut earlier: Vec<(&str, &T)> = Vec::new();
     for (axis, track) in recorded {
         if let Some((other, _)) = earlier.iter().find(|it| it.1 == track) {
             let [other, axis] = [other, axis].map(visible_line);
             let message = format!("the channels of {axis} are those of {other}");
             return Err(Failure::new(message).with_help(
-                "name those of each axis, `--torque AXIS=CHANNEL`, or `%` for the name of the axis",
+                "name those of each axis, `AXIS=CHANNEL`, or `%` for the name of the axis",
             ));
         }
         earlier.push((axis, track));

@@ -15,7 +15,7 @@ use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_physics::current::{
     CommandedTrace, Resampling, Switched, TraceColumns, TraceOptions,
 };
-use frictcomp_recordings::identify::{AxisChannels, AxisRecording};
+use frictcomp_recordings::identify::{AxisChannels, AxisRecording, assumed_unit};
 use frictcomp_recordings::trace::{
     Channel, ChannelIndex, ChannelQuantity, ChannelRole, ChannelSelection, Choice, Missing, Pick,
     SelectError, TimeSource, TraceProblem, TraceReader, TraceRecording,
@@ -179,6 +179,7 @@ pub fn read_commanded(
         motion: [position, velocity],
         switch,
     };
+    let assumed = commanded.assumed_units();
     let (columns, remarks) = if commanded.have_one_clock() {
         (commanded.columns()?, Vec::new())
     } else if options.resampling == Resampling::Done {
@@ -190,7 +191,7 @@ pub fn read_commanded(
         let path = path.to_owned();
         HostError::from(TraceError::Cycles { path, reason })
     })?;
-    Ok(trace.after(remarks))
+    Ok(trace.after([assumed, remarks].concat()))
 }
 
 /// The channels of a commanded trace.
@@ -204,6 +205,19 @@ struct CommandedChannels<'a> {
 }
 
 impl CommandedChannels<'_> {
+    /// Returns the units that the recording does not give, a sentence each.
+    fn assumed_units(&self) -> Vec<String> {
+        let quantities = [ChannelQuantity::Position, ChannelQuantity::Velocity];
+        let picks = quantities.into_iter().zip(self.motion);
+        let findings = picks.filter_map(|(quantity, pick)| {
+            let pick = pick?;
+            let channel = &self.recording.channels()[pick.channel.get()];
+            assumed_unit(channel, quantity, pick)
+        });
+        let sentences = findings.map(|it| format!("{}: {}; {}", it.code, it.message, it.help));
+        sentences.collect()
+    }
+
     /// Whether they were sampled together.
     fn have_one_clock(&self) -> bool {
         let motion = self.motion.into_iter().flatten();

@@ -13,7 +13,7 @@ const POSITION_PER_VELOCITY: f64 = POSITION_UNITS_PER_MM / VELOCITY_UNITS_PER_MM
 const VELOCITY_PER_POSITION: f64 = VELOCITY_UNITS_PER_MM_PER_S / POSITION_UNITS_PER_MM;
 
 /// A commanded trace of one axis.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CommandedTrace {
     times_s: Vec<f64>,
     positions: Vec<f64>,

@@ -39,7 +39,9 @@ pub use finding::TraceFinding;
 pub use identified::{Identified, IdentifyError, IdentifyOptions};
 pub use measured::{Contradiction, Measured, TorqueKind};
 pub use pair::{Drift, Pair, Visit};
-pub use recorded::{AxisChannels, AxisRecording, StatedAxis, state_channel, stated_axis};
+pub use recorded::{
+    AxisChannels, AxisRecording, StatedAxis, assumed_unit, state_channel, stated_axis,
+};
 pub use request::{ListRequest, ListRequestError};
 pub use ripple::Ripple;
 pub use segment::Segment;

@@ -242,22 +242,32 @@ impl AxisChannels {
                     "a value list has the unit of `dig_drv.act_torque`; record that, or convert the outputs",
                 ));
             }
-            (pick.is_unit_assumed && (!is_short(name) || channel.unit.is_some())).then(|| {
-                TraceFinding::new(
-                    Code::Fc519,
-                    format!(
-                        "`{name}` has no known unit and is taken in {}",
-                        quantity.own_unit()
-                    ),
-                    format!(
-                        "name it, as in `{name}={}`, where that is not so",
-                        example(quantity)
-                    ),
-                )
-            })
+            assumed_unit(channel, quantity, pick)
         };
         self.picks().filter_map(finding).collect()
     }
+}
+
+/// FC519 for a unit that the recording does not give, unless the channel has a short name that implies it.
+pub fn assumed_unit(
+    channel: &Channel,
+    quantity: ChannelQuantity,
+    pick: Pick,
+) -> Option<TraceFinding> {
+    let name = &channel.name;
+    (pick.is_unit_assumed && (!is_short(name) || channel.unit.is_some())).then(|| {
+        TraceFinding::new(
+            Code::Fc519,
+            format!(
+                "`{name}` has no known unit and is taken in {}",
+                quantity.own_unit()
+            ),
+            format!(
+                "name it, as in `{name}={}`, where that is not so",
+                example(quantity)
+            ),
+        )
+    })
 }
 
 /// A unit of a quantity, for an example.

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::args::CurrentArgs;
 use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use super::table::header;
-use crate::args::{ByAxis, value_list};
+use crate::args::{ByAxis, refuse_alike, value_list};
 use crate::output::{Console, Failure, Outputs, exit};
 use frictcomp::comp::State;
 use frictcomp::lists::FrictionList;
@@ -83,6 +83,10 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
             });
         }
     }
+    // Axes that stand still are all alike.
+    let moves = |axis: &&RecordedMotion<'_>| axis.trace.rows().any(|row| row.velocity != 0.0);
+    let moving = axes.iter().filter(moves);
+    refuse_alike(moving.map(|axis| (axis.name, &axis.trace)))?;
     let times = |axis: &RecordedMotion<'_>| axis.trace.rows().map(|row| row.time_s).collect();
     let times: Vec<Vec<f64>> = axes.iter().map(times).collect();
     if times.windows(2).any(|pair| pair[0] != pair[1]) {

@@ -162,6 +162,12 @@ pub fn read_commanded(
                  or say which channels they are",
             ));
         }
+        let motion = [
+            (ChannelQuantity::Position, position),
+            (ChannelQuantity::Velocity, velocity),
+        ];
+        let motion = motion.into_iter().filter_map(|it| Some((it.0, it.1?)));
+        selection.check_axis(motion, channels)?;
         let values = [position, velocity].into_iter().flatten();
         let choice = Choice {
             values: values.map(|pick| pick.channel).collect(),

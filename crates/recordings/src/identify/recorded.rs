@@ -113,6 +113,7 @@ impl AxisChannels {
         if found.velocity.is_none() && found.position.is_none() {
             selection.require(ChannelQuantity::Velocity, channels)?;
         }
+        selection.check_axis(found.picks(), channels)?;
         Ok(found)
     }
 

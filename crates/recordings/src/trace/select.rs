@@ -134,6 +134,36 @@ impl ChannelSelection {
             .transpose()
     }
 
+    /// Checks that found channels are those of one axis, as far as the user names neither it nor them. A name and a number
+    /// may be those of one axis.
+    ///
+    /// # Errors
+    /// They are those of several.
+    pub fn check_axis(
+        &self,
+        found: impl Iterator<Item = (ChannelQuantity, Pick)>,
+        channels: &[Channel],
+    ) -> Result<(), SelectError> {
+        let is_number = |axis: &str| axis.parse::<u32>().is_ok();
+        let mut axes: Vec<String> = Vec::new();
+        let unnamed = found.filter(|it| self.axis.is_none() && self.asked(it.0).is_none());
+        for (quantity, pick) in unnamed {
+            let Some(axis) = channels[pick.channel.0].recognised().and_then(|it| it.axis) else {
+                continue;
+            };
+            let differs = |it: &&String| is_number(it) == is_number(&axis) && **it != axis;
+            if let Some(first) = axes.iter().find(differs) {
+                return Err(SelectError::Lacks {
+                    lacks: format!("no {} of {first}", quantity.as_str()),
+                    found: shown(channels),
+                    help: format!("it has that of {axis}; name the axis, or the channel"),
+                });
+            }
+            axes.push(axis);
+        }
+        Ok(())
+    }
+
     /// What a recording lacks that has a quantity of other axes than that of the user.
     fn of_other_axes(
         &self,

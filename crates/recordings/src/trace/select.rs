@@ -145,21 +145,21 @@ impl ChannelSelection {
         channels: &[Channel],
     ) -> Result<(), SelectError> {
         let is_number = |axis: &str| axis.parse::<u32>().is_ok();
-        let mut axes: Vec<String> = Vec::new();
+        let mut earlier: Vec<String> = Vec::new();
         let unnamed = found.filter(|it| self.axis.is_none() && self.asked(it.0).is_none());
         for (quantity, pick) in unnamed {
             let Some(axis) = channels[pick.channel.0].recognised().and_then(|it| it.axis) else {
                 continue;
             };
-            let differs = |it: &&String| is_number(it) == is_number(&axis) && **it != axis;
-            if let Some(first) = axes.iter().find(differs) {
+            let is_other = |it: &&String| is_number(it) == is_number(&axis) && **it != axis;
+            if let Some(first) = earlier.iter().find(is_other) {
                 return Err(SelectError::Lacks {
                     lacks: format!("no {} of {first}", quantity.as_str()),
                     found: shown(channels),
                     help: format!("it has that of {axis}; name the axis, or the channel"),
                 });
             }
-            axes.push(axis);
+            earlier.push(axis);
         }
         Ok(())
     }

@@ -116,6 +116,18 @@ def test_the_current_of_a_recording_is_that_of_the_command(tmp_path: Path) -> No
     assert made.svg() == picture.read_text("utf-8")
 
 
+def test_one_axis_of_a_recording_is_chosen_by_its_name(tmp_path: Path) -> None:
+    # R6.3
+    trace, listed = tmp_path / "trace.csv", "programs/demo/lists/comp_x.lis"
+    trace.write_text("t,X.SetVelo [mm/s],Y.SetVelo [mm/s]\n0,1,0\n0.001,1,-2\n0.002,1,-2\n")
+    with pytest.raises(frictcomp.Error, match="SetVelo"):
+        frictcomp.current_of_recording(trace, listed)
+    made = frictcomp.current_of_recording(trace, listed, axis="Y")
+    assert made.axis == "Y" and list(made.v) == [0, -2000, -2000]
+    with pytest.raises(frictcomp.Error, match="no channel `v`"):
+        frictcomp.current_of_recording(trace, listed, axis="Y", units={"v": "mm/s"})
+
+
 def test_rows_of_a_recording_that_are_no_cycles_are_refused(tmp_path: Path) -> None:
     trace, listed = tmp_path / "trace.csv", "programs/demo/lists/comp_x.lis"
     trace.write_text(TRACE.replace("0.005", "0.009"))

@@ -638,6 +638,7 @@ def current_of_recording(
     position: str | None = None,
     velocity: str | None = None,
     units: Mapping[str, str] | None = None,
+    axis: str | None = None,
     cycle_time_ms: float | None = None,
     resample: bool = False,
     dead_band: float | None = None,
@@ -648,8 +649,9 @@ def current_of_recording(
     The recording is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
     s, ``x`` in 0.1 µm or 0.0001°, ``v`` in µm/s or 0.001°/s and, where it is recorded, ``comp``; or
     ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units if the file
-    does not. Times that are not those of CNC cycles are refused unless ``resample`` is set. Velocities up
-    to ``dead_band`` in µm/s or 0.001°/s are standstill.
+    does not. Of a recording of several axes, ``axis`` says which one is meant. Times that are not those
+    of CNC cycles are refused unless ``resample`` is set. Velocities up to ``dead_band`` in µm/s or
+    0.001°/s are standstill.
     """
 
 def contour(

@@ -42,10 +42,11 @@ struct RecordingCurrents {
 /// The recording is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
 /// s, ``x`` in 0.1 µm or 0.0001°, ``v`` in µm/s or 0.001°/s and, where it is recorded, ``comp``; or
 /// ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units if the file
-/// does not. Times that are not those of CNC cycles are refused unless ``resample`` is set. Velocities up
-/// to ``dead_band`` in µm/s or 0.001°/s are standstill.
+/// does not. Of a recording of several axes, ``axis`` says which one is meant. Times that are not those
+/// of CNC cycles are refused unless ``resample`` is set. Velocities up to ``dead_band`` in µm/s or
+/// 0.001°/s are standstill.
 #[pyfunction]
-#[pyo3(signature = (recording, value_list, *, time=None, position=None, velocity=None, units=None, cycle_time_ms=None, resample=false, dead_band=None, reading=None))]
+#[pyo3(signature = (recording, value_list, *, time=None, position=None, velocity=None, units=None, axis=None, cycle_time_ms=None, resample=false, dead_band=None, reading=None))]
 // Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn current_of_recording(
@@ -56,6 +57,7 @@ pub(crate) fn current_of_recording(
     position: Option<String>,
     velocity: Option<String>,
     units: Option<HashMap<String, String>>,
+    axis: Option<String>,
     cycle_time_ms: Option<f64>,
     resample: bool,
     dead_band: Option<f64>,
@@ -77,6 +79,7 @@ pub(crate) fn current_of_recording(
             position,
             velocity,
             units: given_units(units)?,
+            axis: axis.clone(),
             ..ChannelSelection::default()
         },
         options: TraceOptions::default()
@@ -86,7 +89,8 @@ pub(crate) fn current_of_recording(
         reading: meant("reading", reading)?,
     };
     let computed = interruptible(py, move |_| job.done())?;
-    let axis = (NamedAxis::new("", None), computed.counted);
+    let axis = NamedAxis::new(axis.as_deref().unwrap_or_default(), None);
+    let axis = (axis, computed.counted);
     let t = array(py, computed.t);
     Ok(PyAxisCurrent::new(
         axis,

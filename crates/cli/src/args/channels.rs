@@ -10,7 +10,7 @@ use crate::output::Failure;
 use frictcomp_host::{FileRegistry, MachineOptions, Machines};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{AxisRecording, TorqueKind};
-use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Unit};
 use frictcomp_report::visible_line;
 
 /// Options for the channels of the motion of an axis. In each of them `%` stands for the name of the axis.
@@ -296,6 +296,19 @@ fn parse_unit(text: &str) -> Result<(String, Unit), String> {
     let unit = Unit::parse(unit)
         .ok_or_else(|| format!("`{unit}` is not a known unit; known are {}", Unit::NAMED))?;
     Ok((name.trim().to_owned(), unit))
+}
+
+/// Parses the unit of the times where the other values are shown as the file has them.
+pub(crate) fn parse_time_unit(text: &str) -> Result<(String, Unit), String> {
+    let given = parse_unit(text)?;
+    if given.1.quantity == ChannelQuantity::Time {
+        Ok(given)
+    } else {
+        Err(
+            "values are shown as the file has them; only the times need a unit, such as `t=ms`"
+                .to_owned(),
+        )
+    }
 }
 
 /// Parses the way in a turn, in mm.

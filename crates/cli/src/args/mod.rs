@@ -22,7 +22,7 @@ mod wildcards;
 
 pub(crate) use channels::{
     AxisChannelArgs, CircleChannelArgs, FollowedChannels, MotionChannels, TorqueArgs,
-    TorqueChannel, TorqueKindArgs, UnitArgs, named, refuse_alike,
+    TorqueChannel, TorqueKindArgs, UnitArgs, named, parse_time_unit, refuse_alike,
 };
 pub(crate) use control::{CncBuildArgs, CurrentReadingArgs, CycleArgs, ToolArgs};
 pub(crate) use examples::with_examples;

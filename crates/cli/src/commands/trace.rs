@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::args::parse_time_unit;
 use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, ResultFormat, exit};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_trace};
-use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
+use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice, Unit};
 use frictcomp_report::results::trace::{TraceReport, document, render_json};
 
 /// List the channels of a recording: rates, lengths, ranges, gaps
@@ -23,6 +24,9 @@ pub(crate) struct TraceArgs {
     /// The channel of the times, where the file has one that is not called `t` or `time`
     #[arg(long, value_name = "CHANNEL")]
     time: Option<String>,
+    /// The unit of the times, where the file does not name it: `--unit t=ms`
+    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_time_unit)]
+    unit: Option<(String, Unit)>,
     #[command(flatten)]
     result: ResultArgs,
     /// Draw the channels over time to this SVG file
@@ -43,6 +47,7 @@ pub(crate) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
     job.outputs.check()?;
     let selection = ChannelSelection {
         time: args.time.clone(),
+        units: args.unit.iter().cloned().collect(),
         ..ChannelSelection::default()
     };
     let read = read_trace(&args.recording, &Disk::default(), |channels| {

@@ -84,7 +84,7 @@ impl TraceError {
             Self::WithoutValues(_) => {
                 "record with it in Scope, then export the recording: `Export`, format CSV"
             }
-            Self::Apart { reason, .. } => reason.help(),
+            Self::Apart { reason, .. } => return Some(reason.help().into_owned()),
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
             Self::NoTimes(_) => "name the channel of the times",
             Self::NoState { .. } => "a state is 1 where friction compensation is active, else 0",

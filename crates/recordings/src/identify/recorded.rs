@@ -265,20 +265,10 @@ pub fn assumed_unit(
             ),
             format!(
                 "name it, as in `{name}={}`, where that is not so",
-                example(quantity)
+                quantity.example()
             ),
         )
     })
-}
-
-/// A unit of a quantity, for an example.
-fn example(quantity: ChannelQuantity) -> &'static str {
-    match quantity {
-        ChannelQuantity::Time => "ms",
-        ChannelQuantity::Position => "mm",
-        ChannelQuantity::Velocity => "mm/s",
-        ChannelQuantity::Torque => "%",
-    }
 }
 
 /// The following error: the channel that the user names, `e`, the actual position `x_act`, or one that is recognised.

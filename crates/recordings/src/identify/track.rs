@@ -69,7 +69,7 @@ pub enum TrackError {
         samples: usize,
     },
     /// Samples that are too far apart to show motions.
-    #[error("{step_s} s between two samples are too long")]
+    #[error("the samples are {step_s} s apart, too far to show the motion")]
     Slow {
         /// The time between two samples.
         step_s: f64,
@@ -93,7 +93,10 @@ impl TrackError {
             }
             Self::Absurd { .. } => "name the channel that holds it, or give its unit",
             Self::Short { .. } => "record for a longer time",
-            Self::Slow { .. } => "record in the CNC cycle, or at least every 20 ms",
+            Self::Slow { .. } => {
+                "record in the CNC cycle, or at least every 20 ms; if the times are not in s, give their unit, \
+                 as in `t=ms`"
+            }
             Self::Apart { .. } => "check the units of both, and that both are of one axis",
         }
     }

@@ -7,7 +7,8 @@ use thiserror::Error;
 use super::channel::ChannelIndex;
 use super::clock::Clock;
 use super::recording::TraceRecording;
-use super::select::Pick;
+use super::select::{Pick, guess};
+use super::unit::ChannelQuantity;
 use frictcomp::diagnostic::ReadableNumber;
 
 /// Samples of several channels at the same times.
@@ -29,8 +30,11 @@ pub struct Aligned {
 #[non_exhaustive]
 pub enum NotAligned {
     /// A table without a column of times, and without a known distance between its rows.
-    #[error("the recording has no times")]
-    NoTimes,
+    #[error("it has no times")]
+    NoTimes {
+        /// A channel that may be that of the times.
+        guess: Option<String>,
+    },
     /// A clock that jumps back or stops.
     #[error("the times do not rise: after {before_s} s comes {after_s} s")]
     Backwards {
@@ -59,16 +63,20 @@ pub enum NotAligned {
 
 impl NotAligned {
     /// Returns the advice.
-    pub fn help(&self) -> &'static str {
+    pub fn help(&self) -> Cow<'static, str> {
         match self {
-            Self::NoTimes => {
+            Self::NoTimes { guess: Some(guess) } => {
+                format!("name the column of the times; perhaps it is `{guess}`").into()
+            }
+            Self::NoTimes { guess: None } => {
                 "name the column of the times, or give the cycle in which the rows were recorded"
+                    .into()
             }
             Self::Backwards { .. } => {
-                "a recording is one measurement; separate what was recorded later"
+                "a recording is one measurement; separate what was recorded later".into()
             }
-            Self::Apart { .. } => "record the channels together",
-            Self::Short { .. } => "record for a longer time",
+            Self::Apart { .. } => "record the channels together".into(),
+            Self::Short { .. } => "record for a longer time".into(),
         }
     }
 }
@@ -199,7 +207,11 @@ impl TraceRecording {
         let all: Cow<'_, [f64]> = match (self.times_s(channel), cycle_s) {
             (Some(times), _) => Cow::Borrowed(times),
             (None, Some(cycle)) => Cow::Owned(counted(cycle)),
-            (None, None) => return Err(NotAligned::NoTimes),
+            (None, None) => {
+                return Err(NotAligned::NoTimes {
+                    guess: guess(ChannelQuantity::Time, self.channels()),
+                });
+            }
         };
         let rows = all.len();
         let scaled = |value: &f64| value * pick.unit.factor;

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::unit::split_unit;
+
 /// The number of a channel in its recording, in the order of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ChannelIndex(pub(super) usize);
@@ -40,6 +42,14 @@ pub struct Channel {
     pub drawn: Option<ScopeDrawing>,
     /// `Unit ScaleFactor` and `Unit Offset` of Scope, if they are not 1 and 0.
     pub unit_scale: Option<[f64; 2]>,
+}
+
+impl Channel {
+    /// The unit that the file gives in its own row, or in the name.
+    pub fn named_unit(&self) -> Option<&str> {
+        let unit = self.unit.as_deref();
+        unit.or_else(|| split_unit(&self.name).1)
+    }
 }
 
 /// Factor and offset with which Scope draws a channel.

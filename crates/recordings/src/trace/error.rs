@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::unit::ChannelQuantity;
 use thiserror::Error;
 
 /// Why a trace cannot be read: one sentence in lower case, with its line if there is one.
@@ -181,6 +182,24 @@ pub enum SelectError {
         /// `Unit Offset`, as a text.
         offset: Box<str>,
     },
+    /// A unit of the user that is one of another quantity than the channel.
+    #[error("`{channel}` is the {quantity}, but the unit given for it is one of {given}")]
+    OtherUnit {
+        /// Name of the channel.
+        channel: String,
+        /// The quantity for which it is taken.
+        quantity: ChannelQuantity,
+        /// The quantity of the unit.
+        given: ChannelQuantity,
+    },
+    /// Times in a unit that is not one of times.
+    #[error("the times `{channel}` are in `{unit}`, which is no known unit of time")]
+    TimeUnit {
+        /// Name of the channel.
+        channel: String,
+        /// The unit in the file.
+        unit: String,
+    },
     /// Channels that are needed and not named.
     #[error("the recording has {lacks}, only {}", listed(.found))]
     Lacks {
@@ -248,6 +267,15 @@ impl SelectError {
             Self::UnitScaled { channel, .. } => Some(format!(
                 "export it with the unit scale 1 and the unit offset 0, or name the unit of its samples, \
                  as in `{channel}=mm/s`"
+            )),
+            Self::OtherUnit {
+                channel, quantity, ..
+            } => Some(format!(
+                "give a unit of the {quantity}, as in `{channel}={}`",
+                quantity.example()
+            )),
+            Self::TimeUnit { channel, .. } => Some(format!(
+                "say in which unit they are, s, ms, us, ns or min, as in `{channel}=ms`"
             )),
             Self::Lacks { help, .. } => Some(help.clone()),
         }

@@ -32,6 +32,8 @@ pub struct ChannelSelection {
     pub following_error: Option<String>,
     /// Units of channels that the file does not name, or names wrongly.
     pub units: Vec<(String, Unit)>,
+    /// The units are those of several recordings, each of which need not have every channel.
+    pub is_for_several: bool,
     /// The way of the axis in mm in a turn of its motor, where positions and velocities are those of the motor.
     pub lead_mm: Option<f64>,
 }
@@ -101,7 +103,7 @@ impl ChannelSelection {
     /// one that is recognised.
     ///
     /// # Errors
-    /// No channel fits what the user names, or several do.
+    /// No channel fits what the user names, or several do; or the times are in an unknown unit.
     pub fn find(
         &self,
         quantity: ChannelQuantity,
@@ -115,9 +117,19 @@ impl ChannelSelection {
             None => Self::taken(quantity, channels)?
                 .or_else(|| only(&self.candidates_for(quantity, channels), channels)),
         };
-        found
-            .map(|channel| self.pick(channel, quantity, channels))
-            .transpose()
+        let Some(channel) = found else {
+            return Ok(None);
+        };
+        let pick = self.pick(channel, quantity, channels)?;
+        match channels[channel.0].named_unit() {
+            Some(unit) if quantity == ChannelQuantity::Time && pick.is_unit_assumed => {
+                Err(SelectError::TimeUnit {
+                    channel: channels[channel.0].name.clone(),
+                    unit: unit.to_owned(),
+                })
+            }
+            _ => Ok(Some(pick)),
+        }
     }
 
     /// The only channel of the axis that is recognised as a quantity.
@@ -271,8 +283,8 @@ impl ChannelSelection {
         channels: &[Channel],
     ) -> Result<Option<Pick>, SelectError> {
         let found = channels.iter().position(|channel| {
-            let (name, unit) = split_unit(&channel.name);
-            let unit = channel.unit.as_deref().or(unit).map(Unit::parse);
+            let name = split_unit(&channel.name).0;
+            let unit = channel.named_unit().map(Unit::parse);
             let fits = unit.is_none_or(|unit| unit.is_some_and(|it| it.quantity == Position));
             name.eq_ignore_ascii_case(axis) && fits
         });
@@ -405,31 +417,48 @@ impl ChannelSelection {
             })
     }
 
+    /// The channel whose unit the user gives.
+    fn unit_target(
+        &self,
+        name: &str,
+        channels: &[Channel],
+    ) -> Result<Option<ChannelIndex>, SelectError> {
+        match self.named(name, channels) {
+            Ok(channel) => Ok(Some(channel)),
+            Err(error @ SelectError::None { .. }) if !self.is_for_several => Err(error),
+            Err(_) => Ok(None),
+        }
+    }
+
     fn pick(
         &self,
         channel: ChannelIndex,
         quantity: ChannelQuantity,
         channels: &[Channel],
     ) -> Result<Pick, SelectError> {
+        let described = &channels[channel.0];
         let mut of_user = None;
         for (name, unit) in &self.units {
-            let role = quantity.as_str().eq_ignore_ascii_case(name);
-            if role
-                || self
-                    .named(name, channels)
-                    .is_ok_and(|named| named == channel)
-            {
+            let mut quantities = ChannelQuantity::ALL.iter();
+            let named = quantities.find(|it| it.as_str().eq_ignore_ascii_case(name));
+            let is_meant = match named {
+                Some(named) => *named == quantity,
+                None => self.unit_target(name, channels)? == Some(channel),
+            };
+            if is_meant {
                 of_user = Some(*unit);
             }
         }
-        let described = &channels[channel.0];
-        let of_file = described
-            .unit
-            .as_deref()
-            .or_else(|| split_unit(&described.name).1)
-            .and_then(Unit::parse);
+        if let Some(unit) = of_user.filter(|unit| unit.quantity != quantity) {
+            return Err(SelectError::OtherUnit {
+                channel: described.name.clone(),
+                quantity,
+                given: unit.quantity,
+            });
+        }
+        let of_file = described.named_unit().and_then(Unit::parse);
         if let Some([factor, offset]) = described.unit_scale
-            && of_user.is_none_or(|unit| unit.quantity != quantity)
+            && of_user.is_none()
             && quantity != ChannelQuantity::Time
         {
             return Err(SelectError::UnitScaled {
@@ -504,7 +533,7 @@ fn full_name(channel: &Channel) -> String {
 }
 
 /// The channel that by its name, symbol or comment may be a quantity.
-fn guess(quantity: ChannelQuantity, channels: &[Channel]) -> Option<String> {
+pub(super) fn guess(quantity: ChannelQuantity, channels: &[Channel]) -> Option<String> {
     let names = NAMES.iter().find(|names| names.quantity == quantity)?;
     names.hints.iter().find_map(|hint| {
         let fits = |channel: &&Channel| {
@@ -654,6 +683,24 @@ mod tests {
         let metres = Unit::parse("m/s").expect("a unit");
         selection.units.push(("velocity".to_owned(), metres));
         assert_eq!(factor(&selection), Ok((1e6, false)));
+    }
+
+    #[test]
+    fn a_unit_without_a_channel_is_refused_where_there_is_one_recording() {
+        // R6.3
+        let metres = Unit::parse("m/s").expect("a unit");
+        let mut selection = ChannelSelection {
+            velocity: Some("SetVelo".to_owned()),
+            units: vec![("SetVelocity".to_owned(), metres)],
+            ..ChannelSelection::default()
+        };
+        let found = |selection: &ChannelSelection| {
+            selection.require(ChannelQuantity::Velocity, &two_axes())
+        };
+        let error = found(&selection).expect_err("no such channel");
+        assert!(matches!(error, SelectError::None { .. }), "{error}");
+        selection.is_for_several = true;
+        assert_eq!(found(&selection).map(|pick| pick.unit.factor), Ok(1000.0));
     }
 
     #[test]

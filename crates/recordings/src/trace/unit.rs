@@ -28,6 +28,16 @@ impl ChannelQuantity {
             Self::Torque => "drive units",
         }
     }
+
+    /// A usual unit of it, for an example.
+    pub(crate) fn example(self) -> &'static str {
+        match self {
+            Self::Time => "ms",
+            Self::Position => "mm",
+            Self::Velocity => "mm/s",
+            Self::Torque => "%",
+        }
+    }
 }
 
 /// The kind of motion of an axis.

@@ -387,7 +387,7 @@ fn numbers_without_a_header_need_a_column_that_counts() {
         assert_eq!(recording.times_s(kept[0]), None);
         let picks = ["column 1", "column 2"].map(|name| torque(&recording, name));
         let error = recording.align(&picks, None).expect_err("no times");
-        assert_eq!(error, NotAligned::NoTimes);
+        assert_eq!(error, NotAligned::NoTimes { guess: None });
     }
 }
 

@@ -79,6 +79,7 @@ impl ReadingArgs {
         let of_axis = |name: &&str| {
             let selection = ChannelSelection {
                 torque: self.torque.of_axis(name, &axes)?,
+                is_for_several: true,
                 ..self.motion.of_axis(name, &axes)?
             };
             let followed = self.followed.added_to(selection, (name, &axes))?;

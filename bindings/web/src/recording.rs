@@ -70,13 +70,16 @@ pub(crate) fn answer(
     let channels = trace::document(&report);
     let unnamed = <[ChannelSelection; 2]>::default();
     let turns = read_turns(path, &unnamed, settings.radius_mm, &disk);
-    let circle = turns.and_then(|circles| {
+    let circle = turns.and_then(|(circles, assumed)| {
         let commanded = CommandedCircle {
             radius_mm: settings.radius_mm,
             ..CommandedCircle::default()
         };
         let circle = Recording::new(circles, commanded, PathCentre::default());
-        Ok(CircleReport::recorded(circle.map_err(TraceError::Circles)?))
+        Ok(CircleReport::recorded((
+            circle.map_err(TraceError::Circles)?,
+            assumed,
+        )))
     });
     let (circle, no_circle) = match circle {
         Ok(report) => (Some(report), None),

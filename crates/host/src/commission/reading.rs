@@ -230,7 +230,8 @@ impl CommissionReader<'_> {
         radius: f64,
     ) -> Result<Vec<RecordedCircle>, HostError> {
         let channels = self.channels.of_circles(plan);
-        read_turns(path, &channels, Some(radius), &Disk::default())
+        let (turns, _) = read_turns(path, &channels, Some(radius), &Disk::default())?;
+        Ok(turns)
     }
 
     /// Returns the circles of a recorded program.
@@ -247,7 +248,7 @@ impl CommissionReader<'_> {
             feed_mm_per_min: None,
         };
         let path = PathBuf::from(path);
-        let recording = read_circles(&[path], &channels, commanded, PathCentre::Common)?;
+        let (recording, _) = read_circles(&[path], &channels, commanded, PathCentre::Common)?;
         Ok(RecordingOutcome::Circles(CirclesFound::of(
             &recording, feed, radius,
         )))

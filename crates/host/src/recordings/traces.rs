@@ -15,7 +15,7 @@ use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_physics::current::{
     CommandedTrace, Resampling, Switched, TraceColumns, TraceOptions,
 };
-use frictcomp_recordings::identify::{AxisChannels, AxisRecording, assumed_unit};
+use frictcomp_recordings::identify::{AxisChannels, AxisRecording, TraceFinding, unit_finding};
 use frictcomp_recordings::trace::{
     Channel, ChannelIndex, ChannelQuantity, ChannelRole, ChannelSelection, Choice, Missing, Pick,
     SelectError, TimeSource, TraceProblem, TraceReader, TraceRecording,
@@ -218,7 +218,7 @@ impl CommandedChannels<'_> {
         let findings = picks.filter_map(|(quantity, pick)| {
             let pick = pick?;
             let channel = &self.recording.channels()[pick.channel.get()];
-            assumed_unit(channel, quantity, pick)
+            unit_finding(channel, quantity, pick)
         });
         let sentences = findings.map(|it| format!("{}: {}; {}", it.code, it.message, it.help));
         sentences.collect()
@@ -303,7 +303,7 @@ impl CommandedChannels<'_> {
 
 /// Reads one recorded circle, or one of each direction, in one file or two: the positions that are selected for
 /// each of its axes, or columns `x` and `y` of actual positions in mm, or with their unit, `x_um`, `X [mm]`;
-/// optionally `t` in s. G(b) and H refer to `centre`.
+/// optionally `t` in s. G(b) and H refer to `centre`. Also returns what was assumed to read them.
 ///
 /// # Errors
 /// A file cannot be read, or does not contain a circle.
@@ -312,22 +312,25 @@ pub fn read_circles(
     channels: &[ChannelSelection; 2],
     commanded: CommandedCircle,
     centre: PathCentre,
-) -> Result<Circles, HostError> {
+) -> Result<(Circles, Vec<TraceFinding>), HostError> {
     Circles::check(paths.len(), commanded).map_err(TraceError::Circles)?;
-    let mut circles = Vec::new();
+    let (mut circles, mut assumed) = (Vec::new(), Vec::new());
     for path in paths {
-        circles.extend(read_turns(
-            path,
-            channels,
-            commanded.radius_mm,
-            &Disk::default(),
-        )?);
+        let (turns, findings) = read_turns(path, channels, commanded.radius_mm, &Disk::default())?;
+        circles.extend(turns);
+        assumed.extend(
+            findings
+                .into_iter()
+                .filter(|it| !assumed.contains(it))
+                .collect::<Vec<_>>(),
+        );
     }
-    Ok(Circles::new(circles, commanded, centre).map_err(TraceError::Circles)?)
+    let circles = Circles::new(circles, commanded, centre).map_err(TraceError::Circles)?;
+    Ok((circles, assumed))
 }
 
 /// Reads the circles of a recording, one for each direction in which it has a full turn; F and D refer to the
-/// commanded radius, if it is known.
+/// commanded radius, if it is known. Also returns what was assumed to read them.
 ///
 /// # Errors
 /// The file cannot be read, or is not a recorded circle.
@@ -336,13 +339,20 @@ pub fn read_turns(
     channels: &[ChannelSelection; 2],
     commanded_mm: Option<f64>,
     disk: &Disk,
-) -> Result<Vec<RecordedCircle>, HostError> {
-    let trace = read_positions(path, channels, disk)?;
+) -> Result<(Vec<RecordedCircle>, Vec<TraceFinding>), HostError> {
+    let (trace, assumed) = read_positions(path, channels, disk)?;
     let found = RecordedCircle::find(&trace, commanded_mm);
-    Ok(found.map_err(|reason| TraceError::Circle {
+    let found = found.map_err(|reason| TraceError::Circle {
         path: path.to_owned(),
         reason,
-    })?)
+    })?;
+    // A commanded radius that is found confirms the unit.
+    let open = if commanded_mm.is_some() {
+        Vec::new()
+    } else {
+        assumed
+    };
+    Ok((found, open))
 }
 
 /// Reads motion and torque of one axis.
@@ -403,7 +413,7 @@ fn read_positions(
     path: &Path,
     wanted: &[ChannelSelection; 2],
     disk: &Disk,
-) -> Result<RecordedTrace, HostError> {
+) -> Result<(RecordedTrace, Vec<TraceFinding>), HostError> {
     let timed = read_points(path, wanted, Times::Read, disk);
     match timed {
         Err(HostError::Trace(TraceError::Problem {
@@ -426,8 +436,9 @@ fn read_points(
     wanted: &[ChannelSelection; 2],
     times: Times,
     disk: &Disk,
-) -> Result<RecordedTrace, HostError> {
+) -> Result<(RecordedTrace, Vec<TraceFinding>), HostError> {
     let mut picks = [None; 2];
+    let mut assumed = Vec::new();
     let recording = read(path, MAX_POINTS, disk, |channels| {
         for (pick, (usual, wanted)) in picks.iter_mut().zip(["X", "Y"].iter().zip(wanted)) {
             *pick = match (&wanted.position, &wanted.axis) {
@@ -436,6 +447,8 @@ fn read_points(
             };
         }
         for pick in picks.iter_mut().flatten() {
+            let channel = &channels[pick.channel.get()];
+            assumed.extend(unit_finding(channel, ChannelQuantity::Position, *pick));
             pick.unit.factor /= POSITION_UNITS_PER_MM;
         }
         let [Some(x), Some(y)] = picks else {
@@ -457,7 +470,7 @@ fn read_points(
         })
     })?;
     let [Some(x), Some(y)] = picks else {
-        return Ok(RecordedTrace::default());
+        return Ok((RecordedTrace::default(), assumed));
     };
     let points = |xs: Vec<f64>, ys: Vec<f64>| xs.into_iter().zip(ys).map(|(x, y)| [x, y]).collect();
     if recording.clock(x.channel) == recording.clock(y.channel) {
@@ -467,10 +480,11 @@ fn read_points(
         );
         let times_s = recording.times_s(x.channel).map(<[f64]>::to_vec);
         let times_s = times_s.filter(|it| it.len() == points_mm.len());
-        return Ok(RecordedTrace {
+        let trace = RecordedTrace {
             points_mm,
             times_s: times_s.unwrap_or_default(),
-        });
+        };
+        return Ok((trace, assumed));
     }
     let aligned = recording
         .align(&[x, y], None)
@@ -480,10 +494,11 @@ fn read_points(
         })?;
     let mut columns = aligned.columns.into_iter();
     let mut column = || columns.next().unwrap_or_default();
-    Ok(RecordedTrace {
+    let trace = RecordedTrace {
         points_mm: points(column(), column()),
         times_s: aligned.times_s,
-    })
+    };
+    Ok((trace, assumed))
 }
 
 /// Returns the samples of a channel in the requested unit, all of them numbers.
@@ -565,7 +580,7 @@ mod tests {
             let text = format!("{header};y\n3;1\n4;1\n");
             let file = file(text.as_bytes());
             let points = read_positions(file.path(), &Default::default(), &Disk::default());
-            let x = points.ok().map(|trace| trace.points_mm[0][0]);
+            let x = points.ok().map(|(trace, _)| trace.points_mm[0][0]);
             match (x, millimetres) {
                 (Some(x), Some(wanted)) => {
                     assert!((x - wanted).abs() < 1e-9 * wanted, "{header}: {x}");
@@ -590,8 +605,9 @@ mod tests {
         for text in texts {
             let file = file(text);
             let trace = read_positions(file.path(), &Default::default(), &Disk::default());
-            let points = trace.unwrap().points_mm;
-            assert_eq!(points, [[0.001, 0.002]]);
+            let (trace, assumed) = trace.unwrap();
+            assert_eq!(trace.points_mm, [[0.001, 0.002]]);
+            assert_eq!(assumed, []);
         }
     }
 

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::found::coarse;
+use crate::identify::TraceFinding;
 
 use frictcomp_physics::circle::{
     Circle, CircleError, Crossing, Direction, LearnedCircle, PlaneAxis, RecordedCircle,
@@ -32,6 +33,8 @@ pub struct RecordedTurn {
     pub file: String,
     /// The turn.
     pub circle: RecordedCircle,
+    /// The unit that was assumed to read it, if one was.
+    pub assumed: Option<TraceFinding>,
 }
 
 /// The circles of a round for X and for Y, the slowest first.
@@ -45,6 +48,14 @@ pub enum LearnError {
     /// A recording without times.
     #[error("`{0}` has no times, so its feed is not known")]
     NoTimes(String),
+    /// A unit that the recording does not give.
+    #[error("`{file}`: {assumed}")]
+    Unit {
+        /// Name of the file.
+        file: String,
+        /// The unit that would be assumed, in words.
+        assumed: String,
+    },
     /// Samples that are too far apart to show a reversal.
     #[error("`{file}`: {coarse}")]
     Coarse {
@@ -127,6 +138,7 @@ impl LearnError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoTimes(_) => "record the time in s as well, or name its channel",
+            Self::Unit { .. } => "give the unit of the positions",
             Self::Coarse { .. } => "export it with every cycle of the control",
             Self::Count { count: 1, .. } => {
                 "record it a second time: without a second recording the spread is not known"
@@ -213,6 +225,12 @@ impl LearnedCircles {
 fn one_machine(turns: &[RecordedTurn], first: &RecordedTurn) -> Result<(), LearnError> {
     for turn in turns {
         let [radius_mm, found_mm] = [&first.circle, &turn.circle].map(|it| it.radius_mm);
+        if let Some(assumed) = &turn.assumed {
+            return Err(LearnError::Unit {
+                file: turn.file.clone(),
+                assumed: assumed.message.clone(),
+            });
+        }
         if let Some(coarse) = coarse(&turn.circle) {
             let file = turn.file.clone();
             return Err(LearnError::Coarse { file, coarse });

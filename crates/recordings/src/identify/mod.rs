@@ -40,7 +40,7 @@ pub use identified::{Identified, IdentifyError, IdentifyOptions};
 pub use measured::{Contradiction, Measured, TorqueKind};
 pub use pair::{Drift, Pair, Visit};
 pub use recorded::{
-    AxisChannels, AxisRecording, StatedAxis, assumed_unit, state_channel, stated_axis,
+    AxisChannels, AxisRecording, StatedAxis, state_channel, stated_axis, unit_finding,
 };
 pub use request::{ListRequest, ListRequestError};
 pub use ripple::Ripple;

@@ -5,8 +5,8 @@ use super::measured::{Measured, RATED_UNITS, TorqueKind};
 use super::track::Track;
 use super::unit_doubts::{improbable_speed, scope_scale};
 use crate::trace::{
-    Channel, ChannelIndex, ChannelQuantity, ChannelRole, ChannelSelection, Choice, CncObject,
-    NotAligned, Pick, SelectError, TimeSource, TraceRecording, Unit,
+    AxisMotion, Channel, ChannelIndex, ChannelQuantity, ChannelRole, ChannelSelection, Choice,
+    CncObject, NotAligned, Pick, SelectError, TimeSource, TraceRecording, Unit,
 };
 use frictcomp::diagnostic::Code;
 use frictcomp_physics::current::Switched;
@@ -228,37 +228,40 @@ impl AxisChannels {
         (!taken.is_empty()).then(|| format!("taken by their names: {}", taken.join(", ")))
     }
 
-    /// FC519 for every unit that was not given, unless the channel has a short name that implies it.
+    /// FC519 for every unit that gives reason for it.
     fn unit_findings(&self, recording: &TraceRecording) -> Vec<TraceFinding> {
-        let finding = |(quantity, pick): (ChannelQuantity, Pick)| {
-            let channel = &recording.channels()[pick.channel.get()];
-            let name = &channel.name;
-            if !pick.unit.is_of_the_drive {
-                return Some(TraceFinding::new(
-                    Code::Fc519,
-                    format!(
-                        "`{name}` is in {}, and so is every `out`",
-                        channel.unit.as_deref().unwrap_or("no drive units")
-                    ),
-                    "a value list has the unit of `dig_drv.act_torque`; record that, or convert the outputs",
-                ));
-            }
-            assumed_unit(channel, quantity, pick)
-        };
-        self.picks().filter_map(finding).collect()
+        let findings = self.picks().filter_map(|(quantity, pick)| {
+            unit_finding(&recording.channels()[pick.channel.get()], quantity, pick)
+        });
+        findings.collect()
     }
 }
 
-/// FC519 for a unit that the recording does not give, unless the channel has a short name that implies it.
-pub fn assumed_unit(
+/// FC519 for a unit that the recording does not give, unless the channel has a short name that implies it; for a torque that
+/// is not in drive units; and for angles, which may be those of the motor of a linear axis (R6.26).
+pub fn unit_finding(
     channel: &Channel,
     quantity: ChannelQuantity,
     pick: Pick,
 ) -> Option<TraceFinding> {
     let name = &channel.name;
-    (pick.is_unit_assumed && (!is_short(name) || channel.unit.is_some())).then(|| {
-        TraceFinding::new(
-            Code::Fc519,
+    let (message, help) = if !pick.unit.is_of_the_drive {
+        (
+            format!(
+                "`{name}` is in {}, and so is every `out`",
+                channel.unit.as_deref().unwrap_or("no drive units")
+            ),
+            "a value list has the unit of `dig_drv.act_torque`; record that, or convert the outputs"
+                .to_owned(),
+        )
+    } else if pick.unit.motion == Some(AxisMotion::Rotary) {
+        (
+            format!("`{name}` is in a unit of angles: where mm are shown, degrees are meant"),
+            "that is right for a rotary axis; for a linear one give its lead, the mm in a turn of the motor"
+                .to_owned(),
+        )
+    } else if pick.is_unit_assumed && (!is_short(name) || channel.unit.is_some()) {
+        (
             format!(
                 "`{name}` has no known unit and is taken in {}",
                 quantity.own_unit()
@@ -268,7 +271,10 @@ pub fn assumed_unit(
                 quantity.example()
             ),
         )
-    })
+    } else {
+        return None;
+    };
+    Some(TraceFinding::new(Code::Fc519, message, help))
 }
 
 /// The following error: the channel that the user names, `e`, the actual position `x_act`, or one that is recognised.

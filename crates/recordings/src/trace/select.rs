@@ -294,6 +294,7 @@ impl ChannelSelection {
         let mut pick = self.pick(ChannelIndex(channel), Position, channels)?;
         if pick.is_unit_assumed {
             pick.unit.factor = POSITION_UNITS_PER_MM;
+            pick.is_unit_assumed = false;
         }
         Ok(Some(pick))
     }

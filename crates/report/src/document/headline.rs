@@ -5,6 +5,8 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::wording::{leading, visible_line};
+use frictcomp::diagnostic::Severity;
+use frictcomp_recordings::identify::TraceFinding;
 
 /// Whether a result is as it should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -61,6 +63,23 @@ impl Headline {
 }
 
 impl Headline {
+    /// Returns the verdict with the first warning about what it rests on; it is then open, unless it is bad anyway.
+    pub(crate) fn with_fault<'f>(
+        self,
+        findings: impl IntoIterator<Item = &'f TraceFinding>,
+    ) -> Self {
+        let mut findings = findings.into_iter();
+        let Some(fault) = findings.find(|it| it.severity == Severity::Warning) else {
+            return self;
+        };
+        let standing = match self.standing {
+            Standing::Bad => Standing::Bad,
+            Standing::Good | Standing::Open | Standing::Plain => Standing::Open,
+        };
+        let text = format!("{}; {}: {}", self.text, fault.code, fault.message);
+        Self::new(standing, text)
+    }
+
     /// Returns the verdict after a remark that has to be known first.
     pub(crate) fn after(&self, remark: &str) -> Self {
         Self::new(self.standing, format!("{remark}. {}", self.text))

@@ -36,7 +36,7 @@ impl VerifyReport {
         let axis = self.axis.as_deref();
         let axis = axis.map_or(String::new(), |axis| format!(" of {axis}"));
         let ends = [verified.ranges.first(), verified.ranges.last()];
-        match ends {
+        let verdict = match ends {
             [Some(first), Some(last)] if verified.fits() => Headline::new(
                 if verified.not_judged.is_empty() {
                     Standing::Good
@@ -56,7 +56,8 @@ impl VerifyReport {
                     said.join("; ")
                 ),
             ),
-        }
+        };
+        verdict.with_fault(&self.recording.findings)
     }
 }
 

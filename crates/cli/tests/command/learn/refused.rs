@@ -42,6 +42,7 @@ fn round(bulge_um: f64) -> LearnedRound {
             };
             let found = RecordedCircle::find(&trace, None).expect("a circle");
             turns.extend(found.into_iter().map(|circle| RecordedTurn {
+                assumed: None,
                 file: format!("F{feed}-{take}.csv"),
                 circle,
             }));

@@ -69,10 +69,11 @@ impl Learning<'_> {
             processors(),
             read,
             |(file, found)| match found {
-                Ok(found) => {
+                Ok((found, assumed)) => {
                     turns.extend(found.into_iter().map(|circle| RecordedTurn {
                         file: file.clone(),
                         circle,
+                        assumed: assumed.first().cloned(),
                     }));
                     ControlFlow::Continue(())
                 }

@@ -40,6 +40,10 @@ pub fn document(report: &CircleReport) -> Document<'_> {
         }
         out.lines(lines);
     }
+    if !report.findings.is_empty() {
+        out.section("What to look at");
+        out.findings(&report.findings);
+    }
     out.section("Value lists");
     for list in lists(report) {
         out.figure(move || value_curve(&list));

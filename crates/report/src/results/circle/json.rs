@@ -11,6 +11,7 @@ use frictcomp_physics::circle::{
     Recording, WorseTurn,
 };
 use frictcomp_physics::stiction::StictionParameters;
+use frictcomp_recordings::identify::TraceFinding;
 
 #[derive(Serialize)]
 struct CircleDocument<'a> {
@@ -24,6 +25,8 @@ struct CircleDocument<'a> {
     on: Option<SideRecord<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recorded: Option<SideRecord<'a>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    diagnostics: &'a [TraceFinding],
 }
 
 #[derive(Serialize)]
@@ -269,6 +272,7 @@ pub fn render_json(report: &CircleReport) -> String {
         off: side("off"),
         on: side("on"),
         recorded: side("recorded"),
+        diagnostics: &report.findings,
     };
     to_json(&document)
 }

@@ -9,6 +9,7 @@ use frictcomp_physics::circle::{
     diagnose_comparison,
 };
 use frictcomp_physics::current::Switched;
+use frictcomp_recordings::identify::TraceFinding;
 
 /// Treatment of the radial deviations, shown with the figures (R5.21).
 pub(super) const TREATMENT: &str = "every point of the path for G, F and the glitch; H at 36000 fixed angles, \
@@ -45,6 +46,8 @@ pub struct CircleReport {
     pub subject: Subject,
     /// The paths without and with compensation, or the recorded ones.
     pub sides: Vec<NamedSide>,
+    /// What was assumed to read recorded ones.
+    pub findings: Vec<TraceFinding>,
 }
 
 /// Driven circle.
@@ -92,11 +95,12 @@ impl CircleReport {
                 side("off", without, comparison.off),
                 side("on", with, comparison.on),
             ],
+            findings: Vec::new(),
         }
     }
 
-    /// The report of recorded circles.
-    pub fn recorded(recording: Recording) -> Self {
+    /// The report of recorded circles, with what was assumed to read them.
+    pub fn recorded((recording, findings): (Recording, Vec<TraceFinding>)) -> Self {
         let side = recording.side.clone();
         Self {
             subject: Subject::Recorded(Box::new(recording)),
@@ -105,6 +109,7 @@ impl CircleReport {
                 advice: diagnose(&side.figures, None),
                 side,
             }],
+            findings,
         }
     }
 }
@@ -128,7 +133,7 @@ impl CircleReport {
             worst.map(|it| (it.height_um, it.crossing))
         };
         let worsts: Option<Vec<_>> = self.sides.iter().map(worst).collect();
-        match (worsts.as_deref(), &self.subject) {
+        let verdict = match (worsts.as_deref(), &self.subject) {
             (Some([(off, _), (on, at)]), _) => Headline::new(
                 if on < off {
                     Standing::Plain
@@ -153,7 +158,8 @@ impl CircleReport {
                 Standing::Open,
                 no_glitches(self).unwrap_or_else(|| "no glitch can be measured".to_owned()),
             ),
-        }
+        };
+        verdict.with_fault(&self.findings)
     }
 
     /// The radius in mm, and the feed in mm/min if it is known.

@@ -42,26 +42,19 @@ impl IdentifyReport {
         let found = &self.identified;
         let axis = self.axis.as_deref();
         let axis = axis.map_or(String::new(), |axis| format!(" of {axis}"));
-        let fault = self.findings().find(|it| it.severity == Severity::Warning);
-        let (standing, fault) = match fault {
-            Some(fault) => (
-                Standing::Open,
-                format!("; {}: {}", fault.code, fault.message),
-            ),
-            None => (Standing::Plain, String::new()),
-        };
         let (Some(slowest), Some(fastest)) = (found.pairs.first(), found.pairs.last()) else {
-            return Headline::new(Standing::Bad, format!("no friction{axis} is found{fault}"));
+            return Headline::new(Standing::Bad, format!("no friction{axis} is found"))
+                .with_fault(self.findings());
         };
         let text = format!(
-            "friction{axis} from {:.2} to {:.2} mm/s: {} to {} {}{fault}",
+            "friction{axis} from {:.2} to {:.2} mm/s: {} to {} {}",
             slowest.speed,
             fastest.speed,
             Rounded(slowest.friction, 3),
             Rounded(fastest.friction, 3),
             self.unit(),
         );
-        Headline::new(standing, text)
+        Headline::new(Standing::Plain, text).with_fault(self.findings())
     }
 
     /// What is shown, and of which axis.

@@ -46,18 +46,13 @@ impl OnCirclesReport {
                 format!("no friction{axis} is found on circles"),
             );
         };
-        let standing = if self.faults().is_empty() {
-            Standing::Plain
-        } else {
-            Standing::Open
-        };
         let text = format!(
             "friction{axis} on circles, from {slowest:.2} to {fastest:.2} mm/s: {} to {} {}",
             Rounded(*at_slowest, 3),
             Rounded(*at_fastest, 3),
             self.unit(),
         );
-        Headline::new(standing, text)
+        Headline::new(Standing::Plain, text).with_fault(self.findings())
     }
 
     /// Returns the faults of the recordings, one line each for the written list (R6.21).

@@ -19,6 +19,9 @@ struct AxisState {
     manual: KindSet,
     selected: KindSet,
     unknown: KindSet,
+    /// The kinds whose parameters a program wrote into the machine data: what switches them on is open until a restart.
+    #[serde(default)]
+    rewritten: KindSet,
     coupling: Coupling,
 }
 
@@ -39,6 +42,13 @@ impl AxisState {
             from,
             to,
         })
+    }
+
+    /// Whether the axis is configured for kinds is open.
+    fn rewrite(&mut self, kinds: KindSet) {
+        self.unselected = self.unselected.without(kinds);
+        self.configured = self.configured.union(kinds);
+        self.rewritten = self.rewritten.union(kinds);
     }
 
     fn state(self, kind: Kind) -> State {
@@ -99,6 +109,7 @@ impl Compensation {
                 manual: axis.manual,
                 selected: axis.configured.without(axis.manual),
                 unknown: KindSet::NONE,
+                rewritten: KindSet::NONE,
                 coupling: Coupling::None,
             });
             compensation.names.push(axis.name);
@@ -186,7 +197,9 @@ impl Compensation {
         let membership = if on { Membership::In } else { Membership::Out };
         for kind in selection.kinds().intersection(state.configured).iter() {
             changes.extend(state.change(axis, kind, |state| {
-                if coupling == Coupling::None {
+                if on && state.rewritten.contains(kind) {
+                    state.unknown.insert(kind);
+                } else if coupling == Coupling::None {
                     state.selected.assign(kind, membership);
                     state.unknown.remove(kind);
                 } else if state.selected.contains(kind) != on {
@@ -249,6 +262,33 @@ impl Compensation {
         let state = &mut self.axes[axis.get()];
         for kind in kinds.intersection(state.configured).iter() {
             changes.extend(state.change(axis, kind, |state| state.unknown.insert(kind)));
+        }
+    }
+
+    /// A program wrote the parameters of a kind into the machine data: whether the axis is configured for it is open, and
+    /// so is what a command that switches it on does, until a restart of the control (R2.92).
+    pub(crate) fn rewrite(&mut self, axis: AxisIndex, kind: Kind, changes: &mut Vec<Change>) {
+        let state = &mut self.axes[axis.get()];
+        changes.extend(state.change(axis, kind, |state| {
+            state.rewrite(KindSet::of(kind));
+            state.unknown.insert(kind);
+        }));
+    }
+
+    /// The kinds whose parameters a program wrote.
+    pub(crate) fn rewritten(&self, axis: AxisIndex) -> KindSet {
+        self.axes[axis.get()].rewritten
+    }
+
+    /// Restores what programs of an earlier session wrote.
+    pub(crate) fn restore_rewritten(&mut self, axis: AxisIndex, kinds: KindSet) {
+        self.axes[axis.get()].rewrite(kinds);
+    }
+
+    /// Adds what a program wrote on another way.
+    pub(crate) fn join_rewritten(&mut self, other: &Self) {
+        for (mine, theirs) in self.axes.iter_mut().zip(&other.axes) {
+            mine.rewrite(theirs.rewritten);
         }
     }
 

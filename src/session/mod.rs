@@ -236,6 +236,8 @@ impl Session {
         };
         if !state.is_assumed_anew(self.machine.axis(axis), &self.machine) {
             self.start.restore(axis, saved.selected, saved.unknown);
+            let rewritten = saved.rewritten.unwrap_or_default();
+            self.start.restore_rewritten(axis, rewritten);
             self.states.inherit(axis);
         }
         for away in &saved.away {
@@ -450,6 +452,7 @@ impl Session {
             axis: axis.name.clone(),
             selected: compensation.selected(index),
             unknown: compensation.unknown(index),
+            rewritten: Some(compensation.rewritten(index)).filter(|it| !it.is_empty()),
             max_points: axis.max_points,
             friction: match &axis.friction {
                 Parameterisation::Accepted(list) => Some(list.clone()),

@@ -95,6 +95,9 @@ pub struct SavedAxis {
     pub selected: KindSet,
     /// The kinds whose state is not known.
     pub unknown: KindSet,
+    /// The kinds whose parameters a program wrote into the machine data (R2.92).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rewritten: Option<KindSet>,
     /// The table size that was reserved at start-up, P-COMP-00062.
     pub max_points: u32,
     /// The value list that was accepted.

@@ -442,6 +442,7 @@ impl History {
         reach: &WaySet,
         theirs: &HistorySide<'_>,
     ) {
+        compensation.join_rewritten(theirs.compensation);
         let axes = (0..compensation.len()).map(AxisIndex::new);
         let differing = axes.flat_map(|axis| {
             let kinds = compensation.differing(theirs.compensation, axis);

@@ -15,6 +15,7 @@ use crate::interpreter::values::expression::{
 use crate::interpreter::values::location::{Denoted, Location, Unknown};
 use crate::interpreter::values::names::Sure;
 use crate::interpreter::values::value::{Slot, TypedValue, Value, ValueType, exact, numeric};
+use crate::interpreter::words::refusal::StopScope;
 use crate::language::{Flushes, is_read_only};
 use crate::lists::AxisType;
 use crate::readings::{Alternative, Question};
@@ -727,7 +728,9 @@ impl Executor {
         );
         let fault = Fault::new(Code::Fc412, span, message)
             .with_help("read it before G41 or G42, for example into a parameter");
-        self.scratch.messages.diagnostics.push(at.diagnostic(fault));
+        self.say_before_parting(at.diagnostic(fault));
+        let scope = StopScope::Alike("V.A.FRICT_COMP under G41".into());
+        self.perhaps_stop((Unknown::Refused(Some(20651)), scope), span, at);
     }
 }
 

@@ -40,6 +40,7 @@ impl Executor {
                 return Err(refused);
             }
             let selection = self.not_yet_switched(command.selection, axis);
+            self.warn_refusals(command, axis, at);
             let control = &mut self.state.control;
             let changes = &mut self.scratch.changes;
             control.compensation.switch(axis, selection, changes)?;
@@ -48,8 +49,6 @@ impl Executor {
         });
         match &result {
             Ok(axis) => {
-                self.warn_coupled(command, *axis, at);
-                self.warn_transformed(command, at);
                 self.warn_opposite(command, *axis, at);
                 self.warn_build(command, at);
                 self.warn_ineffective(command, *axis, at);
@@ -188,11 +187,45 @@ impl Executor {
         }
     }
 
-    /// FC902: an axis that may be in a coupling, and COMP be refused (TF5200 Diagnostics, ID 21403; R2.52).
-    fn warn_coupled(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
-        if self.state.control.compensation.coupling(axis) != Coupling::Perhaps {
+    /// The control may refuse a command that is right by itself: on that way the states stay as they are before it.
+    fn warn_refusals(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
+        let compensation = &self.state.control.compensation;
+        let is_coupled = compensation.coupling(axis) == Coupling::Perhaps;
+        let is_rewritten = matches!(command.selection, Selection::On(_))
+            && compensation.rewritten(axis).contains(Kind::Frict)
+            && command.selection.kinds().contains(Kind::Frict);
+        let is_transformed = !self.state.control.modal.transformed.is_empty();
+        let may_be_refused = is_coupled || is_rewritten || is_transformed;
+        if !may_be_refused || self.refusal_of(command, at).is_some() {
             return;
         }
+        if is_coupled {
+            self.warn_coupled(command, at);
+        }
+        if is_rewritten {
+            self.warn_rewritten(command, at);
+        }
+        if is_transformed {
+            self.warn_transformed(command, at);
+        }
+    }
+
+    /// FC902: the program wrote P-AXIS-00522, so that COMP may be refused (R2.92).
+    fn warn_rewritten(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
+        let name = &command.axis;
+        let message = format!(
+            "`#MACHINE DATA` wrote a parameter of the friction compensation of axis `{name}`; whether the control accepts \
+             this command is not known"
+        );
+        let fault = Fault::new(Code::Fc902, command.span, message)
+            .with_help("run this part with a configuration that has the new value");
+        self.say_before_parting(at.diagnostic(fault).with_axis(name.clone()));
+        let scope = StopScope::Alike(format!("COMP ON of {name} after #MACHINE DATA").into());
+        self.perhaps_stop((Unknown::Refused(Some(70495)), scope), command.span, at);
+    }
+
+    /// FC902: an axis that may be in a coupling, and COMP be refused (TF5200 Diagnostics, ID 21403; R2.52).
+    fn warn_coupled(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let name = &command.axis;
         let message = format!(
             "whether axis `{name}` is in an active coupling is not known offline; if it is, the \
@@ -220,16 +253,18 @@ impl Executor {
         if active.is_empty() {
             return;
         }
+        let active = active.join(" or ");
         let message = format!(
-            "the control may refuse COMP while {} is active (error 50546); for which transformations \
-             it does is not documented",
-            active.join(" or ")
+            "the control may refuse COMP while {active} is active (error 50546); for which transformations \
+             it does is not documented"
         );
         let fault = Fault::new(Code::Fc411, command.span, message).with_help(
             "switch compensation before the transformation is activated, or after its end",
         );
-        let diagnostic = at.diagnostic(fault).with_axis(command.axis.clone());
-        self.scratch.messages.diagnostics.push(diagnostic);
+        self.say_before_parting(at.diagnostic(fault).with_axis(command.axis.clone()));
+        // The control has one answer for each transformation.
+        let scope = StopScope::Alike(format!("COMP while {active} is active").into());
+        self.perhaps_stop((Unknown::Refused(Some(50546)), scope), command.span, at);
     }
 
     /// FC301: the same axis and kind twice in one block with opposite states.

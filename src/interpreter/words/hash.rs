@@ -256,6 +256,10 @@ impl Executor {
                 }
                 _ => self.havoc(axis, kinds),
             }
+            let is_known = enables && self.machine.axis(axis).configured.contains(Kind::Frict);
+            if friction && reading.is_none() && !is_known {
+                self.rewrite_friction(axis, enables);
+            }
         }
         let doubted = self.scratch.doubted.get(doubts..).unwrap_or_default();
         let named: Vec<String> = doubted
@@ -279,10 +283,23 @@ impl Executor {
             [] => what.to_owned(),
             named => format!("{what}; {} is unknown from here on", named.join(", ")),
         };
-        let fault = Fault::new(Code::Fc314, hash.span, message)
-            .with_help("set the state after it, for example with `X[COMP ON FRICT]`");
+        let fault = Fault::new(Code::Fc314, hash.span, message).with_help(if friction {
+            "run what follows with a configuration that has the new value"
+        } else {
+            "set the state after it, for example with `X[COMP ON FRICT]`"
+        });
         let diagnostic = at.diagnostic(fault);
         self.scratch.messages.diagnostics.push(diagnostic);
+    }
+
+    /// The program writes a parameter of the friction compensation of an axis: what `COMP ON` does from here on is open.
+    fn rewrite_friction(&mut self, axis: AxisIndex, enables: bool) {
+        let compensation = &mut self.state.control.compensation;
+        if enables || compensation.is_configured(axis, Kind::Frict) {
+            compensation.rewrite(axis, Kind::Frict, &mut self.scratch.changes);
+            let frict = KindSet::of(Kind::Frict);
+            self.state.control.history.close(axis, frict);
+        }
     }
 
     /// `#RT WHILE` runs as long as its condition on a real-time variable holds (tf5261, 783727499).

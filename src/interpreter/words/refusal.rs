@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Kind};
+use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::{AfterError, BlockContext, FailedAt, OwnEnd, stops};
 use crate::interpreter::events::EndedBy;
@@ -412,6 +412,7 @@ impl Executor {
         for (ways, next) in sides {
             (self.state.control, self.state.track) = here.clone();
             self.state.go_on_with(ways);
+            self.doubt_switches();
             match next {
                 NextStart::Reset => self.reset_after_stop(),
                 NextStart::Restart => {
@@ -437,6 +438,18 @@ impl Executor {
         }
         (self.state.control, self.state.track) = here;
         self.version += 1;
+    }
+
+    /// Whether the control executes the COMP commands of a block that it refuses is not documented (R1.24).
+    fn doubt_switches(&mut self) {
+        for change in &self.scratch.changes {
+            let kind = KindSet::of(change.kind);
+            let control = &mut self.state.control;
+            control
+                .compensation
+                .havoc(change.axis, kind, &mut Vec::new());
+            control.history.close(change.axis, kind);
+        }
     }
 
     /// Where the run goes on after errors, one ends the program on all ways that lead to the block; what follows is

@@ -208,6 +208,12 @@ impl LeftAwayKind<'_> {
         format!("{name}[COMP {way} {}]", self.kind.as_str())
     }
 
+    /// Whether the program writes the parameters of the kind, so that no command makes it known.
+    fn is_rewritten(&self) -> bool {
+        self.ends()
+            .any(|end| end.compensation.rewritten(self.axis).contains(self.kind))
+    }
+
     /// Returns the ends at which the kind is, or may be, away from its start-up state.
     fn ends(&self) -> impl Iterator<Item = &ProgramEnd> {
         let start_up = self.linter.states.start_up(self.axis, self.kind);
@@ -234,6 +240,10 @@ impl LeftAwayKind<'_> {
 
     /// Returns the remedy, as seen from a file. Nothing runs after a loop that only a reset ends.
     fn restore(&self, site: &Place) -> String {
+        if self.is_rewritten() {
+            return "run the program with a configuration that has the values which it writes into the machine data"
+                .to_owned();
+        }
         let command = self.way_home();
         if self.ended.endless {
             return format!("restore it in the loop, which only a reset ends: `{command}`");
@@ -294,7 +304,7 @@ impl LeftAwayKind<'_> {
         // Where an error ends every way, what follows it is no place to restore anything.
         let is_place =
             only.is_passed_into && self.ended.by != EndedBy::Error && is_lone_end(&only.place.text);
-        if !is_place {
+        if !is_place || self.is_rewritten() {
             return None;
         }
         let command = self.way_home();

@@ -7,7 +7,7 @@ use frictcomp_host::{
 };
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, Recording};
 use frictcomp_physics::current::Reading;
-use frictcomp_recordings::identify::{Predictor, verify_followed};
+use frictcomp_recordings::identify::{Predictor, verify_recording};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
 use frictcomp_report::Detail;
 use frictcomp_report::results::circle::{self, CircleReport};
@@ -112,13 +112,13 @@ pub(crate) fn verify(dropped: &mut Dropped, settings: &VerifySettings) -> Result
         torque: settings.torque.clone(),
         ..ChannelSelection::default()
     };
-    let recording = read_axis(Path::new(&settings.path), &selection, None, &disk)?;
+    let mut recording = read_axis(Path::new(&settings.path), &selection, None, &disk)?;
     let predictor = Predictor {
         list: &list,
         reading: Reading::default(),
         cycle_s: None,
     };
-    let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)
+    let verified = verify_recording(&mut recording, &predictor)
         .map_err(|error| Refusal::new(error.to_string()))?;
     let report = VerifyReport {
         axis: settings.axis.clone(),

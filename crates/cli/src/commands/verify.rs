@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::args::{
-    AxisChannelArgs, ByAxis, CurrentReadingArgs, CycleArgs, FollowedChannels, PerAxis, named,
-    refuse_alike, value_list,
+    AxisChannelArgs, ByAxis, CurrentReadingArgs, CycleArgs, FollowedChannels, PerAxis, TorqueArgs,
+    named, refuse_alike, value_list,
 };
 use crate::output::{Console, Failure, HtmlArgs, Job, ResultArgs, exit};
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis};
-use frictcomp_recordings::identify::{Predictor, verify_followed};
+use frictcomp_recordings::identify::{Predictor, verify_recording};
 use frictcomp_report::results::verify::{VerifyReport, document, render_json};
 
 /// Compare a recorded torque with what a value list predicts
@@ -19,8 +19,8 @@ use frictcomp_report::results::verify::{VerifyReport, document, render_json};
 /// The prediction is the additive current that the control computes from the list. Says at which
 /// speeds the list is too low or too high, whether its sign is inverted, and, where the following error
 /// was recorded, whether the list acted and whether it is early or late at reversals. The channels are
-/// named as for `identify`. The exit status is 1 where the list does not fit. Record without
-/// compensation, or record the torque that the drive measures.
+/// named as for `identify`, which looks at the recording in the same way. The exit status is 1 where the list does not
+/// fit, or the recording is doubtful. Record without compensation, or record the torque that the drive measures.
 #[derive(Debug, Args)]
 pub(crate) struct VerifyArgs {
     /// The recording
@@ -33,6 +33,8 @@ pub(crate) struct VerifyArgs {
     channels: AxisChannelArgs,
     #[command(flatten)]
     followed: FollowedChannels,
+    #[command(flatten)]
+    torque: TorqueArgs,
     #[command(flatten)]
     cycle: CycleArgs,
     #[command(flatten)]
@@ -65,12 +67,13 @@ pub(crate) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
         let selection = args.channels.selection(axis, recorded, &registry)?;
         let selection = args.followed.added_to(selection, (axis, &axes))?;
         let recording = read_axis(recorded, &selection, cycle_s, &Disk::default())?;
+        let mut recording = args.torque.about(recording);
         let predictor = Predictor {
             list,
             reading: args.reading.reading,
             cycle_s,
         };
-        let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)?;
+        let verified = verify_recording(&mut recording, &predictor)?;
         Ok(VerifyReport {
             axis: named(axis),
             trace: shown_path(recorded),

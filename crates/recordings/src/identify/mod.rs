@@ -55,4 +55,7 @@ pub use trend::{
     DatedFriction, FrictionChange, FrictionLevels, FrictionParameter, Level, TrendReport,
     friction_changes,
 };
-pub use verify::{CONTACT_MM, Predictor, Reversal, ScaleRange, Verified, verify, verify_followed};
+pub use verify::{
+    CONTACT_MM, Predictor, Reversal, ScaleRange, Verified, verify, verify_followed,
+    verify_recording,
+};

@@ -4,6 +4,7 @@ use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
 use super::doubts;
 use super::finding::TraceFinding;
 use super::identified::{Identified, IdentifyError, IdentifyOptions};
+use super::measured::Measured;
 use super::pair::{Pair, PairedSpeeds};
 use super::ripple::{residuals, wave};
 use super::segment::segments;
@@ -11,7 +12,49 @@ use super::statistics::count;
 use super::support::{SpeedRange, support};
 use super::track::{AxisSamples, Track};
 use super::warnings;
+use frictcomp::diagnostic::Code;
 use frictcomp::lists::TablePoint;
+
+/// The codes of recordings that are not what they seem, or in which friction changes.
+const DOUBTS: [Code; 8] = [
+    Code::Fc516,
+    Code::Fc520,
+    Code::Fc521,
+    Code::Fc522,
+    Code::Fc523,
+    Code::Fc524,
+    Code::Fc525,
+    Code::Fc526,
+];
+
+/// What makes a recording of any motion doubtful (R6.21).
+///
+/// # Errors
+/// The recording cannot show any friction.
+pub(super) fn doubts_about(
+    track: &Track,
+    measured: Measured,
+) -> Result<Vec<TraceFinding>, IdentifyError> {
+    let options = IdentifyOptions {
+        measured,
+        ..IdentifyOptions::default()
+    };
+    let found = match identify(track, &options) {
+        Ok(found) => found.findings,
+        Err(error @ (IdentifyError::Refused(_) | IdentifyError::NoFriction { .. })) => {
+            return Err(error);
+        }
+        // Of motion without constant speeds less can be said.
+        Err(_) => {
+            let samples = AxisSamples::new(track)?;
+            let rows = doubts::missing_rows(&samples.times_s, samples.step_s);
+            let compensation = doubts::check_compensation(&measured)?;
+            [compensation, rows].into_iter().flatten().collect()
+        }
+    };
+    let doubts = found.into_iter().filter(|it| DOUBTS.contains(&it.code));
+    Ok(doubts.collect())
+}
 
 /// Identifies the friction of an axis that moves at constant speeds.
 ///

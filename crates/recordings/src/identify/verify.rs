@@ -4,9 +4,12 @@ use std::ops::RangeInclusive;
 
 use super::curve::solve_linear;
 use super::identified::IdentifyError;
+use super::recorded::AxisRecording;
+use super::speeds::doubts_about;
 use super::statistics::{count, moving_average, noise_of, samples_in};
 use super::timing::{FollowedRecording, Timing};
 use super::track::{AxisSamples, Track};
+use frictcomp::diagnostic::Code;
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::{
     AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
@@ -38,6 +41,8 @@ pub struct Verified {
     pub reversals: Vec<Reversal>,
     /// Whether only motion farther than [`CONTACT_MM`] from the last reversal counts for the scales.
     pub is_away_from_reversals: bool,
+    /// Whether the recording is not what it seems, or friction changes in it (R6.21).
+    pub is_doubted: bool,
 }
 
 /// A range of speeds with its scale.
@@ -64,8 +69,8 @@ pub struct Reversal {
     pub predicted: f64,
 }
 
-/// Ranges of speeds end here, in mm/s.
-const BOUNDS: [f64; 5] = [1.0, 5.0, 20.0, 80.0, f64::INFINITY];
+/// Ranges of speeds end here, in mm/s: between speeds that people record, so that the noise of none is split.
+const BOUNDS: [f64; 8] = [1.4, 3.4, 7.6, 14.0, 34.0, 76.0, 140.0, f64::INFINITY];
 
 /// Slower motion in mm/s is rest.
 const REST: f64 = 0.05;
@@ -84,7 +89,7 @@ const AFTER_S: f64 = 0.05;
 pub const CONTACT_MM: f64 = 0.15;
 
 /// A range with fewer samples has no scale.
-const FEWEST: f64 = 100.0;
+const FEWEST: usize = 100;
 
 /// A list on a control.
 #[derive(Debug, Clone, Copy)]
@@ -95,6 +100,27 @@ pub struct Predictor<'a> {
     pub reading: Reading,
     /// The CNC cycle in s; without it the time between two samples.
     pub cycle_s: Option<f64>,
+}
+
+/// Compares a recording with a value list, as [`verify_followed`] does, and adds what makes the recording doubtful to its
+/// findings (R6.21).
+///
+/// # Errors
+/// The recording cannot be used, or cannot show any friction, or the axis moves in one direction only.
+pub fn verify_recording(
+    recording: &mut AxisRecording,
+    predictor: &Predictor<'_>,
+) -> Result<Verified, IdentifyError> {
+    let verified = verify_followed(&recording.track, &recording.following_errors, predictor)?;
+    let mut doubts = doubts_about(&recording.track, recording.measured)?;
+    // What is wrong goes before what is not known.
+    doubts.sort_by_key(|it| it.code == Code::Fc521);
+    let is_doubted = doubts.iter().any(|it| it.code != Code::Fc521);
+    recording.findings.extend(doubts);
+    Ok(Verified {
+        is_doubted,
+        ..verified
+    })
 }
 
 /// Calls [`verify_followed`] without a following error: the timing of the list stays open.
@@ -124,7 +150,7 @@ pub fn verify_followed(
     }
     let after = samples_in(AFTER_S, samples.step_s);
     let mut used = motion.used(after, (&samples.positions, CONTACT_MM));
-    let is_away_from_reversals = count(used.len()) >= FEWEST;
+    let is_away_from_reversals = used.len() >= FEWEST;
     if !is_away_from_reversals {
         // Strokes that are too short: all there is.
         used = motion.used(after, (&samples.positions, 0.0));
@@ -134,10 +160,11 @@ pub fn verify_followed(
     let [Some(whole), Some(ranges)] = [whole, ranges] else {
         return Err(IdentifyError::NoSegments);
     };
+    let slowest = motion.slowest(&used);
     let scales = ranges.scales.iter().enumerate();
     let ranges = scales.filter_map(|(at, scale)| {
         Some(ScaleRange {
-            from: at.checked_sub(1).map_or(REST, |before| BOUNDS[before]),
+            from: at.checked_sub(1).map_or(slowest, |before| BOUNDS[before]),
             to: BOUNDS[at].min(motion.fastest()),
             scale: (*scale)?,
         })
@@ -192,6 +219,7 @@ pub fn verify_followed(
             .filter_map(|&at| motion.reversal(&samples, &rest, at))
             .collect(),
         is_away_from_reversals,
+        is_doubted: false,
     })
 }
 
@@ -311,6 +339,13 @@ impl PredictedMotion {
         }
     }
 
+    /// The speed from which on there are enough samples to judge a list.
+    fn slowest(&self, used: &[usize]) -> f64 {
+        let mut speeds: Vec<f64> = used.iter().map(|&at| self.velocities[at].abs()).collect();
+        speeds.sort_unstable_by(f64::total_cmp);
+        speeds.get(FEWEST - 1).map_or(REST, |speed| speed.max(REST))
+    }
+
     fn fastest(&self) -> f64 {
         self.velocities
             .iter()
@@ -410,7 +445,7 @@ fn regress(
         }
     }
     let is_kept = |at: &usize| match at.checked_sub(ranges) {
-        None => weights[*at] >= FEWEST && sums[*at][*at] > 0.0,
+        None => weights[*at] >= count(FEWEST) && sums[*at][*at] > 0.0,
         Some(0) => sums[*at][*at] > 1e-6 * count(used.len()),
         Some(_) => true,
     };
@@ -430,8 +465,13 @@ fn regress(
 }
 
 impl Verified {
-    /// Whether the list fits the recorded torque: it has no fault, and no other list acted.
+    /// Whether the list fits the recorded torque, and nothing makes the recording doubtful.
     pub fn fits(&self) -> bool {
+        self.agrees() && !self.is_doubted
+    }
+
+    /// Whether the list has no fault, and no other list acted.
+    pub fn agrees(&self) -> bool {
         self.verdict().is_empty() && !matches!(self.timing, Timing::Other(_))
     }
 
@@ -443,15 +483,31 @@ impl Verified {
         if self.scale < 0.0 {
             said.push("the sign of the list is inverted".to_owned());
         }
-        let off = |range: &&ScaleRange| (range.scale.abs() - 1.0).abs() > RIGHT;
-        for range in self.ranges.iter().filter(off) {
-            let part = (1.0 - 1.0 / range.scale.abs()) * 100.0;
-            let word = if part > 0.0 { "low" } else { "high" };
+        let part = |range: &ScaleRange| (1.0 - 1.0 / range.scale.abs()) * 100.0;
+        let is_off = |range: &ScaleRange| (range.scale.abs() - 1.0).abs() > RIGHT;
+        // Neighbours that are wrong in the same direction are one fault.
+        let is_alike = |one: &ScaleRange, other: &ScaleRange| {
+            is_off(one) == is_off(other) && (part(one) > 0.0) == (part(other) > 0.0)
+        };
+        for fault in self.ranges.chunk_by(is_alike) {
+            let ([begin, ..], [.., end]) = (fault, fault) else {
+                continue;
+            };
+            if !is_off(begin) {
+                continue;
+            }
+            let parts = fault.iter().map(|range| part(range).abs());
+            let [least, most] = parts.fold([f64::MAX, 0.0], |[least, most]: [f64; 2], it| {
+                [least.min(it), most.max(it)]
+            });
+            let word = if part(begin) > 0.0 { "low" } else { "high" };
+            let amount = match (format!("{least:.0}"), format!("{most:.0}")) {
+                (least, most) if least == most => most,
+                (least, most) => format!("{least} to {most}"),
+            };
             said.push(format!(
-                "the list is {:.0} % {word} from {:.2} to {:.1} mm/s",
-                part.abs(),
-                range.from,
-                range.to
+                "the list is {amount} % {word} from {:.2} to {:.2} mm/s",
+                begin.from, end.to
             ));
         }
         if let Some(word) = self.timing.early_or_late() {

@@ -37,7 +37,7 @@ impl VerifyReport {
         let axis = axis.map_or(String::new(), |axis| format!(" of {axis}"));
         let ends = [verified.ranges.first(), verified.ranges.last()];
         let verdict = match ends {
-            [Some(first), Some(last)] if verified.fits() => Headline::new(
+            [Some(first), Some(last)] if verified.agrees() => Headline::new(
                 if verified.not_judged.is_empty() {
                     Standing::Good
                 } else {

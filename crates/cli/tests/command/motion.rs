@@ -272,10 +272,10 @@ fn a_list_that_does_not_fit_has_its_status() {
         (
             1.0,
             0,
-            "v.lis fits the recorded torque from 1.00 to 50.00 mm/s\n",
+            "v.lis fits the recorded torque from 3.40 to 50.00 mm/s\n",
         ),
         (1.0, 0, "not judged: 50.00 to 166.67 mm/s"),
-        (0.8, 1, "the list is 25 % high from"),
+        (0.8, 1, "the list is 25 to 26 % high from"),
         (-1.0, 1, "the sign of the list is inverted"),
     ] {
         let recorded = driven[1..].iter().map(|row| {
@@ -292,6 +292,8 @@ fn a_list_that_does_not_fit_has_its_status() {
             "v.lis",
             "--cycle-time",
             "1",
+            "--torque-kind",
+            "actual",
         ];
         let output = call(folder.path(), &arguments);
         let text = String::from_utf8_lossy(&output.stdout);

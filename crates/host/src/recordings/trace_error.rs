@@ -7,6 +7,7 @@ use thiserror::Error;
 use frictcomp::text::shown_path;
 use frictcomp_physics::circle::RecordedError;
 use frictcomp_physics::current::CyclesError;
+use frictcomp_recordings::identify::TrackError;
 use frictcomp_recordings::trace::{NotAligned, TraceProblem};
 
 /// Why a trace cannot be read.
@@ -34,6 +35,14 @@ pub enum TraceError {
         path: PathBuf,
         /// The fault.
         reason: NotAligned,
+    },
+    /// Positions that do not follow from the velocities.
+    #[error("the recording `{}`: {reason}", shown_path(.path))]
+    Motion {
+        /// Path of the file.
+        path: PathBuf,
+        /// The fault.
+        reason: TrackError,
     },
     /// Rows that are not CNC cycles.
     #[error("the recording `{}`: {reason}", shown_path(.path))]
@@ -85,6 +94,7 @@ impl TraceError {
                 "record with it in Scope, then export the recording: `Export`, format CSV"
             }
             Self::Apart { reason, .. } => return Some(reason.help().into_owned()),
+            Self::Motion { reason, .. } => reason.help(),
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
             Self::NoTimes(_) => "name the channel of the times",
             Self::NoState { .. } => "a state is 1 where friction compensation is active, else 0",

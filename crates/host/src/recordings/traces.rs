@@ -11,11 +11,13 @@ use frictcomp::syntax::no_program;
 use frictcomp_physics::circle::{
     CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
 };
-use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_physics::current::{
-    CommandedTrace, Resampling, Switched, TraceColumns, TraceOptions,
+    CommandedRow, CommandedTrace, POSITION_UNITS_PER_MM, Resampling, Switched, TraceColumns,
+    TraceOptions, VELOCITY_UNITS_PER_MM_PER_S,
 };
-use frictcomp_recordings::identify::{AxisChannels, AxisRecording, TraceFinding, unit_finding};
+use frictcomp_recordings::identify::{
+    AxisChannels, AxisRecording, TraceFinding, check_motion, unit_finding,
+};
 use frictcomp_recordings::trace::{
     Channel, ChannelIndex, ChannelQuantity, ChannelRole, ChannelSelection, Choice, Missing, Pick,
     SelectError, TimeSource, TraceProblem, TraceReader, TraceRecording,
@@ -197,6 +199,16 @@ pub fn read_commanded(
         let path = path.to_owned();
         HostError::from(TraceError::Cycles { path, reason })
     })?;
+    if let [Some(_), Some(_)] = commanded.motion {
+        let column = |of: fn(CommandedRow) -> f64| trace.rows().map(of).collect::<Vec<_>>();
+        let times_s = column(|row| row.time_s);
+        let velocities = column(|row| row.velocity / VELOCITY_UNITS_PER_MM_PER_S);
+        let positions = column(|row| row.position / POSITION_UNITS_PER_MM);
+        check_motion(&times_s, &velocities, &positions).map_err(|reason| {
+            let path = path.to_owned();
+            HostError::from(TraceError::Motion { path, reason })
+        })?;
+    }
     Ok(trace.after([assumed, remarks].concat()))
 }
 
@@ -448,6 +460,17 @@ fn read_points(
         }
         for pick in picks.iter_mut().flatten() {
             let channel = &channels[pick.channel.get()];
+            let recognised = channel.recognised().map(|it| it.role);
+            if recognised == Some(ChannelRole::Position) {
+                return Err(lacks(
+                    channels,
+                    &format!(
+                        "no actual position in `{}`, which is a commanded one",
+                        channel.name
+                    ),
+                    "record the actual positions, or name their channels",
+                ));
+            }
             assumed.extend(unit_finding(channel, ChannelQuantity::Position, *pick));
             pick.unit.factor /= POSITION_UNITS_PER_MM;
         }

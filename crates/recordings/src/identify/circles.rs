@@ -8,6 +8,7 @@ use super::measured::Measured;
 use super::recorded::AxisRecording;
 use super::statistics::{count, moving_average, samples_in};
 use super::track::{AxisSamples, Track, TrackError};
+use frictcomp::diagnostic::Code;
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 
 /// Friction found on circles.
@@ -103,6 +104,16 @@ fn identify_measured<'a>(
     let mut found = rows.solve().ok_or(IdentifyError::Track(TrackError::Short {
         samples: rows.used,
     }))?;
+    if found.inertia < 0.0 {
+        return Err(doubts::refused(
+            Code::Fc522,
+            format!(
+                "the inertia would be {:.4} per mm/s\u{b2}: the torque does not accelerate the axis",
+                found.inertia
+            ),
+            "check that torque and velocity are of one axis, have the same sign, and are recorded at the same time",
+        ));
+    }
     for (samples, _) in &circles {
         findings.extend(doubts::check_points(&found.points, samples, measured)?);
         findings.dedup();

@@ -26,7 +26,7 @@ const MUCH_OF_RATED: f64 = 0.5;
 const SIGNIFICANT: f64 = 3.0;
 
 /// A fault that rules out a list.
-fn refused(code: Code, message: String, help: &str) -> IdentifyError {
+pub(super) fn refused(code: Code, message: String, help: &str) -> IdentifyError {
     IdentifyError::Refused(TraceFinding::new(code, message, help))
 }
 

@@ -50,7 +50,7 @@ pub use states::{ComparedStates, StateRow};
 pub(crate) use statistics::{count, median, moving_average, noise_of, samples_in};
 pub use support::RequestedPoints;
 pub use timing::{ActingShare, Timing};
-pub use track::{Track, TrackError};
+pub use track::{Track, TrackError, check_motion};
 pub use trend::{
     DatedFriction, FrictionChange, FrictionLevels, FrictionParameter, Level, TrendReport,
     friction_changes,

@@ -40,7 +40,7 @@ impl ComparedStates {
                 (apart(nearest.speed) <= SAME * speed).then_some([nearest.friction, nearest.error])
             };
             let frictions: Vec<_> = states.iter().map(at_speed).collect();
-            let values = frictions.iter().flatten().map(|it| it[0].abs());
+            let values = frictions.iter().flatten().map(|it| it[0]);
             let own = frictions.get(working).copied().flatten();
             let own = own.map(|it| it[0].abs()).filter(|it| *it > 0.0);
             let is_compared = frictions.iter().flatten().count() > 1;

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::statistics::count;
+use crate::trace::Clock;
 
 /// Samples of one axis at common, rising times.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -175,7 +176,7 @@ impl AxisSamples {
             torques: track.torques.clone(),
             step_s,
         };
-        samples.check_motion()?;
+        check_motion(&samples.times_s, &samples.velocities, &samples.positions)?;
         Ok(samples)
     }
 
@@ -185,38 +186,46 @@ impl AxisSamples {
             *torque -= part(position);
         }
     }
+}
 
-    /// Checks that the position follows from the velocity.
-    fn check_motion(&self) -> Result<(), TrackError> {
-        /// Distances in mm below which nothing is reported.
-        const LEAST: f64 = 0.5;
-        let reached = integrated(&self.velocities, &self.times_s);
-        let travel = |positions: &[f64]| -> f64 {
-            // Every tenth of a second, so that noise of single samples does not add travel.
-            let every = (0.1 / self.step_s).ceil().max(1.0);
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 5 to some hundreds
-            let coarse: Vec<f64> = positions.iter().step_by(every as usize).copied().collect();
-            coarse
-                .windows(2)
-                .map(|pair| (pair[1] - pair[0]).abs())
-                .sum()
-        };
-        let (one, other) = (travel(&self.positions), travel(&reached));
-        if one.max(other) < LEAST {
-            return Ok(());
-        }
-        let ratio = one / other.max(1e-12);
-        if (0.5..=2.0).contains(&ratio) {
-            return Ok(());
-        }
-        Err(TrackError::Apart {
-            ratio: if ratio >= 1.0 {
-                format!("{ratio:.0}")
-            } else {
-                format!("{ratio:.4}")
-            },
-        })
+/// Checks that positions in mm or degrees follow from velocities in mm/s or °/s.
+///
+/// # Errors
+/// They move another distance than the velocities say.
+pub fn check_motion(
+    times_s: &[f64],
+    velocities: &[f64],
+    positions: &[f64],
+) -> Result<(), TrackError> {
+    /// Distances in mm below which nothing is reported.
+    const LEAST: f64 = 0.5;
+    let step_s = Clock::of(times_s).and_then(|clock| clock.step_s);
+    let reached = integrated(velocities, times_s);
+    let travel = |positions: &[f64]| -> f64 {
+        // Every tenth of a second, so that noise of single samples does not add travel.
+        let every = step_s.map_or(1.0, |step_s| (0.1 / step_s).ceil().max(1.0));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 5 to some hundreds
+        let coarse: Vec<f64> = positions.iter().step_by(every as usize).copied().collect();
+        coarse
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).abs())
+            .sum()
+    };
+    let (one, other) = (travel(positions), travel(&reached));
+    if one.max(other) < LEAST {
+        return Ok(());
     }
+    let ratio = one / other.max(1e-12);
+    if (0.5..=2.0).contains(&ratio) {
+        return Ok(());
+    }
+    Err(TrackError::Apart {
+        ratio: if ratio >= 1.0 {
+            format!("{ratio:.0}")
+        } else {
+            format!("{ratio:.4}")
+        },
+    })
 }
 
 fn scaled(values: &[f64], factor: f64) -> Vec<f64> {

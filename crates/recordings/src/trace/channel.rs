@@ -45,10 +45,11 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// The unit that the file gives in its own row, or in the name.
+    /// The unit that the file gives in its own row, or in the name; `None` where it says that there is none.
     pub fn named_unit(&self) -> Option<&str> {
         let unit = self.unit.as_deref();
-        unit.or_else(|| split_unit(&self.name).1)
+        let unit = unit.or_else(|| split_unit(&self.name).1);
+        unit.filter(|unit| !["", "-", "(None)", "None"].contains(&unit.trim()))
     }
 }
 

@@ -192,11 +192,13 @@ pub enum SelectError {
         /// The quantity of the unit.
         given: ChannelQuantity,
     },
-    /// Times in a unit that is not one of times.
-    #[error("the times `{channel}` are in `{unit}`, which is no known unit of time")]
-    TimeUnit {
+    /// A channel in a unit that is not known as one of its quantity.
+    #[error("the {quantity} `{channel}` is in `{unit}`, which is no known unit of {quantity}")]
+    UnknownUnit {
         /// Name of the channel.
         channel: String,
+        /// The quantity for which it is taken.
+        quantity: ChannelQuantity,
         /// The unit in the file.
         unit: String,
     },
@@ -274,8 +276,11 @@ impl SelectError {
                 "give a unit of the {quantity}, as in `{channel}={}`",
                 quantity.example()
             )),
-            Self::TimeUnit { channel, .. } => Some(format!(
-                "say in which unit they are, s, ms, us, ns or min, as in `{channel}=ms`"
+            Self::UnknownUnit {
+                channel, quantity, ..
+            } => Some(format!(
+                "say in which unit of {quantity} it is, as in `{channel}={}`",
+                quantity.example()
             )),
             Self::Lacks { help, .. } => Some(help.clone()),
         }

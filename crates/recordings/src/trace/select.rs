@@ -103,7 +103,7 @@ impl ChannelSelection {
     /// one that is recognised.
     ///
     /// # Errors
-    /// No channel fits what the user names, or several do; or the times are in an unknown unit.
+    /// No channel fits what the user names, or several do; or it is in an unknown unit.
     pub fn find(
         &self,
         quantity: ChannelQuantity,
@@ -122,9 +122,11 @@ impl ChannelSelection {
         };
         let pick = self.pick(channel, quantity, channels)?;
         match channels[channel.0].named_unit() {
-            Some(unit) if quantity == ChannelQuantity::Time && pick.is_unit_assumed => {
-                Err(SelectError::TimeUnit {
+            // Torque may be in units of the drive.
+            Some(unit) if quantity != ChannelQuantity::Torque && pick.is_unit_assumed => {
+                Err(SelectError::UnknownUnit {
                     channel: channels[channel.0].name.clone(),
+                    quantity,
                     unit: unit.to_owned(),
                 })
             }

@@ -199,6 +199,8 @@ pub(super) fn split_unit(header: &str) -> (&str, Option<&str>) {
         if let Some(rest) = header.strip_suffix(close)
             && let Some((name, unit)) = rest.rsplit_once(open)
             && !name.trim().is_empty()
+            // Round brackets may hold anything: `SetVelo (X)`.
+            && (open == '[' || Unit::parse(unit).is_some())
         {
             return (name.trim(), Some(unit.trim()));
         }

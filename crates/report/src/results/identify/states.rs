@@ -33,7 +33,11 @@ impl StatesReport {
 
     /// The verdict: the spread of the states, and the state for which the list is (R18.20).
     pub fn headline(&self) -> Headline {
-        Headline::new(Standing::Plain, self.spread())
+        let findings = self.states.iter().flat_map(|(_, report)| report.findings());
+        // What is wrong with a recording has the higher codes.
+        let mut findings: Vec<_> = findings.collect();
+        findings.sort_by_key(|it| std::cmp::Reverse(it.code));
+        Headline::new(Standing::Plain, self.spread()).with_fault(findings)
     }
 
     /// The spread of the states in a sentence.

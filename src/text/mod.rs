@@ -15,4 +15,4 @@ pub use file::{LineIndex, LineSource, PhysicalLine, TextLines, Utf16Position, li
 pub use hidden::{changed_direction, is_hidden, shown_json};
 pub(crate) use numbering::Numbering;
 pub(crate) use place::{MAX_WHOLE, StartsInOrder};
-pub use place::{Place, Position, Span, shown_path};
+pub use place::{Place, Position, Span, in_a_row, shown_path};

@@ -225,6 +225,21 @@ impl fmt::Display for Position {
     }
 }
 
+/// Returns names as a sentence lists them: with commas, and `and` before the last one.
+pub fn in_a_row<S: AsRef<str>>(names: &[S]) -> String {
+    let mut row = String::new();
+    for (at, name) in names.iter().enumerate() {
+        let between = match at {
+            0 => "",
+            at if at + 1 == names.len() => " and ",
+            _ => ", ",
+        };
+        row.push_str(between);
+        row.push_str(name.as_ref());
+    }
+    row
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -26,6 +26,7 @@ use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::ways::words::{limit_to, of_axes};
 use crate::language::Group;
+use crate::text::in_a_row;
 
 impl Executor {
     /// Continues with a way.
@@ -198,10 +199,10 @@ fn differ_in_words(mine: &ControlState, theirs: &ControlState) -> bool {
 
 /// What differs where ways meet: kinds of compensation, and anything else.
 fn outcome_in_words(kinds: &[String], others: &[String]) -> String {
-    let switched = format!("{} may be on or off", kinds.join(", "));
+    let switched = format!("{} may be on or off", in_a_row(kinds));
     let is_one = matches!(others, [only] if only.starts_with('`'));
     let verb = if is_one { "is" } else { "are" };
-    let unknown = format!("{} {verb} not known", others.join(", "));
+    let unknown = format!("{} {verb} not known", in_a_row(others));
     match (kinds, others) {
         ([_, ..], [_, ..]) => format!("{switched}, and {unknown}"),
         ([], _) => unknown,

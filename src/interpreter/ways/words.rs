@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::comp::{Kind, State};
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::text::in_a_row;
 
 /// Ways that are named for a state.
 pub(crate) const MAX_NAMED: usize = 4;
@@ -378,15 +379,14 @@ const MAX_NAMED_AXES: usize = 8;
 
 /// The name of a kind of several axes in a message.
 pub(crate) fn of_axes(kind: Kind, axes: &[&str]) -> String {
-    let shown: Vec<String> = axes
+    let mut shown: Vec<String> = axes
         .iter()
         .take(MAX_NAMED_AXES)
         .map(|it| format!("`{it}`"))
         .collect();
-    let more = if axes.len() > MAX_NAMED_AXES {
-        " …"
-    } else {
-        ""
-    };
-    format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
+    let more = axes.len() - shown.len();
+    if more > 0 {
+        shown.push(format!("{more} more"));
+    }
+    format!("`{}` of {}", kind.as_str(), in_a_row(&shown))
 }

@@ -411,7 +411,7 @@ impl Executor {
             reads: None,
             kept: None,
         };
-        let [ends, goes_on] = self.part_at_end(question("M ends the program"), at);
+        let [ends, goes_on] = self.part_at_end(question("M"), at);
         self.end_on(ends, at);
         self.state.go_on_with(goes_on);
         let running = self.state.control.frames.running();

@@ -34,7 +34,7 @@ use crate::syntax::ast::{
     Item, Node, Operand, Repetition, Word,
 };
 use crate::syntax::{Fault, Stretch, VariableName, is_letter, is_program_number};
-use crate::text::{Place, Span};
+use crate::text::{Place, Span, in_a_row};
 
 /// Most blocks elsewhere at which the run may go on after blocks that are passed over; with more, all of the program is
 /// passed over.
@@ -791,7 +791,7 @@ impl Executor {
                 .is_new(cause, named.iter().cloned(), &said.place);
         if is_new {
             said.message.push_str(", including ");
-            said.message.push_str(&named.join(", "));
+            said.message.push_str(&in_a_row(&named));
             self.scratch.messages.diagnostics.push(said);
         } else {
             self.scratch.aside.withheld.push(said);

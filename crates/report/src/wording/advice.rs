@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Code;
 use frictcomp::interpreter::EndedBy;
+use frictcomp::text::in_a_row;
 use frictcomp::timeline::AxisSummary;
 
 /// Returns the consequence of errors for the final states, where `errors` were said and the last
@@ -141,11 +142,7 @@ fn all_home(axes: &[(&str, &AxisSummary)], assumed: &BTreeSet<Code>, warnings: u
 
 /// Returns names as they are listed in a sentence.
 pub(crate) fn listed(names: &[&str]) -> Option<String> {
-    match names {
-        [] => None,
-        [name] => Some((*name).to_owned()),
-        [names @ .., last] => Some(format!("{} and {last}", names.join(", "))),
-    }
+    (!names.is_empty()).then(|| in_a_row(names))
 }
 
 #[cfg(test)]

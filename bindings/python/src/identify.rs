@@ -54,7 +54,7 @@ struct AxisRecordings {
     compensation: Option<Switched>,
 }
 
-fn switched(word: &str) -> PyResult<Switched> {
+pub(crate) fn switched(word: &str) -> PyResult<Switched> {
     match word {
         "on" => Ok(Switched::On),
         "off" => Ok(Switched::Off),

@@ -20,6 +20,7 @@ mod notebook;
 mod pickled;
 mod planner;
 mod program;
+mod recording;
 mod run;
 mod sequence;
 mod several;
@@ -64,6 +65,8 @@ mod _engine {
     use super::messages::{PyEnd, PyFix, PyMessage, PyMessages};
     #[pymodule_export]
     use super::program::PyText;
+    #[pymodule_export]
+    use super::recording::{trace_recording, verify_list};
     #[pymodule_export]
     use super::run::run;
     #[pymodule_export]

@@ -86,3 +86,16 @@ def test_what_makes_no_sense_is_refused() -> None:
             frictcomp.identify("none.csv", max_error=error)
     with pytest.raises(ValueError):
         frictcomp.identify("none.csv", units={"v": "furlongs"})
+
+
+def test_a_recording_is_listed_and_a_list_verified_as_the_command_does() -> None:
+    # R13.13, R6.20
+    recording = "programs/demo/recordings/friction_x.csv"
+    listed = "programs/demo/lists/comp_x.lis"
+    assert frictcomp.trace(recording) == document("trace", recording)
+    told = document("verify", recording, "--value-list", listed)
+    assert frictcomp.verify(recording, listed) == told
+    with pytest.raises(frictcomp.Error, match="no channel `v`"):
+        frictcomp.verify(recording, listed, units={"v": "mm/s"})
+    with pytest.raises(frictcomp.Error, match="is the velocity"):
+        frictcomp.verify(recording, listed, units={"velocity": "mm"})

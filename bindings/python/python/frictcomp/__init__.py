@@ -3,7 +3,8 @@
 ``run`` executes programs without a machine and returns their timeline: which axis has friction
 compensation active after each block. The timeline is a table that pandas, polars and DuckDB accept
 without a copy. ``check`` returns the messages of whole folders, ``audit`` the effect of the order of
-programs. ``current``, ``contour``, ``circle``, ``tune`` and ``identify`` are about the compensation itself.
+programs. ``current``, ``contour``, ``circle``, ``tune``, ``identify`` and ``verify`` are about the compensation itself,
+``trace`` shows what is in a recording.
 
     import frictcomp, polars
     timeline = frictcomp.run("part.nc")
@@ -44,7 +45,9 @@ from ._engine import (
     explain,
     identify,
     run,
+    trace,
     tune,
+    verify,
 )
 from ._error import Error
 
@@ -80,5 +83,7 @@ __all__ = [
     "explain",
     "identify",
     "run",
+    "trace",
     "tune",
+    "verify",
 ]

@@ -745,5 +745,39 @@ def identify(
     ``points`` bounds the points of the list, ``max_error`` its error in per cent of the friction.
     """
 
+def trace(
+    recording: _Path,
+    *,
+    time: str | None = None,
+    units: Mapping[str, str] | None = None,
+) -> Any:
+    """The channels of a recording with their rates, lengths, ranges and gaps: the document of ``frictcomp trace --format json``.
+
+    ``time`` names the channel of the times, ``units`` its unit if the file does not.
+    """
+
+def verify(
+    recording: _Path,
+    value_list: _Path,
+    *,
+    axis: str | None = None,
+    time: str | None = None,
+    position: str | None = None,
+    velocity: str | None = None,
+    torque: str | None = None,
+    actual_position: str | None = None,
+    following_error: str | None = None,
+    units: Mapping[str, str] | None = None,
+    cycle_time_ms: float | None = None,
+    torque_kind: Literal["actual", "command", "loop"] | None = None,
+    compensation: Literal["on", "off"] | None = None,
+    reading: str | None = None,
+) -> Any:
+    """Compares a recorded torque with what a value list predicts: the document of ``frictcomp verify --format json``.
+
+    The channels are named as for ``identify``, which looks at the recording in the same way. ``actual_position`` or
+    ``following_error`` shows whether the list acted, and whether it is early or late at reversals.
+    """
+
 def command(arguments: Sequence[_Path]) -> int:
     """Runs the command line, the name of the program first; returns its exit status."""

@@ -25,6 +25,8 @@ __all__ = [
     "Message",
     "Messages",
     "Text",
+    "trace",
+    "verify",
     "run",
     "AuditSequence",
     "audit_sequence",

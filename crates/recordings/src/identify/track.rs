@@ -1,5 +1,6 @@
 //! The recording of one axis, cycle by cycle.
 
+use frictcomp::diagnostic::Rounded;
 use thiserror::Error;
 
 use super::statistics::count;
@@ -70,7 +71,7 @@ pub enum TrackError {
         samples: usize,
     },
     /// Samples that are too far apart to show motions.
-    #[error("the samples are {step_s} s apart, too far to show the motion")]
+    #[error("the samples are {} s apart, too far to show the motion", Rounded(*.step_s, 3))]
     Slow {
         /// The time between two samples.
         step_s: f64,

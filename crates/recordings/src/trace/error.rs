@@ -181,6 +181,8 @@ pub enum SelectError {
         factor: Box<str>,
         /// `Unit Offset`, as a text.
         offset: Box<str>,
+        /// The quantity for which it is taken.
+        quantity: ChannelQuantity,
     },
     /// A unit of the user that is one of another quantity than the channel.
     #[error("`{channel}` is the {quantity}, but the unit given for it is one of {given}")]
@@ -266,9 +268,12 @@ impl SelectError {
                  or give the axis"
                     .to_owned(),
             ),
-            Self::UnitScaled { channel, .. } => Some(format!(
+            Self::UnitScaled {
+                channel, quantity, ..
+            } => Some(format!(
                 "export it with the unit scale 1 and the unit offset 0, or name the unit of its samples, \
-                 as in `{channel}=mm/s`"
+                 as in `{channel}={}`",
+                quantity.example()
             )),
             Self::OtherUnit {
                 channel, quantity, ..

@@ -469,6 +469,7 @@ impl ChannelSelection {
                 unit: described.unit.clone().unwrap_or_default(),
                 factor: factor.to_string().into(),
                 offset: offset.to_string().into(),
+                quantity,
             });
         }
         let unit = of_user.or(of_file).filter(|unit| unit.quantity == quantity);

@@ -8,9 +8,10 @@ use std::sync::LazyLock;
 use crate::recordings::FRICTION;
 use frictcomp::diagnostic::Code;
 use frictcomp_host::{Disk, read_axis};
-use frictcomp_physics::current::Switched;
+use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_recordings::identify::{
-    Identified, IdentifyError, IdentifyOptions, Measured, TorqueKind, Track, identify,
+    AxisRecording, Identified, IdentifyError, IdentifyOptions, Measured, Predictor, TorqueKind,
+    Track, identify, verify_recording,
 };
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_testing::recorded_drive::Bench;
@@ -104,6 +105,48 @@ const DOUBTS: [Code; 7] = [
     Code::Fc525,
     Code::Fc526,
 ];
+
+#[test]
+fn a_list_is_not_verified_by_what_identifies_none() {
+    // R6.20, R6.21
+    let track = simulated();
+    let list = found(&track).expect("friction").list();
+    let predictor = Predictor {
+        list: &list,
+        reading: Reading::default(),
+        cycle_s: None,
+    };
+    let verified = |change: &dyn Fn(&mut Track)| {
+        let mut changed = track.clone();
+        change(&mut changed);
+        let mut recording = AxisRecording::from(changed);
+        let verified = verify_recording(&mut recording, &predictor);
+        (verified, recording.findings)
+    };
+    let (right, findings) = verified(&|_| ());
+    assert!(right.expect("a verdict").fits(), "{findings:?}");
+    let (lacking, findings) = verified(&|track| {
+        for values in [&mut track.times_s, &mut track.torques] {
+            values.drain(20_000..20_500);
+        }
+        for values in [&mut track.velocities, &mut track.positions] {
+            values.as_mut().expect("motion").drain(20_000..20_500);
+        }
+    });
+    let lacking = lacking.expect("a verdict");
+    assert!(lacking.is_doubted && !lacking.fits(), "{findings:?}");
+    assert!(findings.iter().any(|it| it.code == Code::Fc525));
+    let (none, _) = verified(&|track| track.torques.fill(0.0));
+    assert!(
+        matches!(none, Err(IdentifyError::NoFriction { .. })),
+        "{none:?}"
+    );
+    let (absolute, _) = verified(&|track| {
+        let torques = track.torques.iter_mut();
+        torques.for_each(|torque| *torque = torque.abs());
+    });
+    assert!(absolute.is_err(), "{absolute:?}");
+}
 
 #[test]
 fn good_recordings_are_not_doubted() {

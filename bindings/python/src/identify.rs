@@ -7,7 +7,6 @@ use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, read_axis, refuse_copies};
 use frictcomp_physics::current::Switched;
-use frictcomp_physics::motion::check_cycle;
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyOptions, ListRequest, ListRequestError, TorqueKind, identify as find,
     identify_circles,
@@ -27,7 +26,7 @@ use crate::json;
 use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::several::Several;
-use crate::words::meant_if_given;
+use crate::words::{meant_if_given, seconds};
 use crate::work::interruptible;
 
 /// The friction of an axis, and the value list that is made from it.
@@ -96,7 +95,6 @@ pub(crate) fn identify(
         max_error_percent: max_error,
         feed_mm_per_min,
     })?;
-    let cycle = cycle_time_ms.map(|ms| check_cycle(ms / 1000.0)).transpose();
     let selection = ChannelSelection {
         axis,
         time,
@@ -109,7 +107,7 @@ pub(crate) fn identify(
     let recorded = AxisRecordings {
         recordings: recordings.paths(),
         selection,
-        cycle_s: cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?,
+        cycle_s: seconds(py, cycle_time_ms)?,
         torque_kind: meant_if_given("torque_kind", torque_kind)?,
         compensation: compensation.map(switched).transpose()?,
     };

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, read_axis, read_trace, read_value_list};
-use frictcomp_physics::motion::check_cycle;
 use frictcomp_recordings::identify::{Predictor, verify_recording};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
 use frictcomp_report::results::trace::{self, TraceReport};
@@ -15,7 +14,7 @@ use pyo3::prelude::*;
 use crate::failure::Failure;
 use crate::identify::{given_units, switched};
 use crate::json::JsonText;
-use crate::words::{meant, meant_if_given};
+use crate::words::{meant, meant_if_given, seconds};
 use crate::work::interruptible;
 
 /// The channels of a recording with their rates, lengths, ranges and gaps: the document of ``frictcomp trace --format json``.
@@ -71,8 +70,7 @@ pub(crate) fn verify_list(
     compensation: Option<&str>,
     reading: Option<&str>,
 ) -> PyResult<JsonText> {
-    let cycle = cycle_time_ms.map(|ms| check_cycle(ms / 1000.0)).transpose();
-    let cycle_s = cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?;
+    let cycle_s = seconds(py, cycle_time_ms)?;
     let selection = ChannelSelection {
         axis,
         time,

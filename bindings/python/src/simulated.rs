@@ -17,7 +17,6 @@ use frictcomp_physics::circle::{
     Shaping, Task,
 };
 use frictcomp_physics::current::Reading;
-use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_recordings::value_lists::render_tuned;
 use frictcomp_report::pictures;
@@ -34,7 +33,7 @@ use crate::json;
 use crate::notebook;
 use crate::pickled::{self, Reduced};
 use crate::several::Several;
-use crate::words::{meant, meant_if_given};
+use crate::words::{meant, meant_if_given, seconds};
 use crate::work::{Stop, interruptible};
 
 /// The maximum number of circles that are tuned at once.
@@ -194,11 +193,6 @@ fn read(lists: Lists) -> Result<([FrictionList; 2], ListOrigin), Failure> {
                 .with_help("give one path for both, or `{'X': …, 'Y': …}`")),
         },
     }
-}
-
-fn seconds(py: Python<'_>, milliseconds: Option<f64>) -> PyResult<Option<f64>> {
-    let checked = milliseconds.map(|ms| check_cycle(ms / 1000.0)).transpose();
-    checked.map_err(|error| Failure::new(error.to_string()).into_error(py))
 }
 
 /// The parameters of a value list that leave the smallest glitch on a simulated machine.

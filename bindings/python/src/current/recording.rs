@@ -8,7 +8,6 @@ use frictcomp_host::{Disk, FileRegistry, read_commanded, read_value_list};
 use frictcomp_physics::current::{
     AdditiveCurrent, Commanded, DeadBand, Reading, Resampling, Switched, TraceOptions,
 };
-use frictcomp_physics::motion::check_cycle;
 use frictcomp_recordings::trace::ChannelSelection;
 use pyo3::prelude::*;
 
@@ -17,7 +16,7 @@ use super::expect_numpy;
 use crate::exceptions::refused;
 use crate::failure::Failure;
 use crate::identify::given_units;
-use crate::words::meant;
+use crate::words::{meant, seconds};
 use crate::work::interruptible;
 
 /// What is computed, independent of Python.
@@ -64,8 +63,7 @@ pub(crate) fn current_of_recording(
     reading: Option<&str>,
 ) -> PyResult<PyAxisCurrent> {
     expect_numpy(py)?;
-    let cycle = cycle_time_ms.map(|ms| check_cycle(ms / 1000.0)).transpose();
-    let cycle = cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?;
+    let cycle = seconds(py, cycle_time_ms)?;
     let resampling = if resample {
         Resampling::Done
     } else {

@@ -12,8 +12,8 @@ use frictcomp_physics::circle::{
     CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
 };
 use frictcomp_physics::current::{
-    CommandedRow, CommandedTrace, POSITION_UNITS_PER_MM, Resampling, Switched, TraceColumns,
-    TraceOptions, VELOCITY_UNITS_PER_MM_PER_S,
+    CommandedTrace, POSITION_UNITS_PER_MM, Resampling, Switched, TraceColumns, TraceOptions,
+    VELOCITY_UNITS_PER_MM_PER_S,
 };
 use frictcomp_recordings::identify::{
     AxisChannels, AxisRecording, TraceFinding, check_motion, unit_finding,
@@ -200,11 +200,16 @@ pub fn read_commanded(
         HostError::from(TraceError::Cycles { path, reason })
     })?;
     if let [Some(_), Some(_)] = commanded.motion {
-        let column = |of: fn(CommandedRow) -> f64| trace.rows().map(of).collect::<Vec<_>>();
-        let times_s = column(|row| row.time_s);
-        let velocities = column(|row| row.velocity / VELOCITY_UNITS_PER_MM_PER_S);
-        let positions = column(|row| row.position / POSITION_UNITS_PER_MM);
-        check_motion(&times_s, &velocities, &positions).map_err(|reason| {
+        let motion = trace.rows().map(|row| {
+            let velocity = row.velocity / VELOCITY_UNITS_PER_MM_PER_S;
+            [row.time_s, velocity, row.position / POSITION_UNITS_PER_MM]
+        });
+        let times_s: Vec<f64> = trace.rows().take(2).map(|row| row.time_s).collect();
+        let step_s = times_s
+            .windows(2)
+            .next()
+            .map_or(1.0, |pair| pair[1] - pair[0]);
+        check_motion(step_s, motion).map_err(|reason| {
             let path = path.to_owned();
             HostError::from(TraceError::Motion { path, reason })
         })?;

@@ -49,7 +49,7 @@ pub enum LearnError {
     #[error("`{0}` has no times, so its feed is not known")]
     NoTimes(String),
     /// A unit that the recording does not give.
-    #[error("`{file}`: {assumed}")]
+    #[error("`{file}`: {assumed}, which learning does not take for granted")]
     Unit {
         /// Name of the file.
         file: String,

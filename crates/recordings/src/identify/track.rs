@@ -4,7 +4,6 @@ use frictcomp::diagnostic::Rounded;
 use thiserror::Error;
 
 use super::statistics::count;
-use crate::trace::Clock;
 
 /// Samples of one axis at common, rising times.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -177,7 +176,10 @@ impl AxisSamples {
             torques: track.torques.clone(),
             step_s,
         };
-        check_motion(&samples.times_s, &samples.velocities, &samples.positions)?;
+        let motion = samples.velocities.iter().zip(&samples.positions);
+        let motion = samples.times_s.iter().zip(motion);
+        let motion = motion.map(|(&time, (&velocity, &position))| [time, velocity, position]);
+        check_motion(step_s, motion)?;
         Ok(samples)
     }
 
@@ -189,30 +191,34 @@ impl AxisSamples {
     }
 }
 
-/// Checks that positions in mm or degrees follow from velocities in mm/s or °/s.
+/// Checks that positions in mm or degrees follow from velocities in mm/s or °/s: each sample is its time in s, its velocity
+/// and its position, and comes `step_s` after the one before.
 ///
 /// # Errors
 /// They move another distance than the velocities say.
 pub fn check_motion(
-    times_s: &[f64],
-    velocities: &[f64],
-    positions: &[f64],
+    step_s: f64,
+    samples: impl IntoIterator<Item = [f64; 3]>,
 ) -> Result<(), TrackError> {
     /// Distances in mm below which nothing is reported.
     const LEAST: f64 = 0.5;
-    let step_s = Clock::of(times_s).and_then(|clock| clock.step_s);
-    let reached = integrated(velocities, times_s);
-    let travel = |positions: &[f64]| -> f64 {
-        // Every tenth of a second, so that noise of single samples does not add travel.
-        let every = step_s.map_or(1.0, |step_s| (0.1 / step_s).ceil().max(1.0));
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 5 to some hundreds
-        let coarse: Vec<f64> = positions.iter().step_by(every as usize).copied().collect();
-        coarse
-            .windows(2)
-            .map(|pair| (pair[1] - pair[0]).abs())
-            .sum()
-    };
-    let (one, other) = (travel(positions), travel(&reached));
+    // Every tenth of a second, so that noise of single samples does not add travel.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 5 to some hundreds
+    let every = (0.1 / step_s).ceil().max(1.0) as usize;
+    let mut reached = 0.0;
+    let mut earlier = None;
+    let mut coarse: Option<[f64; 2]> = None;
+    let [mut one, mut other] = [0.0_f64; 2];
+    for (at, [time, velocity, position]) in samples.into_iter().enumerate() {
+        reached += velocity * (time - earlier.unwrap_or(time));
+        earlier = Some(time);
+        if at % every == 0 {
+            let before = coarse.replace([position, reached]);
+            let [from, from_reached] = before.unwrap_or([position, reached]);
+            one += (position - from).abs();
+            other += (reached - from_reached).abs();
+        }
+    }
     if one.max(other) < LEAST {
         return Ok(());
     }

@@ -112,11 +112,12 @@ pub fn verify_recording(
     predictor: &Predictor<'_>,
 ) -> Result<Verified, IdentifyError> {
     let verified = verify_followed(&recording.track, &recording.following_errors, predictor)?;
-    let mut doubts = doubts_about(&recording.track, recording.measured)?;
+    let doubts = doubts_about(&recording.track, recording.measured)?.into_iter();
     // What is wrong goes before what is not known.
-    doubts.sort_by_key(|it| it.code == Code::Fc521);
-    let is_doubted = doubts.iter().any(|it| it.code != Code::Fc521);
-    recording.findings.extend(doubts);
+    let (open, wrong): (Vec<_>, Vec<_>) = doubts.partition(|it| it.code == Code::Fc521);
+    let is_doubted = !wrong.is_empty();
+    recording.findings.splice(0..0, wrong);
+    recording.findings.extend(open);
     Ok(Verified {
         is_doubted,
         ..verified

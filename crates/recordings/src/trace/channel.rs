@@ -45,7 +45,7 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// The unit that the file gives in its own row, or in the name; `None` where it says that there is none.
+    /// The unit that the file gives, in a row of units or in the name.
     pub fn named_unit(&self) -> Option<&str> {
         let unit = self.unit.as_deref();
         let unit = unit.or_else(|| split_unit(&self.name).1);

@@ -63,7 +63,7 @@ impl Headline {
 }
 
 impl Headline {
-    /// Returns the verdict with the first warning about what it rests on; it is then open, unless it is bad anyway.
+    /// Returns the verdict followed by the first warning of some findings, which leaves a good verdict open.
     pub(crate) fn with_fault<'f>(
         self,
         findings: impl IntoIterator<Item = &'f TraceFinding>,

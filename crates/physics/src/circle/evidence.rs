@@ -10,7 +10,7 @@ use super::evidence_shape::{OtherShape, ShapeTerm, Term};
 use super::oscillation::Oscillation;
 use super::pitch;
 use super::profile::{Quality, RadialProfile};
-use super::series::{AngleSeries, beyond_noise};
+use super::series::{AngleSeries, Mask, beyond_noise};
 use super::shapes::{Additions, Shapes};
 use super::swings::stick_slip;
 use super::tail_search;
@@ -60,17 +60,24 @@ impl CircleEvidence {
         quality: Quality,
     ) -> Option<Self> {
         let paths: Vec<(Direction, &RadialProfile)> = paths.collect();
-        let in_steps = |steps: fn(&RadialProfile, Direction, usize) -> Option<AngleSeries>| {
+        let in_steps = |steps: Steps, mask: Mask| {
             let paths = paths.iter();
             let series =
-                paths.map(|&(direction, profile)| steps(profile, direction, quality.samples));
+                paths.map(|&(direction, profile)| steps(profile, direction, quality.samples, mask));
             series.collect::<Option<Vec<AngleSeries>>>()
         };
-        let [coarse, fine] = [in_steps(AngleSeries::coarse)?, in_steps(AngleSeries::fine)?];
-        let rough = in_steps(AngleSeries::rough)?;
+        let mut mask = Mask::Reversals;
+        let mut coarse = in_steps(AngleSeries::coarse, mask)?;
+        let rough = in_steps(AngleSeries::rough, mask)?;
         let noise_um = quality.noise_um;
+        let mut shapes = tail_search::fit(&paths, (&coarse, &rough), noise_um)?;
+        if shapes.added() == Additions::default() {
+            mask = Mask::ReversalsAndSlowing;
+            coarse = in_steps(AngleSeries::coarse, mask)?;
+            shapes = Shapes::fit(&coarse, Additions::default())?;
+        }
+        let fine = in_steps(AngleSeries::fine, mask)?;
         let without = Shapes::fit(&coarse, Additions::default())?;
-        let shapes = tail_search::fit(&paths, (&coarse, &rough), noise_um)?;
         let floor = (REST_OF_NOISE * noise_um)
             .max(LEAST_REST_UM)
             .max(REST_OF_STEP * quality.step_um);
@@ -114,6 +121,9 @@ impl CircleEvidence {
         self.other.is_some()
     }
 }
+
+/// A path in steps of some length.
+type Steps = fn(&RadialProfile, Direction, usize, Mask) -> Option<AngleSeries>;
 
 /// What counts as a residual.
 #[derive(Debug, Clone, Copy)]

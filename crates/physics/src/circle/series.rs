@@ -17,12 +17,26 @@ const ROUGH: usize = 40;
 const MASKED_DEG: f64 = 14.0;
 const MASKED_S: f64 = 0.3;
 
+/// Masked degrees before every crossing …
+const BEFORE_DEG: f64 = 1.0;
+
+/// … or seconds, if that is more, where friction rises as the axis slows down.
+const SLOWING_S: f64 = 0.1;
+
 /// Limit beyond which nothing of a turn is left.
 const MOST_MASKED_DEG: f64 = 75.0;
 
 /// A block for the standard errors, in s; without times, in degrees.
 const BLOCK_S: f64 = 0.05;
 const BLOCK_DEG: f64 = 2.0;
+
+/// What is left out of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mask {
+    Reversals,
+    /// Also what is before them, where axes slow down.
+    ReversalsAndSlowing,
+}
 
 /// A path in equal steps of the angle, in µm, without the reversals.
 #[derive(Debug, Clone)]
@@ -49,8 +63,9 @@ impl AngleSeries {
         profile: &RadialProfile,
         direction: Direction,
         samples: usize,
+        mask: Mask,
     ) -> Option<Self> {
-        Self::in_steps(profile, direction, (samples, COARSE))
+        Self::in_steps(profile, direction, (samples, COARSE), mask)
     }
 
     /// The path in longer steps, in which slow shapes are the same.
@@ -58,8 +73,9 @@ impl AngleSeries {
         profile: &RadialProfile,
         direction: Direction,
         samples: usize,
+        mask: Mask,
     ) -> Option<Self> {
-        Self::in_steps(profile, direction, (samples, ROUGH))
+        Self::in_steps(profile, direction, (samples, ROUGH), mask)
     }
 
     /// The path in steps of a sample, or of a fixed angle if that is more.
@@ -67,20 +83,26 @@ impl AngleSeries {
         profile: &RadialProfile,
         direction: Direction,
         samples: usize,
+        mask: Mask,
     ) -> Option<Self> {
         let step = (ANGLES / samples.max(1)).clamp(1, COARSE);
-        Self::in_steps(profile, direction, (samples, step))
+        Self::in_steps(profile, direction, (samples, step), mask)
     }
 
     fn in_steps(
         profile: &RadialProfile,
         direction: Direction,
         (samples, step): (usize, usize),
+        mask: Mask,
     ) -> Option<Self> {
         let turn_s = profile.turn_s();
-        let masked = turn_s.map_or(0.0, |turn_s| MASKED_S * 360.0 / turn_s);
-        let masked = masked.max(MASKED_DEG);
-        if masked > MOST_MASKED_DEG {
+        let in_degrees = |seconds: f64| turn_s.map_or(0.0, |turn_s| seconds * 360.0 / turn_s);
+        let masked = in_degrees(MASKED_S).max(MASKED_DEG);
+        let slowing = match mask {
+            Mask::Reversals => BEFORE_DEG,
+            Mask::ReversalsAndSlowing => in_degrees(SLOWING_S).max(BEFORE_DEG),
+        };
+        if masked + slowing > MOST_MASKED_DEG {
             return None;
         }
         let chunks = profile.deviations_m().chunks(step).enumerate();
@@ -88,7 +110,7 @@ impl AngleSeries {
             let degrees = (real(at) + 0.5) * real(step) / real(ANGLES) * 360.0;
             let after = (direction.sign() * degrees).rem_euclid(90.0);
             let mean = chunk.iter().sum::<f64>() / real(chunk.len()) * UM_PER_M;
-            (after > masked && after < 89.0).then_some(mean)
+            (after > masked && after < 90.0 - slowing).then_some(mean)
         });
         let values: Vec<Option<f64>> = values.collect();
         let in_step = real(samples * step) / real(ANGLES);

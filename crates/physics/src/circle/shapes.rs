@@ -35,6 +35,9 @@ const TAILS: [[usize; 2]; 2] = [[13, 14], [15, 16]];
 /// The part of what a tail takes from a term that remains uncertain: no peak decays quite exponentially.
 const TAKEN: f64 = 0.05;
 
+/// The part of the height of a tail by which every term remains uncertain for the same reason.
+const OF_TAIL: f64 = 0.01;
+
 /// The places of the cosines and sines of two screws in a row.
 const SCREWS: [[usize; 2]; 2] = [[17, 18], [19, 20]];
 
@@ -132,14 +135,15 @@ impl Shapes {
         row.iter().zip(self.found).map(|(a, b)| a * b).sum()
     }
 
-    /// Makes the terms less certain by a part of what they are without the tails.
+    /// Makes the terms less certain by what tails that are not quite exponential can add to them.
     pub(super) fn doubted(mut self, without: &Self) -> Self {
         if self.basis.added.decays == Decays::default() {
             return self;
         }
+        let tallest = self.tails().tallest_um();
         for (term, other) in self.terms.iter_mut().zip(&without.terms) {
             let taken = TAKEN * (term.size_um - other.size_um);
-            term.error_um = term.error_um.hypot(taken);
+            term.error_um = term.error_um.hypot(taken).hypot(OF_TAIL * tallest);
         }
         self
     }

@@ -53,9 +53,9 @@ pub(super) fn fit(
     let rest = beyond_noise(&shapes.left, noise_um);
     let least = LEAST_PEAK_UM.max(OF_NOISE * noise_um).max(FAR * rest);
     let mut peaks = PlaneAxis::ALL.map(|axis| (axis, peak_um(paths, axis, &shapes)));
-    peaks.sort_by(|one, other| other.1.total_cmp(&one.1));
+    peaks.sort_by(|one, other| other.1.abs().total_cmp(&one.1.abs()));
     let mut decays = Decays::default();
-    for (axis, peak) in peaks.into_iter().filter(|(_, peak)| *peak >= least) {
+    for (axis, peak) in peaks.into_iter().filter(|(_, peak)| peak.abs() >= least) {
         let at = axis_number(axis);
         let with = |series: &[AngleSeries], decay_s: f64| {
             let mut tried = decays;
@@ -106,13 +106,18 @@ fn best(slowest_s: f64, squares: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     Some(best?.0)
 }
 
-/// Whether a tail that was fitted is one: it explains more than its noise, and is as large as the peak.
+/// Whether a tail that was fitted is one: it explains more than its noise, and has the sign and the size of the
+/// peak. What an axis leaves as it slows down before a reversal is fitted by tails of the opposite sign.
 fn is_tail(found: &Shapes, (axis, peak): (PlaneAxis, f64), squares_before: f64) -> bool {
     let heights = found.tails().heights_um(axis);
-    let [least, most] = HEIGHTS.map(|part| part * peak);
-    let largest = heights.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
-    let is_sized = (least..=most).contains(&largest);
+    let largest = heights.into_iter().fold(0.0, larger);
+    let is_sized = (HEIGHTS[0]..=HEIGHTS[1]).contains(&(largest / peak));
     is_sized && squares_before - found.squares() > EXPLAINS * found.variance()
+}
+
+/// The one of two deviations that is farther from zero.
+fn larger(one: f64, other: f64) -> f64 {
+    if other.abs() > one.abs() { other } else { one }
 }
 
 /// The largest deviation after the reversals of an axis from the fitted shapes, in µm.
@@ -120,7 +125,7 @@ fn peak_um(paths: &[(Direction, &RadialProfile)], axis: PlaneAxis, shapes: &Shap
     /// Degrees after a crossing in which a peak is sought.
     const WITHIN: i32 = 14 * PER_DEGREE;
     let crossings = || Crossing::ALL.into_iter().filter(|it| it.axis() == axis);
-    let mut most = 0.0_f64;
+    let mut most = 0.0;
     for &(direction, profile) in paths {
         for crossing in crossings() {
             for (_, point) in profile.fixed(crossing, direction, 0..=WITHIN) {
@@ -134,7 +139,7 @@ fn peak_um(paths: &[(Direction, &RadialProfile)], axis: PlaneAxis, shapes: &Shap
                     radius_mm: profile.radius_m() * 1000.0,
                 };
                 let shape = shapes.at(angle, course);
-                most = most.max((point.deviation * UM_PER_M - shape).abs());
+                most = larger(most, point.deviation * UM_PER_M - shape);
             }
         }
     }

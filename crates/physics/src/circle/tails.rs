@@ -48,6 +48,12 @@ impl Tails {
         self.heights_um[axis_number(axis)]
     }
 
+    /// The height of the largest tail in µm.
+    pub(super) fn tallest_um(&self) -> f64 {
+        let heights = self.heights_um.iter().flatten();
+        heights.fold(0.0, |most, it| most.max(it.abs()))
+    }
+
     /// The deviation outwards in µm by both tails.
     pub(super) fn at(&self, place: TailPlace) -> f64 {
         PlaneAxis::ALL.map(|axis| self.of(axis, place)).iter().sum()

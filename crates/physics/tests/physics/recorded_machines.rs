@@ -2,8 +2,8 @@
 
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::{
-    Circle, Direction, DriveFit, FittedDrive, ObservedCircle, PlaneAxis, RecordedCircle,
-    RecordedTrace,
+    Circle, CommandedCircle, Direction, DriveFit, Finding, FittedDrive, ObservedCircle, PathCentre,
+    PlaneAxis, RecordedCircle, RecordedTrace, Recording, diagnose,
 };
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{DriveParameters, Preset};
@@ -251,4 +251,39 @@ fn intervals_hold_the_truth() {
     }
     println!("of {FITS}: {NAMES:?} {held:?}, one-sided {one_sided:?}");
     assert!(held.iter().all(|it| *it >= 35), "{held:?}");
+}
+
+/// R5.24, R5.28, R5.34: a machine with friction alone shows friction, not backlash, ellipses or another shape.
+#[test]
+fn friction_alone_is_nothing_else() {
+    let ramp = Ramp {
+        acceleration: 2000.0,
+        jerk: 50_000.0,
+    };
+    let machine = machine(&Presliding::bristle(1.6), ramp, 0.0);
+    for (radius, feed) in [
+        (10.0, 500.0),
+        (10.0, 1500.0),
+        (10.0, 2500.0),
+        (50.0, 4000.0),
+        (50.0, 11_000.0),
+        (150.0, 15_000.0),
+    ] {
+        let run = machine.run(&circles(radius, feed), [radius, 0.0], [None, None]);
+        for noise in [0.0, 0.2] {
+            let found = RecordedCircle::find(&recorded(&run, noise, 7), Some(radius));
+            let commanded = CommandedCircle {
+                radius_mm: Some(radius),
+                ..CommandedCircle::default()
+            };
+            let recording = Recording::new(found.expect("circles"), commanded, PathCentre::Common);
+            let figures = recording.expect("both directions").side.figures;
+            let mut advice = diagnose(&figures, None);
+            advice.retain(|it| it.finding != Finding::Friction);
+            assert!(
+                advice.is_empty(),
+                "R{radius} F{feed}, {noise} µm: {advice:?}"
+            );
+        }
+    }
 }

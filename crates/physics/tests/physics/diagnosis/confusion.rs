@@ -300,12 +300,12 @@ fn is_right(fault: &Fault, found: &[Diagnosis]) -> bool {
 }
 
 #[test]
-fn of_66_recordings_64_are_told_right_and_the_document_shows_them() {
+fn the_66_recordings_are_told_right_and_the_document_shows_them() {
     // R5.34 R5.35
     let mut table = String::from(
         "| fault | without noise | 0.3 µm of noise | 1 µm of noise |\n|---|---|---|---|\n",
     );
-    let (mut right, mut wrong) = (0, Vec::new());
+    let mut wrong = Vec::new();
     for fault in &FAULTS {
         let _ = write!(table, "| {} ", fault.name);
         for noise in NOISES {
@@ -313,7 +313,6 @@ fn of_66_recordings_64_are_told_right_and_the_document_shows_them() {
             let found = diagnose(&figures, None);
             let words = said(&found);
             if is_right(fault, &found) {
-                right += 1;
                 let _ = write!(table, "| {words} ");
             } else {
                 let _ = write!(table, "| **{words}** ");
@@ -322,7 +321,7 @@ fn of_66_recordings_64_are_told_right_and_the_document_shows_them() {
         }
         table.push_str("|\n");
     }
-    assert!(right >= 64, "{right} of 66\n{}", wrong.join("\n"));
+    assert_eq!(wrong, Vec::<String>::new());
     agrees("circular-test.md", "confusion", &table);
 }
 
@@ -392,7 +391,7 @@ fn told_wrong(seeds: std::ops::Range<u64>) -> Vec<String> {
 fn a_slow_peak_of_any_kind_is_friction_of_its_axis() {
     // R5.34
     let wrong = told_wrong(0..20);
-    assert!(wrong.len() <= 1, "{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
@@ -400,7 +399,7 @@ fn a_slow_peak_of_any_kind_is_friction_of_its_axis() {
 fn slow_peaks_of_many_kinds_are_friction_of_their_axis() {
     // R5.34
     let wrong = told_wrong(0..400);
-    assert!(wrong.len() <= 20, "{}\n{}", wrong.len(), wrong.join("\n"));
+    assert!(wrong.is_empty(), "{}\n{}", wrong.len(), wrong.join("\n"));
 }
 
 #[test]

@@ -423,6 +423,45 @@ fn recordings_as_machines_make_them_are_read() {
     }
 }
 
+/// R5.22, R5.26: what is missing where an axis reverses could be a glitch; between two crossings it is bridged.
+#[test]
+fn a_gap_at_a_crossing_is_no_all_clear() {
+    let without = |from: f64, to: f64| {
+        let all = synthetic(Direction::Ccw, |_| 0.0).into_iter();
+        let angle = |point: &[f64; 2]| (point[1] + 7.0).atan2(point[0] - 3.0).to_degrees();
+        all.filter(|point| !(from..to).contains(&angle(point)))
+            .collect::<Vec<_>>()
+    };
+    assert!(circle(without(40.0, 44.0), None).is_ok());
+    for crossing in [-90.0, 0.0, 90.0] {
+        let found = circle(without(crossing - 1.0, crossing + 3.0), None);
+        assert!(
+            matches!(found, Err(RecordedError::Gaps(_))),
+            "{crossing}: {found:?}"
+        );
+    }
+}
+
+/// R5.26: a feed that the times deny is refused.
+#[test]
+fn a_feed_is_that_of_the_times() {
+    let mut trace = RecordedTrace::of_points(synthetic(Direction::Ccw, |_| 0.0));
+    trace.times_s = (0..trace.points_mm.len())
+        .map(|at| 0.001 * at as f64)
+        .collect();
+    let circles = RecordedCircle::find(&trace, None).expect("a circle");
+    let driven = circles[0].feed_mm_per_min().expect("a feed");
+    let at = |feed: f64| {
+        let commanded = CommandedCircle {
+            feed_mm_per_min: Some(feed),
+            ..CommandedCircle::default()
+        };
+        Recording::new(circles.clone(), commanded, PathCentre::Common)
+    };
+    assert!(at(driven * 1.05).is_ok());
+    assert!(matches!(at(driven * 2.0), Err(RecordedError::Feed { .. })));
+}
+
 /// R5.26: the best of several turns is evaluated, and a worse one is named; noise does not make a turn worse.
 #[test]
 fn a_worse_turn_is_named() {

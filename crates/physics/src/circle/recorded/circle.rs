@@ -21,6 +21,9 @@ const ROUNDS: usize = 3;
 /// Millimetres in a metre.
 const MM_PER_M: f64 = 1000.0;
 
+/// The ratio of a radius or a feed that was found to the commanded one.
+const LIKE: Range<f64> = 0.9..1.1;
+
 /// A circle that was recorded, in either direction.
 #[derive(Debug, Clone)]
 pub struct RecordedCircle {
@@ -115,7 +118,7 @@ impl RecordedCircle {
             return Err(RecordedError::TooFew(turn.len()));
         }
         if let Some(commanded_mm) = commanded_mm
-            && !(0.9..1.1).contains(&(fit.radius / commanded_mm))
+            && !LIKE.contains(&(fit.radius / commanded_mm))
         {
             return Err(RecordedError::Radius {
                 commanded_mm,
@@ -189,11 +192,17 @@ impl RecordedCircle {
     }
 
     /// Sets the feed in mm/min at which the circle was driven.
-    pub(super) fn driven_at(mut self, feed: f64) -> Self {
+    pub(super) fn driven_at(mut self, feed: f64) -> Result<Self, RecordedError> {
+        if let Some(found) = self.feed_mm_per_min()
+            && !LIKE.contains(&(found / feed))
+        {
+            let commanded = feed;
+            return Err(RecordedError::Feed { commanded, found });
+        }
         let turn_s = TAU * self.radius_mm / (feed / 60.0);
         self.turn_s = Some(turn_s);
         self.profile = self.profile.in_time(turn_s);
-        self
+        Ok(self)
     }
 
     /// The feed in mm/min, if the times are known.

@@ -16,6 +16,12 @@ const TURNED_ROUND: f64 = 5.0 * TAU / 360.0;
 /// Permitted part missing at the ends of a turn, in radians.
 const LACKING: f64 = TAU / 360.0;
 
+/// A few points.
+const FEW: f64 = 3.0;
+
+/// The part of a path on which the peak of a crossing is, before and after it, in radians.
+const PEAK: [f64; 2] = [TAU * 2.0 / 360.0, TAU * 14.0 / 360.0];
+
 /// A turn with at most this multiple of the smallest deviation is as good as the best one.
 const AS_GOOD: f64 = 1.05;
 
@@ -261,18 +267,35 @@ impl PathRun {
 
     /// The largest angle from the last point of a turn to its first one: that of a few points.
     fn step(&self) -> f64 {
-        const POINTS: f64 = 3.0;
         #[allow(clippy::cast_precision_loss)] // points of a file
         let mean = self.covered() / (self.angles.len() - 1).max(1) as f64;
-        POINTS * mean
+        FEW * mean
     }
 
-    /// The points followed by too wide a gap.
+    /// The points followed by too wide a gap: at a crossing, a degree or a few points are too wide, for a peak is
+    /// narrow there (R5.22).
     fn holes(&self) -> Vec<usize> {
+        let at_crossing = LACKING.max(FEW * self.usual_step());
+        let from_x = self.begin * self.direction.sign();
+        let is_hole = |pair: &[f64]| {
+            let way = (pair[1] - pair[0]).abs();
+            let [from, to] = [pair[0], pair[1]].map(|angle| from_x + angle);
+            way > WIDEST_GAP_DEG.to_radians() || (way > at_crossing && is_at_crossing(from, to))
+        };
         let pairs = self.angles.windows(2).enumerate();
-        let wide =
-            pairs.filter(|(_, pair)| (pair[1] - pair[0]).abs() > WIDEST_GAP_DEG.to_radians());
-        wide.map(|(at, _)| at).collect()
+        let holes = pairs.filter(|(_, pair)| is_hole(pair));
+        holes.map(|(at, _)| at).collect()
+    }
+
+    /// The median angle from one point to the next.
+    fn usual_step(&self) -> f64 {
+        let pairs = self.angles.windows(2);
+        let mut steps: Vec<f64> = pairs.map(|pair| (pair[1] - pair[0]).abs()).collect();
+        let middle = steps.len() / 2;
+        if steps.is_empty() {
+            return 0.0;
+        }
+        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 
     /// Returns the missing part of a run without a full turn, in degrees.
@@ -286,6 +309,13 @@ impl PathRun {
     pub(super) fn is_full(&self) -> bool {
         self.covered() >= TAU - self.lacking()
     }
+}
+
+/// Whether the peak of a crossing is between two angles from X+ in the direction of travel.
+fn is_at_crossing(from: f64, to: f64) -> bool {
+    let [before, after] = PEAK;
+    let next = ((from - after) / QUARTER).floor() + 1.0;
+    next * QUARTER - before < to
 }
 
 /// The angles at which whole turns begin, from the first to the last that is possible: evenly spread, and between

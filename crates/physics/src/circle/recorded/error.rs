@@ -31,7 +31,8 @@ pub enum RecordedError {
     },
     /// A circle with a part that was not recorded.
     #[error(
-        "points are missing: {0:.0}\u{b0} of the circle are in gaps of more than {WIDEST_GAP_DEG}\u{b0}"
+        "points are missing: {0:.0}\u{b0} of the circle are in gaps of more than {WIDEST_GAP_DEG}\u{b0}, or of more \
+         than 1\u{b0} where an axis reverses"
     )]
     Gaps(f64),
     /// An egg.
@@ -77,6 +78,16 @@ pub enum RecordedError {
         /// The radius of the points.
         found_mm: f64,
     },
+    /// A feed of 4000 mm/min that was given for a circle at 2000 mm/min.
+    #[error(
+        "by its times the recorded circle was driven at {found:.0} mm/min, not at {commanded} mm/min"
+    )]
+    Feed {
+        /// The feed in mm/min that was given.
+        commanded: f64,
+        /// The feed in mm/min by the times.
+        found: f64,
+    },
 }
 
 impl RecordedError {
@@ -96,6 +107,7 @@ impl RecordedError {
             Self::CommandedRadius(_) => "give the commanded radius in mm",
             Self::CommandedFeed(_) => "give the commanded feed in mm/min",
             Self::SameDirection(_) => "give one recording of each direction",
+            Self::Feed { .. } => "check the commanded feed and the unit of the times",
             Self::Radius { .. } => "check the commanded radius and the unit of the columns",
         }
     }

@@ -53,7 +53,8 @@ impl Recording {
     /// centre of each, G(b) and H about `centre`.
     ///
     /// # Errors
-    /// Two circles in the same direction, or with centres that are far apart.
+    /// Two circles in the same direction, with centres that are far apart, or at another feed than the commanded one
+    /// by their times.
     pub fn new(
         circles: Vec<RecordedCircle>,
         commanded: CommandedCircle,
@@ -73,7 +74,10 @@ impl Recording {
             }
         }
         let circles: Vec<RecordedCircle> = match commanded.feed_mm_per_min {
-            Some(feed) => circles.into_iter().map(|it| it.driven_at(feed)).collect(),
+            Some(feed) => {
+                let driven = circles.into_iter().map(|it| it.driven_at(feed));
+                driven.collect::<Result<_, _>>()?
+            }
             None => circles,
         };
         let mut paths = Paths::default();

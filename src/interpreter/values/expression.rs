@@ -208,7 +208,9 @@ impl Evaluator<'_> {
                     self.work.charge(read.sum());
                     match self.existence(function, at) {
                         Some(unknown) => Ok(unknown),
-                        None => self.bounded(call(function, slots, span), span),
+                        None => {
+                            self.bounded(call(function, slots, self.scope.nearly_equal, span), span)
+                        }
                     }
                 }
             };

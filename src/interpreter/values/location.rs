@@ -198,7 +198,7 @@ impl Unknown {
             Self::MissingLabel => "write the label that the jump looks for".into(),
             Self::Refused(number) => number.and_then(ControlError::of).map_or("", |row| row.cure).into(),
             Self::Undeclared => "declare the variable between `#VAR` and `#ENDVAR`".into(),
-            Self::Rounding => "compare with a tolerance, `ABS[P1 - 0.3] < 0.001`".into(),
+            Self::Rounding => "compare with a tolerance, `ABS[P1 - 0.3] < 0.001`, or round with `ROUND`".into(),
             Self::Passes => "give the values that decide how often the loop is repeated".into(),
             Self::Ways => Advice::RaiseBudget(Budget::Ways),
             Self::Work => Advice::RaiseBudget(Budget::Work),

@@ -274,7 +274,33 @@ pub(crate) fn numbers(
             Some(Alternative::Second) => arithmetic(operator, left, right, span),
         };
     }
+    if operator == BinaryOperator::Modulo && is_nearly_multiple(left, right) {
+        return match reading {
+            None => Ok(Value::Unknown(Unknown::Rounding)),
+            Some(Alternative::First) => Ok(Value::Number(0.0)),
+            Some(Alternative::Second) => arithmetic(operator, left, right, span),
+        };
+    }
     arithmetic(operator, left, right, span)
+}
+
+/// Whether rounding alone keeps a number from being a multiple of another.
+fn is_nearly_multiple(left: f64, right: f64) -> bool {
+    let rest = (left % right).abs();
+    let least = rest.min(right.abs() - rest);
+    rest > 0.0 && least <= ROUNDING * left.abs().max(right.abs())
+}
+
+/// The number beside which rounding decides the value of a function (R2.112).
+fn jump_of(function: Function, x: f64) -> Option<f64> {
+    match function {
+        Function::Ceil | Function::Floor => Some(x.round()),
+        Function::Int | Function::Fract => Some(x.round()).filter(|it| *it != 0.0),
+        Function::Round | Function::IntToStr => Some(x.floor() + 0.5),
+        Function::Sign => Some(0.0),
+        Function::Not => Some(0.5_f64.copysign(x)),
+        _ => None,
+    }
 }
 
 /// `&&` and `||`: one operand alone may decide, whatever the other is.
@@ -384,7 +410,12 @@ fn type_test(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
     })
 }
 
-pub(crate) fn call(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
+pub(crate) fn call(
+    function: Function,
+    slots: Vec<Slot>,
+    reading: Option<Alternative>,
+    span: Span,
+) -> Slot {
     if function == Function::Exist {
         return match slots.into_iter().next() {
             Some(Ok(unknown @ Value::Unknown(_))) => Ok(unknown),
@@ -417,7 +448,16 @@ pub(crate) fn call(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
         | Function::StrToInt
         | Function::StrToReal => text_function(function, &values, span),
         _ => {
-            let numbers: Option<Vec<f64>> = values.iter().map(Value::number).collect();
+            let mut numbers: Option<Vec<f64>> = values.iter().map(Value::number).collect();
+            if let Some([x]) = numbers.as_deref_mut()
+                && let Some(at) = jump_of(function, *x).filter(|at| are_nearly_equal(*x, *at))
+            {
+                match reading {
+                    None => return Ok(Value::Unknown(Unknown::Rounding)),
+                    Some(Alternative::First) => *x = at,
+                    Some(Alternative::Second) => {}
+                }
+            }
             match numbers.as_deref() {
                 Some([x]) if function == Function::IntToStr => {
                     Ok(Value::Text(format!("{:.0}", x.round()).into()))

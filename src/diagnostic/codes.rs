@@ -161,7 +161,7 @@ codes! {
     Fc411 "FC411" Warning "COMP while a transformation is active";
     Fc412 "FC412" Info "compensation state read under cutter radius compensation";
     Fc413 "FC413" Warning "state that depends on the block search";
-    Fc414 "FC414" Warning "commands inside a comment";
+    Fc414 "FC414" Warning "commands that the control does not read";
     Fc409 "FC409" Info "switched while the axis keeps moving";
     Fc490 "FC490" Warning "unused `allow` comment";
     Fc491 "FC491" Warning "`allow` comment not understood";

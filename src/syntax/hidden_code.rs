@@ -55,6 +55,14 @@ pub(super) fn open_region(opener: &str) -> Fault {
         .with_help("write `#COMMENT END` in a separate block")
 }
 
+/// FC414: a COMP command after the name in a `%` line, of which the control reads nothing more (R2.10).
+pub(super) fn command_after_name(code: &str) -> Option<Fault> {
+    let at = comps(code).next().filter(|_| holds_command(code))?;
+    let message = "after the name of a program the control reads nothing in its line: this COMP command switches nothing";
+    let fault = Fault::new(Code::Fc414, Span::new(at, at + COMP.len()), message);
+    Some(fault.with_help("write the command in a separate block"))
+}
+
 /// FC414 or FC211 for each axis word of a block that has no value (R18.7).
 pub(super) fn words_without_value(text: &str, block: &mut Block) {
     if !block.all_words().any(|word| word.value.is_none()) {

@@ -5,7 +5,9 @@
 
 use super::allow::MARK;
 use super::ast::Block;
-use super::hidden_code::{faults_of_lines, open_region, reordered, words_without_value};
+use super::hidden_code::{
+    command_after_name, faults_of_lines, open_region, reordered, words_without_value,
+};
 use super::keywords::opening_command;
 use super::parse::Fault;
 use super::pieces::{Masked, is_blank, mask, mask_number};
@@ -160,6 +162,7 @@ impl<S: LineSource> BlockReader<S> {
                 .faults
                 .extend(masked.foreign.map(|span| outside_ascii(span, &self.text)));
             block.faults.extend(faults_of_lines(&self.text));
+            block.faults.extend(command_after_name(&self.code));
             return Some(stretch);
         }
         let mut foreign = masked.foreign;

@@ -303,6 +303,11 @@ impl Evaluator<'_> {
     /// The value of a parameter or variable that is computed.
     fn denoted(&self, place: Denoted, span: Span) -> Slot {
         match (place.location, place.decided_by) {
+            (Location::Elements(name), Some(_))
+                if name.family().is_of_programs() && self.scope.memory.is_absent(&name) =>
+            {
+                Err(never_written(span, self.text))
+            }
             (_, Some(cause)) => Ok(self.as_set(span).unwrap_or(Value::Unknown(cause))),
             (Location::Parameter(owner, index), None) => self.parameter(owner, index, span),
             (Location::Variable(name) | Location::Elements(name), None) => {

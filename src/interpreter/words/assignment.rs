@@ -601,7 +601,7 @@ impl Executor {
         let needs_declaration = match name.family() {
             VariableFamily::Local => true,
             VariableFamily::Program | VariableFamily::Cycle | VariableFamily::Parameter => {
-                name.is_element()
+                name.is_element() || matches!(place.location, Location::Elements(_))
             }
             _ => false,
         };

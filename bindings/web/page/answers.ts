@@ -1,5 +1,7 @@
 // The answers of the engine, as `src/run.rs`, `src/audits.rs` and their neighbours write them.
 
+import type { Report } from "./report";
+
 export type State = "active" | "inactive" | "ineffective" | "unconfigured" | "unknown";
 export type Severity = "error" | "warning" | "info";
 export type FileKind = "program" | "list" | "values" | "startup" | "configuration" | "recording" | "picture" | "foreign" | "other";
@@ -113,9 +115,7 @@ export interface AuditCell {
 }
 
 export interface Audit {
-  programs: number;
-  hazards: number;
-  warnings: boolean;
+  headline: Report["headline"];
   notChecked: string | null;
   machines: {
     origin: string | null;

@@ -1,8 +1,8 @@
 // The effect of the order of all dropped programs.
 
 import type { Audit, AuditCell } from "./answers";
-import { counted, fill, h } from "./dom";
-import type { Weight } from "./verdict";
+import { fill, h } from "./dom";
+import { lead } from "./report";
 
 const CURES: Record<string, string> = {
   none: "none needed",
@@ -33,27 +33,6 @@ export function audit(root: HTMLElement, found: Audit, open: (file: string, line
     h("dl", { class: "legend" }, ...found.words.flatMap(([word, meaning]) => [
       h("dt", { class: `word ${word}` }, word), h("dd", {}, meaning)])),
   );
-}
-
-/** The verdict, in its colour. */
-function lead(found: Audit): HTMLElement {
-  const programs = counted(found.programs, "program");
-  const said = (weight: Weight, text: string): HTMLElement => h("p", { class: `lead notice ${weight}` }, text);
-  if (found.programs === 0) {
-    return said("warning", "No program was audited.");
-  }
-  if (found.hazards > 0) {
-    return said("error", `${programs}. ${counted(found.hazards, "pair")} of programs in which one leaves an axis away `
-      + "from its start-up state and the other moves it in that state, if it is run next.");
-  }
-  if (found.warnings) {
-    return said("warning", `${programs}; of some it is not known what they leave.`);
-  }
-  if (found.machines.every((machine) => machine.axes.length === 0)) {
-    return said("warning", `${programs}; nothing could be audited.`);
-  }
-  const weight = found.failures.length > 0 || found.notChecked !== null ? "warning" : "good";
-  return said(weight, `${programs}; no axis moves outside its start-up state because of what another program left.`);
 }
 
 /** A name of a table that is unique among those of several machines. */

@@ -28,7 +28,7 @@ const WEIGHTS: Record<Report["headline"]["standing"], Weight> =
   { good: "good", bad: "error", open: "warning", plain: "info" };
 
 /** The verdict of a report, in the colour of its standing. */
-export function lead({ headline }: Report): HTMLElement {
+export function lead({ headline }: Pick<Report, "headline">): HTMLElement {
   return h("p", { class: `lead notice ${WEIGHTS[headline.standing]}`, role: "status" },
     ...withCode(sentence(headline.text)));
 }

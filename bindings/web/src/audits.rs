@@ -8,6 +8,7 @@ use frictcomp::interpreter::Options;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, LeftOutFiles, Machines};
 use frictcomp_report::html::render_with_lines;
 use frictcomp_report::results::audit::{AuditReport, MachineAudit, Word, document};
+use frictcomp_report::{Headline, Standing};
 use serde::Serialize;
 
 use crate::dropped::{Dropped, Kind};
@@ -23,9 +24,7 @@ struct Audited {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct AuditAnswer<'a> {
-    programs: usize,
-    hazards: u64,
-    warnings: bool,
+    headline: Headline,
     /// The files that read as programs and are not taken as such, counted by kind (R18.5).
     not_checked: Option<&'a str>,
     machines: Vec<MachineAnswer<'a>>,
@@ -107,10 +106,13 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
 /// The findings and the table of programs and axes.
 pub(crate) fn answer(dropped: &mut Dropped, enable: &[String]) -> Vec<u8> {
     let Audited { report, failures } = audit(dropped, enable);
+    let mut headline = report.headline();
+    let is_whole = failures.is_empty() && report.not_checked.is_none();
+    if headline.standing == Standing::Good && !is_whole {
+        headline.standing = Standing::Open;
+    }
     json(&AuditAnswer {
-        programs: report.programs(),
-        hazards: report.hazards(),
-        warnings: report.has_warnings(),
+        headline,
         not_checked: report.not_checked.as_deref(),
         machines: report.machines.iter().map(machine).collect(),
         failures: &failures,

@@ -1,5 +1,8 @@
 //! The subject of the report: archives by machine, and the words for effects of programs.
 
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::iter;
 use std::path::Path;
 
 use crate::document::{Headline, Standing, Tone};
@@ -121,7 +124,8 @@ impl MachineAudit {
     }
 }
 
-/// "33 programs leave X off, 262 run with it off"; `of_machine` tells the axis from that of another machine.
+/// "33 programs leave X off, 262 run with it off", without the second half where none does; `of_machine` tells the axis
+/// from that of another machine.
 fn cause(finding: &AxisFinding, of_machine: &str) -> String {
     let counts = [finding.leavers.len(), finding.inheritors.len()];
     let verb = |count, one: &'static str, several| if count == 1 { one } else { several };
@@ -131,14 +135,17 @@ fn cause(finding: &AxisFinding, of_machine: &str) -> String {
     } else {
         "programs"
     };
-    format!(
-        "{} {programs} {} {}{of_machine} {away}, {} {} with it {away}",
+    let mut cause = format!(
+        "{} {programs} {} {}{of_machine} {away}",
         counts[0],
         verb(counts[0], "leaves", "leave"),
         axis_name(&finding.axis, finding.kind),
-        counts[1],
-        verb(counts[1], "runs", "run"),
-    )
+    );
+    if counts[1] > 0 {
+        let runs = verb(counts[1], "runs", "run");
+        let _ = write!(cause, ", {} {runs} with it {away}", counts[1]);
+    }
+    cause
 }
 
 /// Axes that the verdict names; further ones are counted.
@@ -149,25 +156,25 @@ impl AuditReport {
     /// (R10.2, R18.23).
     pub fn headline(&self) -> Headline {
         let programs = counted(self.programs(), "program");
-        let mut said = self.causes();
-        let more = said.len().saturating_sub(NAMED);
-        said.truncate(NAMED);
-        if more > 0 {
-            said.push(format!("and {more} more of the axes"));
-        }
-        let (standing, text) = if self.findings().next().is_none() {
+        let (standing, text) = if self.programs() == 0 {
+            (Standing::Open, "no program was audited".to_owned())
+        } else if self.findings().next().is_none() {
             let text = format!("{programs}: no axis is configured for friction compensation");
             (Standing::Open, text)
-        } else if !said.is_empty() {
+        } else if self.hazards() > 0 {
+            let mut said = self.causes(|it| it.hazards() > 0);
+            said.extend(self.not_known());
             (Standing::Bad, said.join("; "))
         } else if self.possible_hazards() > 0 {
-            let text = format!(
-                "{programs}: in some order, one may move an axis that another left away from its start-up state"
-            );
-            (Standing::Open, text)
-        } else if self.has_unknown() {
-            let text = format!("{programs}: of some it is not known what they leave or inherit");
-            (Standing::Open, text)
+            let possible = "in some order, one may move an axis that another left away from its start-up state";
+            let said: Vec<String> = iter::once(possible.into())
+                .chain(self.not_known())
+                .collect();
+            (Standing::Open, format!("{programs}: {}", said.join("; ")))
+        } else if let Some(unknown) = self.not_known() {
+            let mut said = self.causes(|it| !it.leavers.is_empty() && !it.unknown.is_empty());
+            said.push(unknown);
+            (Standing::Open, format!("{programs}: {}", said.join("; ")))
         } else {
             let text = format!(
                 "{programs}: in no order does one move an axis that another left away from its start-up state"
@@ -178,11 +185,32 @@ impl AuditReport {
         Headline::new(standing, text).assuming(assumptions)
     }
 
-    /// Returns the hazards of each axis in words, with its machine where several have an axis of its name.
-    fn causes(&self) -> Vec<String> {
+    /// Of how many programs the effect on some axis is not known, in words.
+    fn not_known(&self) -> Option<String> {
+        let of_machine = |machine: &MachineAudit| {
+            let unknown = machine.findings.iter().flat_map(|it| &it.unknown);
+            unknown.collect::<BTreeSet<_>>().len()
+        };
+        let unknown: usize = self.machines.iter().map(of_machine).sum();
+        let of = if unknown == self.programs() {
+            String::new()
+        } else {
+            format!("of {} ", counted(unknown, "program"))
+        };
+        let what = if unknown == 1 {
+            "it leaves or inherits"
+        } else {
+            "they leave or inherit"
+        };
+        (unknown > 0).then(|| format!("{of}it is not known what {what}"))
+    }
+
+    /// Returns what happens to each of some axes in words, with its machine where several have an axis of its name.
+    fn causes(&self, is_meant: impl Fn(&AxisFinding) -> bool) -> Vec<String> {
+        let is_meant = &is_meant;
         let named = self.machines.iter().flat_map(|machine| {
-            let hazards = machine.findings.iter().filter(|it| it.hazards() > 0);
-            hazards.map(move |it| (machine, it))
+            let meant = machine.findings.iter().filter(|it| is_meant(it));
+            meant.map(move |it| (machine, it))
         });
         let named: Vec<(&MachineAudit, &AxisFinding)> = named.collect();
         let is_alone = |finding: &AxisFinding| {
@@ -197,7 +225,13 @@ impl AuditReport {
             let of_machine = origin.map_or(String::new(), |it| format!(" ({it})"));
             cause(finding, &of_machine)
         });
-        said.collect()
+        let mut said: Vec<String> = said.collect();
+        let more = said.len().saturating_sub(NAMED);
+        said.truncate(NAMED);
+        if more > 0 {
+            said.push(format!("and {more} more of the axes"));
+        }
+        said
     }
 
     pub(super) fn findings(&self) -> impl Iterator<Item = &AxisFinding> {
@@ -230,11 +264,6 @@ impl AuditReport {
     pub fn possible_hazards(&self) -> u64 {
         let hazards = self.findings().map(AxisFinding::possible_hazards);
         hazards.fold(0, u64::saturating_add)
-    }
-
-    /// Whether the effect of some program on some axis is not known.
-    fn has_unknown(&self) -> bool {
-        self.findings().any(|finding| !finding.unknown.is_empty())
     }
 
     /// Whether something has to be corrected, or is not known.

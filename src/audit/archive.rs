@@ -280,7 +280,7 @@ pub struct StepAxis {
     /// The last command that made it what it is at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<Site>,
-    /// The first motion of the axis away from its start-up state.
+    /// The first motion of the axis away from its start-up state: the first certain one, else the first possible one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub away: Option<FirstMotion>,
     /// The program that left it so, if the motion comes before any command of this program.

@@ -53,7 +53,8 @@ pub struct FirstMotion {
     pub site: Site,
     /// Kind of motion.
     pub motion: MotionKind,
-    /// Whether it is uncertain offline that the program reaches the motion in a state that it did not set itself.
+    /// Whether it is uncertain offline that the program reaches the motion in the state that is meant: one that it did
+    /// not set itself, or one away from the start-up state.
     /// Records contain this field only then.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub perhaps: bool,

@@ -42,7 +42,7 @@ pub(super) struct Observed {
     pub(super) commanded: bool,
     /// The first motion in the state that the program found: the first certain one, else the first possible one.
     pub(super) inherited: Option<Moved>,
-    /// The first motion word away from its start-up state.
+    /// The first motion away from its start-up state: the first certain one, else the first possible one.
     pub(super) astray: Option<Moved>,
     /// The selection at every motion.
     pub(super) motions: SelectionAtMotions,
@@ -419,11 +419,14 @@ impl Observation {
                     let is_sure = is_certain && executed.found.is_always(axis, kind);
                     !known.motion.perhaps || !is_sure
                 });
-            let is_seen = observed.astray.is_some() || is_at_start_up || !is_certain;
+            let is_open = selected == Selected::Unknown;
+            let is_as_sure = |known: &Moved| is_open || !known.motion.perhaps;
+            let is_seen =
+                is_at_start_up || !is_certain || observed.astray.as_ref().is_some_and(is_as_sure);
             if is_known && is_seen {
                 continue;
             }
-            let moved = moved_at(executed, self.within.line(), motion);
+            let mut moved = moved_at(executed, self.within.line(), motion);
             let observed = &mut self.observed[at];
             if !is_known {
                 let mut inherited = moved.clone();
@@ -432,6 +435,7 @@ impl Observation {
                 observed.inherited = Some(inherited);
             }
             if !is_seen {
+                moved.motion.perhaps |= is_open;
                 observed.astray = Some(moved);
             }
         }

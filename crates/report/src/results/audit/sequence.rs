@@ -103,8 +103,13 @@ fn step_line(step: &Step) -> String {
 fn moves_away(step: &Step, axis: &StepAxis) -> Option<String> {
     let away = axis.away.as_ref()?;
     let place = place(step, &away.site.file, away.site.line);
+    let moves = if away.perhaps || !away.ways.is_empty() {
+        "may move"
+    } else {
+        "moves"
+    };
     let mut text = format!(
-        " moves outside its start-up state at {place} ({})",
+        " {moves} outside its start-up state at {place} ({})",
         away.motion.as_str()
     );
     if let Some(program) = &axis.left_by {

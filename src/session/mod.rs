@@ -402,6 +402,7 @@ impl Session {
             changes: self.totals.changes[axis.get()],
             feed_moves: self.totals.feed_moves.of(axis),
             is_undescribed: self.totals.undescribed.contains_key(&axis),
+            is_rewritten: state.compensation.rewritten(axis).contains(Kind::Frict),
         });
         sink.record(&Record::Summary(&Summary {
             programs: self.programs,

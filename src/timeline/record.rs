@@ -189,6 +189,9 @@ pub struct AxisSummary {
     /// Whether programs move or switch it though nothing says if it has friction compensation: its states are then only
     /// assumed (R18.2).
     pub is_undescribed: bool,
+    /// Whether a program wrote a parameter of its friction compensation into the machine data: a command does then not
+    /// make its state known (R2.92).
+    pub is_rewritten: bool,
 }
 
 /// A block that changed an axis.

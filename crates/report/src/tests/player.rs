@@ -173,6 +173,7 @@ impl<'a> Player<'a> {
                 changes: u64::from(changed),
                 feed_moves: frictcomp::timeline::FeedMoves::default(),
                 is_undescribed: false,
+                is_rewritten: false,
             }
         });
         let opaque = BTreeMap::from([("#HSC".to_owned(), 3)]);

@@ -81,7 +81,10 @@ impl FinalStates<'_> {
             1 => ["is", "it has"],
             _ => ["are", "they have"],
         };
-        let open = left(State::Unknown);
+        let is_rewritten = |axis: &AxisSummary| axis.is_rewritten;
+        let (rewritten, open): (Vec<&str>, Vec<&str>) = left(State::Unknown)
+            .into_iter()
+            .partition(|name| self.names(is_rewritten).contains(name));
         let bad = [
             error_advice(self.errors, self.by).map(str::to_owned),
             away(State::Inactive, "off", "ON"),
@@ -98,6 +101,9 @@ impl FinalStates<'_> {
         };
         parts.extend(listed(&open).map(|axes| {
             format!("{axes} may be left off: begin the next program with a command for each")
+        }));
+        parts.extend(listed(&rewritten).map(|axes| {
+            format!("{axes} may be left off: run with a configuration that has the machine data which the program wrote")
         }));
         if parts.is_empty() {
             if !self.is_described || !self.axes.iter().all(|(_, axis)| is_home(axis)) {
@@ -165,6 +171,7 @@ mod tests {
                 changes: 0,
                 feed_moves: frictcomp::timeline::FeedMoves::default(),
                 is_undescribed: false,
+                is_rewritten: false,
             };
             let states = FinalStates {
                 axes: vec![("X", &axis)],

@@ -242,6 +242,7 @@ mod tests {
             changes: 0,
             feed_moves: frictcomp::timeline::FeedMoves::default(),
             is_undescribed: false,
+            is_rewritten: false,
         };
         assert_eq!(changed_by(&axis, 40), "-");
         for line in 1..=100 {

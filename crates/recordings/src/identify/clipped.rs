@@ -1,6 +1,10 @@
 //! Segments in which the torque is at a limit (R6.21).
 
+use std::collections::BTreeSet;
+
+use super::pair::speeds_of;
 use super::segment::Segment;
+use super::statistics::{count, trimmed_mean};
 use super::track::AxisSamples;
 
 /// Fewer samples at the limit are not clipping.
@@ -29,8 +33,61 @@ pub(super) fn clipped(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize>
         .into_iter()
         .flat_map(|sign| clipped_at(samples, segments, sign))
         .collect();
+    found.extend(levelled(samples, segments));
     found.sort_unstable();
     found.dedup();
+    found
+}
+
+/// The segments of one direction whose mean torque is the same at the limit while that of the other direction changes with
+/// the speed: noise that was added after a limit hides it.
+fn levelled(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize> {
+    /// Speeds at the same limit.
+    const SPEEDS: usize = 3;
+    /// The means at a limit are the same to this part of what the other direction changes …
+    const SAME: f64 = 0.1;
+    /// … which itself changes by this part of the torque, and by this part of its change at these speeds.
+    const CHANGES: [f64; 2] = [0.05, 0.5];
+    let mean = |segment: &Segment| trimmed_mean(&samples.torques[segment.samples.clone()]);
+    let means: Vec<f64> = segments.iter().map(mean).collect();
+    let spread = |of: &[usize]| {
+        let values = of.iter().map(|&at| means[at]);
+        let [low, high] = values.fold([f64::MAX, f64::MIN], |[low, high], it| {
+            [low.min(it), high.max(it)]
+        });
+        (high - low).max(0.0)
+    };
+    let along = |sign: f64| {
+        let of_way = (0..segments.len()).filter(move |&at| segments[at].velocity * sign > 0.0);
+        of_way.collect::<Vec<usize>>()
+    };
+    let largest = means.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+    let mut speeds = vec![0; segments.len()];
+    for (speed, group) in speeds_of(segments).into_iter().enumerate() {
+        for at in group {
+            speeds[at] = speed;
+        }
+    }
+    let [forth, back] = [1.0, -1.0].map(along);
+    let average = |of: &[usize]| of.iter().map(|&at| means[at]).sum::<f64>() / count(of.len());
+    // A limit is at the end to which friction drives the torque.
+    let end = (average(&forth) - average(&back)).signum();
+    let level = |own: &[usize], other: &[usize], end: f64| {
+        let change = spread(other);
+        let ends = own.iter().map(|&at| end * means[at]);
+        let limit = ends.fold(f64::MIN, f64::max);
+        let mut level = own.to_vec();
+        level.retain(|&at| limit - end * means[at] <= SAME * change);
+        let at_limit: BTreeSet<usize> = level.iter().map(|&at| speeds[at]).collect();
+        let mut beside = other.to_vec();
+        beside.retain(|&at| at_limit.contains(&speeds[at]));
+        let is_cut = at_limit.len() >= SPEEDS
+            && change > CHANGES[0] * largest
+            && spread(&beside) > CHANGES[1] * change;
+        if is_cut { level } else { Vec::new() }
+    };
+    let mut found = level(&forth, &back, end);
+    found.extend(level(&back, &forth, -end));
     found
 }
 

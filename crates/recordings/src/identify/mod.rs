@@ -6,6 +6,7 @@
 
 mod around;
 mod branches;
+mod channel;
 mod circles;
 mod clipped;
 mod curve;

@@ -1,5 +1,6 @@
 //! From a recording at constant speeds to the points of a value list.
 
+use super::channel::{drop_held, late};
 use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
 use super::doubts;
 use super::finding::TraceFinding;
@@ -68,6 +69,8 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     }
     let compensation = doubts::check_compensation(&options.measured)?;
     doubts::check_directions(&samples, &segments)?;
+    let held = drop_held(&samples, &mut segments)?;
+    let late = late(&samples, &segments);
     let clipped = doubts::drop_clipped(&samples, &mut segments)?;
     let directions = |sign: f64| segments.iter().any(|it| it.velocity * sign > 0.0);
     if !(directions(1.0) && directions(-1.0)) {
@@ -95,7 +98,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     check_friction(&pairs)?;
     let rows = doubts::missing_rows(&samples.times_s, samples.step_s);
     let tight = doubts::tight(&samples, &segments, &pairs);
-    let mut findings: Vec<TraceFinding> = [compensation, clipped, rows, tight]
+    let mut findings: Vec<TraceFinding> = [compensation, held, late, clipped, rows, tight]
         .into_iter()
         .flatten()
         .collect();
@@ -134,6 +137,9 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     };
     let lacks = warnings::findings(&identified, options);
     identified.findings.extend(lacks);
+    // What makes the values doubtful comes before what only limits them.
+    let is_minor = |it: &TraceFinding| !DOUBTS.contains(&it.code);
+    identified.findings.sort_by_key(is_minor);
     Ok(identified)
 }
 

@@ -13,11 +13,16 @@ use frictcomp_testing::table::agrees;
 type Fault = fn(&mut Track);
 
 /// The fault, how it is put into the recording, and the code that has to come first.
-const FAULTS: [(&str, Fault, Option<Code>); 10] = [
+const FAULTS: [(&str, Fault, Option<Code>); 13] = [
     ("none", |_| (), None),
     (
         "torque clipped at the friction of the third fastest speed",
         clip,
+        Some(Code::Fc520),
+    ),
+    (
+        "torque of one direction at a limit, with noise",
+        limit_one_way,
         Some(Code::Fc520),
     ),
     (
@@ -40,6 +45,7 @@ const FAULTS: [(&str, Fault, Option<Code>); 10] = [
         |it| each(velocities(it), |it| -it),
         Some(Code::Fc522),
     ),
+    ("torque late by half a second", delay, Some(Code::Fc522)),
     (
         "absolute values of the torque",
         |it| each(&mut it.torques, f64::abs),
@@ -56,6 +62,11 @@ const FAULTS: [(&str, Fault, Option<Code>); 10] = [
         Some(Code::Fc524),
     ),
     ("half a second missing", drop_rows, Some(Code::Fc525)),
+    (
+        "torque that stands still at the end",
+        hold,
+        Some(Code::Fc525),
+    ),
 ];
 
 fn each(values: &mut [f64], change: fn(f64) -> f64) {
@@ -70,6 +81,30 @@ fn clip(track: &mut Track) {
     for torque in &mut track.torques {
         *torque = torque.clamp(-limit, limit);
     }
+}
+
+fn limit_one_way(track: &mut Track) {
+    let pairs = found(track).expect("friction").pairs;
+    let least = pairs.iter().map(|it| it.friction);
+    let limit = 0.95 * least.fold(f64::INFINITY, f64::min);
+    for (torque, noise) in track
+        .torques
+        .iter_mut()
+        .zip([0.4, -0.3, 0.1, -0.2].iter().cycle())
+    {
+        *torque = torque.min(limit) + noise;
+    }
+}
+
+fn delay(track: &mut Track) {
+    let samples = (0.5 / track.step_s).round() as usize;
+    track.torques.rotate_right(samples);
+}
+
+fn hold(track: &mut Track) {
+    let last = track.torques.len() * 4 / 5;
+    let value = track.torques[last];
+    track.torques[last..].fill(value);
 }
 
 fn compensate(track: &mut Track, part: f64) {

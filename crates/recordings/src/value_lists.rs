@@ -4,8 +4,13 @@ use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
 use frictcomp_physics::circle::{Tuned, TunedAxis};
 
+use crate::trace::ChannelQuantity;
+
 /// The remark in a list for a build that reads fractions.
 const FRACTIONS: &str = "Outputs with decimals need the build V3.1.3132.0 or V4.29.0";
+
+/// The remark in a list that is not in drive units.
+const CONVERT: &str = "Convert the outputs to drive units before the control reads this list";
 
 /// Returns the text of a list for a build, with remarks above its head.
 fn written<'a>(
@@ -83,7 +88,7 @@ pub struct IdentifiedFrom<'a> {
     pub faults: &'a [String],
 }
 
-/// An identified value list, written for a build.
+/// An identified value list, written for a build; outputs in another unit than the drive's have decimals, to be converted.
 pub fn render_identified(
     list: &FrictionList,
     made: IdentifiedFrom<'_>,
@@ -105,6 +110,11 @@ pub fn render_identified(
         name: made.axis.filter(|_| number.is_none()),
         ..ListHead::default()
     };
+    if made.unit != ChannelQuantity::Torque.own_unit() {
+        remarks.push(CONVERT);
+        let remarks = &remarks;
+        return write_value_list(list, Points::Real, &ListHead { remarks, ..head });
+    }
     written(list, build, remarks, &head)
 }
 

@@ -173,11 +173,12 @@ impl Commissioning<'_> {
         result: &RecordingResult,
         found: &FrictionFound,
     ) -> String {
-        let remarks = [
+        let mut remarks = vec![
             "Provisional: for stage 2 of the commissioning, until recorded circles confirm it"
                 .to_owned(),
             format!("SHA-256 of the recording: {}", result.sha256),
         ];
+        remarks.extend_from_slice(&found.notes);
         let made = IdentifiedFrom {
             axis: Some(&axis.name),
             from: &result.file,

@@ -6,6 +6,7 @@ use super::error::CommissionError;
 use crate::disk::Disk;
 use crate::error::HostError;
 use crate::recordings::{copies_among, read_axis};
+use frictcomp::diagnostic::Code;
 use frictcomp::text::shown_path;
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{
@@ -101,6 +102,11 @@ impl DatedRecordings<'_> {
             ..IdentifyOptions::default()
         };
         let found = identify(&recording.track, &options).map_err(|error| error.to_string())?;
+        let mut findings = found.findings.iter().chain(&recording.findings);
+        // A torque that is not that of the motion, or a unit that is not that of the values, is no change of the axis.
+        if let Some(wrong) = findings.find(|it| matches!(it.code, Code::Fc522 | Code::Fc524)) {
+            return Err(format!("{}: {}", wrong.code, wrong.message));
+        }
         let levels = FrictionLevels::of(&found).ok_or_else(|| {
             "its friction does not have the form given by Fc, Fs and fv".to_owned()
         })?;

@@ -133,6 +133,13 @@ pub struct DriveReport {
     pub open: Vec<Diagnostic>,
 }
 
+impl DriveReport {
+    /// Whether the control has a torque to send: an accepted value list, none of whose factors is 0.
+    pub fn sends_torque(&self) -> bool {
+        self.largest_torque.is_some_and(|largest| largest > 0.0)
+    }
+}
+
 /// Statement of one source about a value.
 enum SourceStatement {
     Nothing,
@@ -448,22 +455,27 @@ impl Judge<'_> {
         let outputs = list.table.iter().map(|point| point.output.abs());
         let plain = outputs.fold(0.0, f64::max) * f64::from(list.scaling_factor).abs() / 1000.0;
         let largest = plain * self.settings.scale.factor();
-        let Some(given) = &self.settings.drive_type else {
+        let drive_type = self.settings.drive_type.as_ref();
+        let place = drive_type
+            .map(Given::place)
+            .or_else(|| self.selector.map(Given::place));
+        let Some(place) = place else {
             return largest;
         };
+        let is_sercos = drive_type.is_some_and(|given| given.value == DriveType::Sercos);
         let percent = largest / 10.0;
         if largest > MOST_16_BITS && plain <= MOST_16_BITS {
             let message = format!(
                 "scaled, the value list sends up to {percent:.1} % of the rated torque; 16 bits hold 3276.7 %"
             );
             self.diagnostics
-                .push(Diagnostic::new(Code::Fc137, given.place(), message));
-        } else if given.value == DriveType::Sercos && largest > MOST_SERCOS {
+                .push(Diagnostic::new(Code::Fc137, place, message));
+        } else if is_sercos && largest > MOST_SERCOS {
             let message = format!(
                 "the value list sends up to {percent:.1} % of the rated torque; S-0-0081 of an AX5000 ends at 100 %"
             );
             self.diagnostics.push(
-                Diagnostic::new(Code::Fc132, given.place(), message)
+                Diagnostic::new(Code::Fc132, place, message)
                     .with_help("check the outputs, `scaling_factor` and the torque scaling"),
             );
         }

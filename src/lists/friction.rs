@@ -412,6 +412,11 @@ pub struct NoValues {
 }
 
 impl FrictionList {
+    /// Whether all outputs are 0, or scaled to 0.
+    pub fn adds_nothing(&self) -> bool {
+        self.scaling_factor == 0 || self.table.iter().all(|point| point.output == 0.0)
+    }
+
     /// Reads the values that this list alone would give the control.
     ///
     /// # Errors

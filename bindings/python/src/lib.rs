@@ -5,6 +5,7 @@ mod arrow;
 mod audit;
 mod check;
 mod command;
+mod commission;
 mod contour;
 mod current;
 mod exceptions;
@@ -49,6 +50,8 @@ mod _engine {
     use super::check::check;
     #[pymodule_export]
     use super::command::command;
+    #[pymodule_export]
+    use super::commission::{evaluate_commissioning, friction_trend};
     #[pymodule_export]
     use super::contour::{PyContour, contour};
     #[pymodule_export]

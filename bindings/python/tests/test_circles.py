@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +87,34 @@ def test_what_makes_no_sense_is_refused() -> None:
             frictcomp.identify("none.csv", max_error=error)
     with pytest.raises(ValueError):
         frictcomp.identify("none.csv", units={"v": "furlongs"})
+
+
+def test_a_commissioning_is_evaluated_as_the_command_does(tmp_path: Path) -> None:
+    # R13.13, R16.2
+    folders = [tmp_path / "python", tmp_path / "command"]
+    for folder in folders:
+        shutil.copytree("programs/demo/recorded/machine", folder)
+    found = frictcomp.commission(folders[0])
+    told = document("commission", "run", str(folders[1]))
+    assert found["headline"] == told["headline"]
+    assert [it["list"] is None for it in found["axes"]] == [False, True]
+    lists = [[it.read_text() for it in (folder / "lists").glob("*.lis")] for folder in folders]
+    assert lists[0] == lists[1] and len(lists[0]) == 1
+    assert (folders[0] / "results.json").exists()
+    with pytest.raises(frictcomp.Error, match="plan"):
+        frictcomp.commission(tmp_path)
+
+
+def test_friction_is_followed_over_the_dates_as_the_command_does(tmp_path: Path) -> None:
+    # R13.13, R16.6
+    for date in ("2026-03-01", "2026-09-01"):
+        shutil.copy("programs/demo/recordings/friction_x.csv", tmp_path / f"x-{date}.csv")
+        with (tmp_path / f"x-{date}.csv").open("a") as recording:
+            recording.write("\n" if date.endswith("09-01") else "")
+    with pytest.raises(frictcomp.Error, match="date"):
+        frictcomp.trend("programs/demo/recordings")
+    told = document("commission", "trend", str(tmp_path))
+    assert frictcomp.trend(tmp_path) == told
 
 
 def test_a_recording_is_listed_and_a_list_verified_as_the_command_does() -> None:

@@ -4,7 +4,7 @@
 compensation active after each block. The timeline is a table that pandas, polars and DuckDB accept
 without a copy. ``check`` returns the messages of whole folders, ``audit`` the effect of the order of
 programs. ``current``, ``contour``, ``circle``, ``tune``, ``identify`` and ``verify`` are about the compensation itself,
-``trace`` shows what is in a recording.
+``trace`` shows what is in a recording, ``commission`` and ``trend`` evaluate folders of recordings.
 
     import frictcomp, polars
     timeline = frictcomp.run("part.nc")
@@ -39,6 +39,7 @@ from ._engine import (
     audit_sequence,
     check,
     circle,
+    commission,
     contour,
     current,
     current_of_recording,
@@ -46,6 +47,7 @@ from ._engine import (
     identify,
     run,
     trace,
+    trend,
     tune,
     verify,
 )
@@ -77,6 +79,7 @@ __all__ = [
     "audit_sequence",
     "check",
     "circle",
+    "commission",
     "contour",
     "current",
     "current_of_recording",
@@ -84,6 +87,7 @@ __all__ = [
     "identify",
     "run",
     "trace",
+    "trend",
     "tune",
     "verify",
 ]

@@ -10,6 +10,8 @@ __all__ = [
     "audit",
     "check",
     "command",
+    "commission",
+    "trend",
     "Contour",
     "contour",
     "AxisCurrent",
@@ -779,6 +781,51 @@ def verify(
 
     The channels are named as for ``identify``, which looks at the recording in the same way. ``actual_position`` or
     ``following_error`` shows whether the list acted, and whether it is early or late at reversals.
+    """
+
+def commission(
+    folder: _Path,
+    *,
+    time: str | None = None,
+    position: str | None = None,
+    velocity: str | None = None,
+    torque: str | None = None,
+    actual_position: str | None = None,
+    following_error: str | None = None,
+    units: Mapping[str, str] | None = None,
+    cycle_time_ms: float | None = None,
+    torque_kind: Literal["actual", "command", "loop"] | None = None,
+    roles: Mapping[str, int] | None = None,
+    plant: str | None = None,
+    shaping: bool = True,
+    cnc_build: str | None = None,
+) -> Any:
+    """Evaluates the recordings of a commissioning: the document of ``frictcomp commission run --format json``.
+
+    Reads the plans in the folder and the recordings in its folder ``recordings``, writes a provisional list of each axis to
+    its folder ``lists``, and what it found to ``results.json``. In the name of a channel ``%`` stands for that of each axis;
+    ``roles`` are the numbers of the programs of recordings without a signature. With ``plant`` drives are fitted, and lists
+    tuned on them, without ``shaping`` as the friction curve is.
+    """
+
+def trend(
+    folder: _Path,
+    *,
+    axis: str | None = None,
+    time: str | None = None,
+    position: str | None = None,
+    velocity: str | None = None,
+    torque: str | None = None,
+    units: Mapping[str, str] | None = None,
+    cycle_time_ms: float | None = None,
+    torque_kind: Literal["actual", "command", "loop"] | None = None,
+    compensation: Literal["on", "off"] | None = None,
+) -> Any:
+    """Follows the friction of an axis over the dates of its recordings: the document of ``frictcomp commission trend --format
+    json``.
+
+    Takes every recording of constant speeds in a folder whose name holds a date, ``x-2026-03-01.csv``; the channels are named
+    as for ``identify``.
     """
 
 def command(arguments: Sequence[_Path]) -> int:

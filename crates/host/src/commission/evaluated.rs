@@ -68,6 +68,19 @@ pub fn read_plans(folder: &Path, registry: &FileRegistry) -> Result<Vec<PlanFile
     Ok(plans)
 }
 
+/// Returns the axes of plans and the other motors of gantries, each once.
+pub fn motors_of(plans: &[PlanFile]) -> Vec<&str> {
+    let mut motors: Vec<&str> = Vec::new();
+    for axis in plans.iter().flat_map(|it| &it.plan.axes) {
+        for motor in std::iter::once(&axis.name).chain(&axis.followers) {
+            if !motors.contains(&motor.as_str()) {
+                motors.push(motor);
+            }
+        }
+    }
+    motors
+}
+
 /// A commissioning in a folder, and how its recordings are evaluated.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]

@@ -12,7 +12,7 @@ mod results;
 mod trend;
 
 pub use error::CommissionError;
-pub use evaluated::{Commissioning, read_plans};
+pub use evaluated::{Commissioning, motors_of, read_plans};
 pub use learn::{FirstLists, Learning};
 pub use plan::{AxisToMeasure, Planning};
 pub use reading::{CommissionChannels, CommissionReader, UnusedRecording};

@@ -40,7 +40,7 @@ pub enum PlanError {
         value: f64,
     },
     /// Too few feeds for the plant.
-    #[error("{0} different feeds were given; a plan needs at least 4 and takes at most 12")]
+    #[error("the number of different feeds is {0}; a plan needs at least 4 and takes at most 12")]
     Feeds(usize),
     /// An axis that cannot move as fast.
     #[error("{feed} {unit}/min is faster than `{axis}` moves, {limit} {unit}/min")]
@@ -108,6 +108,16 @@ pub enum PlanError {
         /// The bound.
         limit: f64,
     },
+    /// A slowest speed that is not below the fastest feed, both in mm/s or °/s.
+    #[error(
+        "the slowest speed of {slowest} is not below the fastest feed, {fastest:.1} in the same unit"
+    )]
+    Slowest {
+        /// The slowest speed.
+        slowest: f64,
+        /// The fastest feed.
+        fastest: f64,
+    },
     /// More rounds than signatures can distinguish.
     #[error("{0} rounds are more than signatures can tell apart")]
     Rounds(u16),
@@ -141,6 +151,9 @@ impl PlanError {
             }
             Self::Radius { .. } => "give a smaller radius, or more of the travel".to_owned(),
             Self::TooTight { .. } => "give a larger radius, or leave that feed out".to_owned(),
+            Self::Slowest { .. } => {
+                "leave `slowest` out, or give the speed at which the curve begins".to_owned()
+            }
             Self::Rounds(_) => "continue in a separate folder".to_owned(),
             Self::Unconfigured(axis) => format!(
                 "set `lr_param.frict_comp 1` in the axis list of {axis}, restart the control, and describe it in `frictcomp.toml`"

@@ -73,6 +73,12 @@ impl Plan {
         };
         let mut programs = Vec::new();
         let fastest = feeds.last().copied().unwrap_or_default();
+        if request.slowest >= fastest / 60.0 {
+            return Err(PlanError::Slowest {
+                slowest: request.slowest,
+                fastest: fastest / 60.0,
+            });
+        }
         for axis in 0..rooms.len() {
             let speeds = match stage {
                 Stage::Off => speeds(request.slowest, fastest / 60.0),

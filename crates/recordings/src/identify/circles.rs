@@ -6,6 +6,7 @@ use super::finding::TraceFinding;
 use super::identified::IdentifyError;
 use super::measured::Measured;
 use super::recorded::AxisRecording;
+use super::segment::segments;
 use super::statistics::{count, moving_average, samples_in};
 use super::track::{AxisSamples, Track, TrackError};
 use frictcomp::diagnostic::Code;
@@ -63,6 +64,9 @@ const SETTLING_S: f64 = 0.05;
 /// A point with fewer samples is left out.
 const FEWEST: f64 = 200.0;
 
+/// An axis on a circle has a constant speed for a smaller part of the time.
+const MOST_STEADY: f64 = 0.5;
+
 /// Returns the friction in recordings of an axis on circles, of which only what all of them have in common is known
 /// about the torque.
 ///
@@ -91,6 +95,10 @@ fn identify_measured<'a>(
         let smooth = moving_average(&samples.velocities, samples_in(0.005, samples.step_s));
         fastest = smooth.iter().fold(fastest, |most, v| most.max(v.abs()));
         doubts::check_directions(&samples, &[])?;
+        let steady: usize = segments(&samples).iter().map(|it| it.samples.len()).sum();
+        if count(steady) > MOST_STEADY * count(samples.times_s.len()) {
+            return Err(IdentifyError::NoCircles);
+        }
         findings.extend(doubts::missing_rows(&samples.times_s, samples.step_s));
         circles.push((samples, smooth));
     }

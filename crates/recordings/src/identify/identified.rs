@@ -49,6 +49,14 @@ pub enum IdentifyError {
     /// No part of the recording has a constant speed.
     #[error("no part of the recording has a constant speed of at least 0.1 mm/s for 0.3 s")]
     NoSegments,
+    /// A recording of constant speeds in place of circles.
+    #[error(
+        "the axis moves at constant speeds for most of the recording, which no axis of a circle does"
+    )]
+    NoCircles,
+    /// A value list without any output.
+    #[error("the value list adds nothing: its outputs or its `scaling_factor` are 0")]
+    NothingAdded,
     /// The recording is not what it seems.
     #[error("{}: {}", .0.code, .0.message)]
     Refused(TraceFinding),
@@ -75,6 +83,8 @@ impl IdentifyError {
                 "move the axis at constant speeds, each for a second or more; of circles the \
                                  friction is found another way"
             }
+            Self::NoCircles => "identify the friction at its constant speeds, not on circles",
+            Self::NothingAdded => "give the list that is to act",
             Self::OneDirection => "move at every speed back and forth",
             Self::NoFriction { .. } => {
                 "check which channel is the torque of this axis, and its resolution"

@@ -145,6 +145,9 @@ pub fn verify_followed(
 ) -> Result<Verified, IdentifyError> {
     let samples = AxisSamples::new(track)?;
     let motion = PredictedMotion::of(&samples, predictor);
+    if predictor.list.adds_nothing() {
+        return Err(IdentifyError::NothingAdded);
+    }
     let directions = |sign: f64| motion.signs.iter().any(|it| it * sign > 0.0);
     if !(directions(1.0) && directions(-1.0)) {
         return Err(IdentifyError::OneDirection);

@@ -472,7 +472,14 @@ impl ChannelSelection {
                 quantity,
             });
         }
-        let unit = of_user.or(of_file).filter(|unit| unit.quantity == quantity);
+        if of_user.is_none() && of_file.is_some_and(|unit| unit.quantity != quantity) {
+            return Err(SelectError::UnknownUnit {
+                channel: described.name.clone(),
+                quantity,
+                unit: described.named_unit().unwrap_or_default().to_owned(),
+            });
+        }
+        let unit = of_user.or(of_file);
         let along = |unit: Unit| {
             self.lead_mm
                 .map_or(unit, |lead_mm| unit.along_path(lead_mm))

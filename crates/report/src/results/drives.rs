@@ -8,23 +8,26 @@ use frictcomp::drive_interface::{DriveReport, Presence, Signal};
 
 /// Returns the verdict on the drives of the axes with friction compensation.
 pub fn drives_headline(reports: &[DriveReport]) -> Headline {
-    let named = |of: fn(&Presence) -> bool| {
-        let reports = reports
-            .iter()
-            .filter(|it| it.configured && of(&it.additive_torque));
+    let named = |of: fn(&DriveReport) -> bool| {
+        let reports = reports.iter().filter(|it| it.configured && of(it));
         let names: Vec<&str> = reports.map(|it| it.axis.as_str()).collect();
         listed(&names)
     };
-    let reached = named(|it| matches!(it, Presence::Present { .. }));
-    let missed = named(|it| matches!(it, Presence::Missing { .. }));
-    let open = named(|it| matches!(it, Presence::Unknown { .. }));
-    let standing = match (&missed, &open) {
-        (Some(_), _) => Standing::Bad,
-        (None, Some(_)) => Standing::Open,
-        (None, None) => Standing::Good,
+    let reached = named(|it| is_present(it) && it.sends_torque());
+    let idle = named(|it| is_present(it) && !it.sends_torque());
+    let missed = named(|it| matches!(it.additive_torque, Presence::Missing { .. }));
+    let open = named(|it| matches!(it.additive_torque, Presence::Unknown { .. }));
+    let standing = match (&missed, &idle, &open) {
+        (Some(_), _, _) | (_, Some(_), _) => Standing::Bad,
+        (None, None, Some(_)) => Standing::Open,
+        (None, None, None) => Standing::Good,
     };
     let parts = [
         (missed, "does not reach the drive of"),
+        (
+            idle,
+            "is 0, for want of an accepted value list or by a factor of 0, of",
+        ),
         (open, "may not reach the drive of"),
         (reached, "reaches the drive of"),
     ];
@@ -42,6 +45,10 @@ pub fn drives_headline(reports: &[DriveReport]) -> Headline {
         standing,
         format!("the compensation torque {}", parts.join("; it ")),
     )
+}
+
+fn is_present(report: &DriveReport) -> bool {
+    matches!(report.additive_torque, Presence::Present { .. })
 }
 
 /// Returns what is known about the drive of each axis.

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::args::{CycleArgs, FollowedChannels, MotionChannels, TorqueChannel, TorqueKindArgs};
 use crate::commands::identify::refusal;
 use crate::output::Failure;
-use frictcomp_host::commission::{CommissionChannels, UnusedRecording};
+use frictcomp_host::commission::{CommissionChannels, UnusedRecording, motors_of};
 use frictcomp_recordings::commission::{NotFollowed, PlanFile};
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::visible_line;
@@ -67,15 +67,7 @@ impl ReadingArgs {
 
     /// Returns the channels of every axis of plans, and of the other motors of gantries.
     pub(super) fn channels(&self, plans: &[PlanFile]) -> Result<CommissionChannels, Failure> {
-        let mut axes: Vec<&str> = Vec::new();
-        for axis in plans.iter().flat_map(|it| &it.plan.axes) {
-            let motors = std::iter::once(&axis.name).chain(&axis.followers);
-            for motor in motors.map(String::as_str) {
-                if !axes.contains(&motor) {
-                    axes.push(motor);
-                }
-            }
-        }
+        let axes = motors_of(plans);
         let of_axis = |name: &&str| {
             let selection = ChannelSelection {
                 torque: self.torque.of_axis(name, &axes)?,

@@ -7,7 +7,7 @@ use super::cut::{PathRun, runs};
 use super::drift::drift;
 use super::error::RecordedError;
 use super::fit::FittedCircle;
-use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
+use super::limits::{LIKE, MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
 use super::search::search;
 use super::trace::RecordedTrace;
 use crate::circle::direction::Direction;
@@ -20,9 +20,6 @@ const ROUNDS: usize = 3;
 
 /// Millimetres in a metre.
 const MM_PER_M: f64 = 1000.0;
-
-/// The ratio of a radius or a feed that was found to the commanded one.
-const LIKE: Range<f64> = 0.9..1.1;
 
 /// A circle that was recorded, in either direction.
 #[derive(Debug, Clone)]

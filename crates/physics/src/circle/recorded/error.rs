@@ -78,6 +78,11 @@ pub enum RecordedError {
         /// The radius of the points.
         found_mm: f64,
     },
+    /// Two directions at different feeds, in mm/min.
+    #[error(
+        "the directions were driven at {:.0} and {:.0} mm/min, so they cannot be compared", .0[0], .0[1]
+    )]
+    OtherFeeds([f64; 2]),
     /// A feed of 4000 mm/min that was given for a circle at 2000 mm/min.
     #[error(
         "by its times the recorded circle was driven at {found:.0} mm/min, not at {commanded} mm/min"
@@ -106,6 +111,7 @@ impl RecordedError {
             Self::Count(_) => "give one of each direction, two at most",
             Self::CommandedRadius(_) => "give the commanded radius in mm",
             Self::CommandedFeed(_) => "give the commanded feed in mm/min",
+            Self::OtherFeeds(_) => "give recordings of both directions at the same feed",
             Self::SameDirection(_) => "give one recording of each direction",
             Self::Feed { .. } => "check the commanded feed and the unit of the times",
             Self::Radius { .. } => "check the commanded radius and the unit of the columns",

@@ -2,7 +2,7 @@
 
 use super::circle::RecordedCircle;
 use super::error::RecordedError;
-use super::limits::MOST_MM;
+use super::limits::{LIKE, MOST_MM};
 use crate::circle::centre::PathCentre;
 use crate::circle::compare::Side;
 use crate::circle::figures::{Nominal, Paths};
@@ -53,8 +53,8 @@ impl Recording {
     /// centre of each, G(b) and H about `centre`.
     ///
     /// # Errors
-    /// Two circles in the same direction, with centres that are far apart, or at another feed than the commanded one
-    /// by their times.
+    /// Two circles in the same direction, with centres that are far apart, or at different feeds or another one than
+    /// the commanded one by their times.
     pub fn new(
         circles: Vec<RecordedCircle>,
         commanded: CommandedCircle,
@@ -66,6 +66,11 @@ impl Recording {
         if let [first, second] = &circles[..] {
             if first.direction == second.direction {
                 return Err(RecordedError::SameDirection(first.direction));
+            }
+            if let [Some(one), Some(other)] = [first, second].map(RecordedCircle::feed_mm_per_min)
+                && !LIKE.contains(&(one / other))
+            {
+                return Err(RecordedError::OtherFeeds([one, other]));
             }
             let [x, y] = [0, 1].map(|axis| first.centre_mm[axis] - second.centre_mm[axis]);
             let distance_mm = x.hypot(y);

@@ -144,7 +144,12 @@ impl CircleReport {
             ),
             (Some([(um, at)]), _) => {
                 let advice = self.sides.iter().flat_map(|side| advice_lines(self, side));
-                let advice: Vec<String> = advice.take(1).collect();
+                let advice: Vec<String> = self
+                    .other_radius()
+                    .into_iter()
+                    .chain(advice)
+                    .take(1)
+                    .collect();
                 let (standing, advice) = match advice.as_slice() {
                     [] => (Standing::Plain, String::new()),
                     said => (Standing::Bad, format!("; {}", said.join("; "))),
@@ -160,6 +165,27 @@ impl CircleReport {
             ),
         };
         verdict.with_fault(&self.findings)
+    }
+
+    /// How far a recorded circle is from the commanded radius, in words, where that is more than any deviation of a
+    /// machine.
+    fn other_radius(&self) -> Option<String> {
+        /// A thousandth of the radius.
+        const PART: f64 = 0.001;
+        let Subject::Recorded(recording) = &self.subject else {
+            return None;
+        };
+        let commanded = recording.commanded.radius_mm?;
+        let circle = recording.circles.first()?;
+        let more = circle.radius_mm - commanded;
+        let which = if more > 0.0 { "larger" } else { "smaller" };
+        (more.abs() > PART * commanded).then(|| {
+            format!(
+                "the recorded radius is {:.0} µm {which} than the commanded one: check `--radius`, the unit and the scale \
+                 of the axes",
+                1000.0 * more.abs()
+            )
+        })
     }
 
     /// The radius in mm, and the feed in mm/min if it is known.

@@ -49,7 +49,20 @@ fn ask(walk: &Walk, variable: usize, value: usize) -> Vec<(Walk, bool)> {
             }
             vec![usual, other]
         }
-        Known::Told(known, _) => vec![(walk.clone(), known == value)],
+        // It is asked for anew (R14.1); the answer that contradicts the earlier one needs a change.
+        Known::Told(known, None) => {
+            let [mut holds, mut fails] = [walk.clone(), walk.clone()];
+            holds.known[variable] = Known::Told(value, None);
+            holds.changed |= known != value;
+            fails.known[variable] = Known::Open;
+            fails.changed |= known == value;
+            vec![(holds, true), (fails, false)]
+        }
+        Known::Told(_, Some(before)) => {
+            let mut set = walk.clone();
+            set.known[variable] = Known::Set(before);
+            ask(&set, variable, value)
+        }
     }
 }
 

@@ -4,10 +4,11 @@ use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
 use frictcomp_physics::circle::{Tuned, TunedAxis};
 
-use crate::trace::ChannelQuantity;
-
 /// The remark in a list for a build that reads fractions.
 const FRACTIONS: &str = "Outputs with decimals need the build V3.1.3132.0 or V4.29.0";
+
+/// The unit of the outputs that a control reads.
+pub const DRIVE_UNITS: &str = "drive units";
 
 /// The remark in a list that is not in drive units.
 const CONVERT: &str = "Convert the outputs to drive units before the control reads this list";
@@ -110,7 +111,7 @@ pub fn render_identified(
         name: made.axis.filter(|_| number.is_none()),
         ..ListHead::default()
     };
-    if made.unit != ChannelQuantity::Torque.own_unit() {
+    if made.unit != DRIVE_UNITS {
         remarks.push(CONVERT);
         let remarks = &remarks;
         return write_value_list(list, Points::Real, &ListHead { remarks, ..head });

@@ -304,6 +304,25 @@ pub(crate) fn reads(
     Some(Asking { writer, meaning })
 }
 
+/// The values of the machine or the control that an expression reads by their names.
+pub(crate) fn read_of_machine(
+    block: &Block,
+    text: &str,
+    expression: Expression,
+    externals: &ExternalNames,
+) -> Vec<VariableName> {
+    let range = expression.start as usize..expression.end as usize;
+    let nodes = block.nodes.get(range.clone()).unwrap_or_default();
+    let spans = block.spans.get(range).unwrap_or_default();
+    let read = nodes.iter().zip(spans).filter_map(|(node, span)| {
+        let Location::Variable(name) = target(*node, span.of(text))? else {
+            return None;
+        };
+        (Writer::of(&name, externals) != Writer::Nothing).then_some(name)
+    });
+    read.collect()
+}
+
 /// Whether an expression reads, or may read, a value that the machine writes while the program waits.
 pub(crate) fn is_written_by_machine(
     block: &Block,

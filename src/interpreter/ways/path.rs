@@ -151,6 +151,13 @@ impl AssumedValues {
         self.undo_but(&kept, memory);
     }
 
+    /// Withdraws those about some variables that are not the value that the program itself had set.
+    pub(crate) fn undo_of(&mut self, names: &[VariableName], memory: &mut Memory) {
+        let stays = |target: &&Location| !matches!(target, Location::Variable(name) if names.contains(name) && memory.set_at(name).is_none());
+        let kept = self.0.keys().filter(stays).cloned().collect();
+        self.undo_but(&kept, memory);
+    }
+
     fn undo_but(&mut self, kept: &BTreeSet<Location>, memory: &mut Memory) {
         let (stay, go) = std::mem::take(&mut self.0)
             .into_iter()

@@ -17,7 +17,7 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::stack::Seeking;
 use crate::interpreter::values::externals::{HeldValues, SetAt};
 use crate::interpreter::values::location::{Location, MissingProgram, Unknown};
-use crate::interpreter::values::plain::{Asking, ConditionMeaning, Writer};
+use crate::interpreter::values::plain::{Asking, ConditionMeaning, Writer, read_of_machine};
 use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::history::HistorySide;
 use crate::interpreter::ways::path::{AskedCondition, BranchSide, EarlierStates};
@@ -678,6 +678,7 @@ impl Executor {
         condition: Operand,
         at: &BlockContext<'_>,
     ) -> Result<(Value, Option<Doubt>), Box<Fault>> {
+        self.ask_anew(condition, at);
         let (value, mut relied) = self.value_with_reads(condition, at)?;
         if let Some(doubt) = Doubt::of(&value) {
             return Ok((value, Some(doubt)));
@@ -716,6 +717,7 @@ impl Executor {
         if let Operand::Number(number) = condition {
             return Ok(Value::Number(number));
         }
+        self.ask_anew(condition, at);
         let (value, relied) = self.value_with_reads(condition, at)?;
         if relied.is_empty() {
             return Ok(value);
@@ -723,6 +725,18 @@ impl Executor {
         self.state.control.memory.hold_initial(&relied);
         self.let_plc_write(|name| relied.iter().any(|it| it == name));
         self.value(condition, at)
+    }
+
+    /// A value of the machine has another answer each time: what earlier conditions said of those that this one asks for
+    /// does not decide it (R14.1).
+    fn ask_anew(&mut self, condition: Operand, at: &BlockContext<'_>) {
+        let RunState { control, track, .. } = &mut self.state;
+        if let Operand::Expression(expression) = condition
+            && !track.assumed.is_empty()
+        {
+            let names = read_of_machine(at.block, at.text, expression, &self.externals);
+            track.assumed.undo_of(&names, &mut control.memory);
+        }
     }
 
     fn value_with_reads(

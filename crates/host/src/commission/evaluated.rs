@@ -22,7 +22,7 @@ use frictcomp_recordings::commission::{
     Plants, RecordedRound, RecordingResult, Results, ResultsReport, Round, Stage, refuse_strangers,
     source_of,
 };
-use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified, tuned_on};
+use frictcomp_recordings::value_lists::{DRIVE_UNITS, IdentifiedFrom, render_identified, tuned_on};
 
 /// The file of the results.
 const RESULTS: &str = "results.json";
@@ -195,7 +195,7 @@ impl Commissioning<'_> {
         let made = IdentifiedFrom {
             axis: Some(&axis.name),
             from: &result.file,
-            unit: "drive units",
+            unit: DRIVE_UNITS,
             faults: &remarks,
         };
         render_identified(&found.list(), made, self.build)

@@ -60,7 +60,7 @@ impl CircleEvidence {
         quality: Quality,
     ) -> Option<Self> {
         let paths: Vec<(Direction, &RadialProfile)> = paths.collect();
-        let in_steps = |steps: Steps, mask: Mask| {
+        let in_steps = |steps: PathSteps, mask: Mask| {
             let paths = paths.iter();
             let series =
                 paths.map(|&(direction, profile)| steps(profile, direction, quality.samples, mask));
@@ -123,7 +123,7 @@ impl CircleEvidence {
 }
 
 /// A path in steps of some length.
-type Steps = fn(&RadialProfile, Direction, usize, Mask) -> Option<AngleSeries>;
+type PathSteps = fn(&RadialProfile, Direction, usize, Mask) -> Option<AngleSeries>;
 
 /// What counts as a residual.
 #[derive(Debug, Clone, Copy)]

@@ -134,9 +134,11 @@ pub struct DriveReport {
 }
 
 impl DriveReport {
-    /// Whether the control has a torque to send: an accepted value list, none of whose factors is 0.
-    pub fn sends_torque(&self) -> bool {
-        self.largest_torque.is_some_and(|largest| largest > 0.0)
+    /// Whether the torque would reach the drive and the control has none to send: no accepted value list, or a factor
+    /// of 0.
+    pub fn is_idle(&self) -> bool {
+        let sends = self.largest_torque.is_some_and(|largest| largest > 0.0);
+        self.configured && matches!(self.additive_torque, Presence::Present { .. }) && !sends
     }
 }
 

@@ -201,5 +201,8 @@ fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<
     if args.listing.format == ListingFormat::Text {
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
+    if reports.iter().any(DriveReport::is_idle) {
+        return Ok(listing.status().max(exit::FOUND));
+    }
     Ok(listing.status())
 }

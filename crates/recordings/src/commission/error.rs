@@ -110,7 +110,7 @@ pub enum PlanError {
     },
     /// A slowest speed that is not below the fastest feed, both in mm/s or °/s.
     #[error(
-        "the slowest speed of {slowest} is not below the fastest feed, {fastest:.1} in the same unit"
+        "the slowest speed, {slowest} mm/s or °/s, is not below the fastest feed, {fastest:.1} mm/s or °/s"
     )]
     Slowest {
         /// The slowest speed.

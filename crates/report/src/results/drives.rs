@@ -13,8 +13,9 @@ pub fn drives_headline(reports: &[DriveReport]) -> Headline {
         let names: Vec<&str> = reports.map(|it| it.axis.as_str()).collect();
         listed(&names)
     };
-    let reached = named(|it| is_present(it) && it.sends_torque());
-    let idle = named(|it| is_present(it) && !it.sends_torque());
+    let reached =
+        named(|it| !it.is_idle() && matches!(it.additive_torque, Presence::Present { .. }));
+    let idle = named(DriveReport::is_idle);
     let missed = named(|it| matches!(it.additive_torque, Presence::Missing { .. }));
     let open = named(|it| matches!(it.additive_torque, Presence::Unknown { .. }));
     let standing = match (&missed, &idle, &open) {
@@ -26,7 +27,7 @@ pub fn drives_headline(reports: &[DriveReport]) -> Headline {
         (missed, "does not reach the drive of"),
         (
             idle,
-            "is 0, for want of an accepted value list or by a factor of 0, of",
+            "is 0, without an accepted value list or by a factor of 0, for",
         ),
         (open, "may not reach the drive of"),
         (reached, "reaches the drive of"),
@@ -45,10 +46,6 @@ pub fn drives_headline(reports: &[DriveReport]) -> Headline {
         standing,
         format!("the compensation torque {}", parts.join("; it ")),
     )
-}
-
-fn is_present(report: &DriveReport) -> bool {
-    matches!(report.additive_torque, Presence::Present { .. })
 }
 
 /// Returns what is known about the drive of each axis.

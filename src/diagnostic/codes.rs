@@ -182,7 +182,7 @@ codes! {
     Fc519 "FC519" Warning "unit of a channel is assumed";
     Fc520 "FC520" Warning "torque is clipped";
     Fc521 "FC521" Warning "compensation was on while recording";
-    Fc522 "FC522" Warning "inverted sign";
+    Fc522 "FC522" Warning "torque that does not belong to the motion";
     Fc523 "FC523" Warning "absolute values";
     Fc524 "FC524" Warning "improbable unit";
     Fc525 "FC525" Warning "rows are missing";

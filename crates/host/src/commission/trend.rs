@@ -14,6 +14,7 @@ use frictcomp_recordings::identify::{
     identify,
 };
 use frictcomp_recordings::trace::ChannelSelection;
+use frictcomp_recordings::value_lists::DRIVE_UNITS;
 
 /// Recordings of constant speeds of an axis, and how they are read.
 #[derive(Debug, Clone)]
@@ -118,7 +119,7 @@ impl DatedRecordings<'_> {
             file,
             levels,
         };
-        Ok((dated, unit.unwrap_or_else(|| "drive units".to_owned())))
+        Ok((dated, unit.unwrap_or_else(|| DRIVE_UNITS.to_owned())))
     }
 }
 

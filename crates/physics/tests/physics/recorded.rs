@@ -462,6 +462,23 @@ fn a_feed_is_that_of_the_times() {
     assert!(matches!(at(driven * 2.0), Err(RecordedError::Feed { .. })));
 }
 
+/// R5.26: both directions are compared at one feed.
+#[test]
+fn directions_at_different_feeds_are_not_compared() {
+    let of = |direction: Direction, step_s: f64| {
+        let mut trace = RecordedTrace::of_points(synthetic(direction, |_| 0.0));
+        let points = 0..trace.points_mm.len();
+        trace.times_s = points.map(|at| step_s * at as f64).collect();
+        RecordedCircle::find(&trace, None).expect("a circle")
+    };
+    let both = |step_s: f64| {
+        let circles = [of(Direction::Ccw, 0.001), of(Direction::Cw, step_s)].concat();
+        Recording::new(circles, CommandedCircle::default(), PathCentre::Common)
+    };
+    assert!(both(0.001).is_ok());
+    assert!(matches!(both(0.003), Err(RecordedError::OtherFeeds(_))));
+}
+
 /// R5.26: the best of several turns is evaluated, and a worse one is named; noise does not make a turn worse.
 #[test]
 fn a_worse_turn_is_named() {

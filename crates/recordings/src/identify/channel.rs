@@ -94,7 +94,7 @@ pub(super) fn late(samples: &AxisSamples, segments: &[Segment]) -> Option<TraceF
         TraceFinding::new(
             Code::Fc522,
             format!(
-                "the torque reverses {delay:.2} s after the axis: it does not belong to this motion"
+                "the torque reverses {delay:.2} s or more after the axis: it does not belong to this motion"
             ),
             "record both channels with the same times, and the torque without a filter",
         )

@@ -4,6 +4,7 @@ use crate::results::identify::states::StatesReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use frictcomp_recordings::identify::FrictionParameter;
 use frictcomp_recordings::identify::TrendReport;
+use frictcomp_recordings::value_lists::DRIVE_UNITS;
 
 /// Friction over speed, a curve for each state.
 pub fn friction_states(report: &StatesReport) -> LineChart {
@@ -20,10 +21,7 @@ pub fn friction_states(report: &StatesReport) -> LineChart {
             pairs.map(|it| [it.speed, it.friction]).collect(),
         )
     });
-    let unit = report
-        .states
-        .first()
-        .map_or("drive units", |it| it.1.unit());
+    let unit = report.states.first().map_or(DRIVE_UNITS, |it| it.1.unit());
     LineChart {
         title: "Friction in each state".to_owned(),
         description: format!(

@@ -181,7 +181,7 @@ impl CircleReport {
         let which = if more > 0.0 { "larger" } else { "smaller" };
         (more.abs() > PART * commanded).then(|| {
             format!(
-                "the recorded radius is {:.0} µm {which} than the commanded one: check `--radius`, the unit and the scale \
+                "the recorded radius is {:.0} µm {which} than the commanded one: check that radius, the unit and the scale \
                  of the axes",
                 1000.0 * more.abs()
             )

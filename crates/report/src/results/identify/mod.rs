@@ -14,6 +14,7 @@ use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{
     AxisRecording, BranchPoint, DirectionBranches, Fit, FrictionCurve, Identified, TraceFinding,
 };
+use frictcomp_recordings::value_lists::DRIVE_UNITS;
 
 /// A recording and the friction identified in it.
 #[derive(Debug, Clone)]
@@ -77,10 +78,7 @@ impl IdentifyReport {
 
     /// The unit of torque and friction.
     pub fn unit(&self) -> &str {
-        self.recording
-            .torque_unit
-            .as_deref()
-            .unwrap_or("drive units")
+        self.recording.torque_unit.as_deref().unwrap_or(DRIVE_UNITS)
     }
 }
 

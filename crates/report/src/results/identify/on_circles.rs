@@ -9,6 +9,7 @@ use crate::document::{Document, Headline, Standing, Table};
 use crate::wording::{to_json, visible_line};
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, OnCircles, TraceFinding};
+use frictcomp_recordings::value_lists::DRIVE_UNITS;
 
 /// Recorded circles and the friction identified on them.
 #[derive(Debug, Clone)]
@@ -30,7 +31,7 @@ impl OnCirclesReport {
             .recordings
             .iter()
             .filter_map(|it| it.torque_unit.as_deref());
-        units.into_iter().next().unwrap_or("drive units")
+        units.into_iter().next().unwrap_or(DRIVE_UNITS)
     }
 
     /// The verdict: the friction over the speeds (R18.20).

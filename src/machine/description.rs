@@ -13,6 +13,7 @@ use crate::language::GFunction;
 use crate::lists::{ChannelSettings, Origin};
 use crate::readings::{Question, Readings};
 use crate::syntax::{AxisUse, SkipLevels, axis_uses, hash_name};
+use crate::text::in_a_row;
 
 /// Origin of the axes of a machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -139,12 +140,19 @@ impl Machine {
             })
     }
 
-    /// Returns these assumptions in words; `None` without any.
+    /// Returns the assumptions about friction compensation in words, with the lines or the axes; `None` without any.
     pub fn assumption(&self) -> Option<String> {
         let lines = self.enabled_axes();
         let lines = lines.map(|(axis, file, line)| format!("{file}:{line} ({})", axis.name));
         let lines: Vec<String> = lines.collect();
-        (!lines.is_empty()).then(|| format!("assuming `enable = true`, {}", lines.join(", ")))
+        let lines = (!lines.is_empty()).then(|| format!("`enable = true`, {}", lines.join(", ")));
+        let axes = self.axes.iter();
+        let axes = axes.filter(|axis| matches!(axis.frict_comp_origin, Origin::Assumed));
+        let axes: Vec<&str> = axes.map(|axis| axis.name.as_str()).collect();
+        let axes =
+            (!axes.is_empty()).then(|| format!("friction compensation on {}", in_a_row(&axes)));
+        let all: Vec<String> = lines.into_iter().chain(axes).collect();
+        (!all.is_empty()).then(|| format!("assuming {}", all.join(", and ")))
     }
 
     /// Returns the state of all compensations after a start of the control.

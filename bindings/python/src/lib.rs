@@ -22,6 +22,7 @@ mod pickled;
 mod planner;
 mod program;
 mod recording;
+mod replay;
 mod run;
 mod sequence;
 mod several;
@@ -70,6 +71,8 @@ mod _engine {
     use super::program::PyText;
     #[pymodule_export]
     use super::recording::{trace_recording, verify_list};
+    #[pymodule_export]
+    use super::replay::replay;
     #[pymodule_export]
     use super::run::run;
     #[pymodule_export]

@@ -105,6 +105,21 @@ def test_a_commissioning_is_evaluated_as_the_command_does(tmp_path: Path) -> Non
         frictcomp.commission(tmp_path)
 
 
+def test_a_recording_is_compared_with_the_dry_run_as_the_command_does() -> None:
+    # R13.13, R15.21
+    recordings = [f"programs/demo/replay/{name}.csv" for name in ("states", "other")]
+    program = "programs/demo/replay/pocket.nc"
+    for recording in recordings:
+        assert frictcomp.replay(recording, program) == document("replay", recording, program)
+    known = frictcomp.Machine(variables={"V.E.FINISH": 1})
+    other = frictcomp.replay(recordings[1], [program], machine=known)
+    assert other["headline"]["standing"] == "bad"
+    with pytest.raises(frictcomp.Error, match="tolerance"):
+        frictcomp.replay(recordings[0], program, tolerance_um=-1.0)
+    with pytest.raises(frictcomp.Error, match="no axis"):
+        frictcomp.replay(recordings[0], program, start={"Q": 0.0})
+
+
 def test_friction_is_followed_over_the_dates_as_the_command_does(tmp_path: Path) -> None:
     # R13.13, R16.6
     for date in ("2026-03-01", "2026-09-01"):

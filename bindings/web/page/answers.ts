@@ -79,7 +79,7 @@ export interface Overview {
   messages: Message[];
   messagesLeftOut: number;
   passedOver: [word: string, times: number][];
-  isAssumed: boolean;
+  headline: Report["headline"] | null;
   machine: Machine;
   items: number;
   notableItems: number;

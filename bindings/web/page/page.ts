@@ -285,7 +285,6 @@ async function run(): Promise<void> {
 /** What a run rests on in addition to the files. */
 function given(): Given {
   return {
-    enable: settings.enable,
     startups: pathsOf("startup").length,
   };
 }

@@ -4,7 +4,7 @@ import { h } from "./dom";
 import type { Refusal } from "./engine";
 import { withCode } from "./markdown";
 import { picture } from "./pictures";
-import { sentence, type Weight } from "./verdict";
+import { sentence, WEIGHTS } from "./verdict";
 
 interface Table {
   caption: string | null;
@@ -23,9 +23,6 @@ export interface Drawn {
   svg: string | null;
   report: Report;
 }
-
-const WEIGHTS: Record<Report["headline"]["standing"], Weight> =
-  { good: "good", bad: "error", open: "warning", plain: "info" };
 
 /** The verdict of a report, in the colour of its standing. */
 export function lead({ headline }: Pick<Report, "headline">): HTMLElement {

@@ -11,7 +11,7 @@ use frictcomp::interpreter::{Limits, Options, StopPolicy};
 use frictcomp::text::LineSource;
 use frictcomp_host::{Axes, Disk, LoadedMachine, Naming, SingleRun, run_alone};
 use frictcomp_report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
-use frictcomp_report::{TimelineFormat, TimelineOptions, command_line, feed_moves_text};
+use frictcomp_report::{Headline, TimelineFormat, TimelineOptions, command_line, feed_moves_text};
 use serde::{Deserialize, Serialize};
 
 use crate::bars::{BarSpan, bar};
@@ -74,7 +74,8 @@ pub(crate) struct Overview<'a> {
     messages: Vec<Message<'a>>,
     messages_left_out: u64,
     passed_over: Vec<(&'a str, u64)>,
-    is_assumed: bool,
+    /// The verdict; none where nothing is known to be as it should be or not.
+    headline: Option<&'a Headline>,
     machine: MachineOverview<'a>,
     /// How many items each view of the timeline has.
     items: usize,
@@ -316,7 +317,7 @@ impl ShownRun {
             passed_over: passed_over
                 .map(|(word, times)| (word.as_str(), *times))
                 .collect(),
-            is_assumed: timeline.is_assumed,
+            headline: timeline.headline.as_ref(),
             machine: MachineOverview {
                 origin: loaded.origin.as_ref().map(|it| it.display().to_string()),
                 is_described: loaded.machine.is_described()

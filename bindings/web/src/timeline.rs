@@ -9,6 +9,7 @@ use frictcomp::interpreter::EndedBy;
 use frictcomp::lists::AxisType;
 use frictcomp::machine::AxisSet;
 use frictcomp::timeline::{AxisSummary, Record, Sink};
+use frictcomp_report::{Headline, headline};
 
 use crate::rows::ExecutedRows;
 use crate::watched::show_progress;
@@ -50,7 +51,8 @@ pub(crate) struct Timeline {
     pub(crate) counts: BTreeMap<Severity, u64>,
     pub(crate) opaque: BTreeMap<String, u64>,
     pub(crate) summaries: Vec<AxisSummary>,
-    pub(crate) is_assumed: bool,
+    /// The verdict on the run, if something is left to be said.
+    pub(crate) headline: Option<Headline>,
 }
 
 impl Timeline {
@@ -112,7 +114,7 @@ impl Sink for Timeline {
                 self.counts.clone_from(&summary.counts);
                 self.opaque.clone_from(summary.opaque);
                 self.summaries.clone_from(&summary.axes);
-                self.is_assumed = !summary.assumed.is_empty();
+                self.headline = headline(summary, self.ended_by);
                 for axis in &summary.axes {
                     self.axes[axis.axis.get()].listed = true;
                 }

@@ -137,7 +137,7 @@ const tests = {
     await look(page, "example");
     await openFile(page, "example/friction.nc");
     const result = page.getByRole("status", { name: "Result" });
-    assert.match(await result.textContent(), /Left for the next program: X inactive, Y inactive/);
+    assert.match(await result.textContent(), /X and Y are left off/);
     await close(page);
   },
 
@@ -190,12 +190,12 @@ const tests = {
     await text.fill((await text.inputValue()).replace(
       "N55 M30", "N50 X[COMP ON FRICT]\nN51 Y[COMP ON FRICT]\nN55 M30"));
     const result = page.getByRole("status", { name: "Result" });
-    await result.getByText("every axis ends as it began. The audit").waitFor();
+    await result.getByText("Nothing to do: every axis is as at the start").waitFor();
     assert.equal(await rows(page).count(), 7);
     await page.getByText("edited here, the file is as it was").waitFor();
     await look(page, "edit");
     await text.fill("N10 Z[COMP ON FRICT]\nN20 X1\nM30\n");
-    await result.getByText("The run stops at line 1").waitFor();
+    await result.getByText("Stopped by an error").waitFor();
     await page.getByRole("tab", { name: "Messages (1)" }).click();
     await page.locator("#panel-messages").getByText("error P-ERR-70495").waitFor();
     await page.getByRole("button", { name: /friction\.nc:1:5/ }).click();
@@ -241,7 +241,7 @@ const tests = {
     const result = page.getByRole("status", { name: "Result" });
     await result.getByText(/SUB\.nc.*Drop that file, too/).waitFor();
     assert.match(await result.textContent(), /No machine is described/);
-    assert.doesNotMatch(await result.textContent(), /every axis ends/);
+    assert.doesNotMatch(await result.textContent(), /every axis is/);
     const missing = page.locator("#missing");
     assert.match(await missing.textContent(), /SUB\.nc/);
     // The file arrives, and then the start-up list without its axis lists.
@@ -257,7 +257,7 @@ const tests = {
       join(root, `programs/demo/lists/${name}.lis`)));
     await page.waitForFunction(() => document.getElementById("missing").textContent === "");
     await page.getByRole("button", { name: /main\.nc/ }).click();
-    await result.getByText("Left for the next program: X inactive").waitFor();
+    await result.getByText("X is left off").waitFor();
     await close(page);
   },
 

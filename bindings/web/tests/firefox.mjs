@@ -91,7 +91,7 @@ const tests = {
     await page.click("#files button[title='example/friction.nc']");
     await page.waitForFunction(() => document.getElementById("title").textContent === "example/friction.nc");
     await page.waitForSelector(rows);
-    assert.match(await text(page, "#verdict"), /Left for the next program: X inactive, Y inactive/);
+    assert.match(await text(page, "#verdict"), /X and Y are left off/);
     await page.click("#edit");
     await page.waitForFunction(() => document.querySelector("textarea").value !== "");
     await page.$eval("textarea", (area) => {
@@ -99,7 +99,7 @@ const tests = {
       area.dispatchEvent(new window.Event("input", { bubbles: true }));
     });
     await page.waitForFunction(() =>
-      document.getElementById("verdict").textContent.includes("every axis ends as it began"));
+      document.getElementById("verdict").textContent.includes("every axis is as at the start"));
     assert.equal(await page.$eval("#edited", (mark) => mark.hidden), false);
     await close(page);
   },

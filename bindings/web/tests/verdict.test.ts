@@ -11,11 +11,11 @@ const axis: Axis = {
 const overview: Overview = {
   program: "a.nc", name: null, axes: [axis], axesAsTheyOccur: false, blocks: 9, kept: 9,
   endedBy: "M30", remark: null, errors: 0, warnings: 0, infos: 0, messages: [], messagesLeftOut: 0,
-  passedOver: [], isAssumed: false, items: 11, notableItems: 2,
+  passedOver: [], headline: { standing: "good", text: "nothing to do" }, items: 11, notableItems: 2,
   machine: { origin: "frictcomp.toml", isDescribed: true, lists: 1, missing: 0, said: [] },
 };
 
-const given = { enable: [], startups: 1 };
+const given = { startups: 1 };
 
 const message = (code: string, text: string): Message => ({
   code, severity: "error", message: text, help: [], file: "a.nc", line: 4, column: 1, axis: null, after: 3,
@@ -28,28 +28,24 @@ describe("the verdict", () => {
   it("is good only where everything was looked at", () => {
     expect(weights({})).toEqual(["good"]);
     const notGood: Partial<Overview>[] = [
-      { endedBy: "error", errors: 1 }, { endedBy: "budget" }, { endedBy: null }, { warnings: 1 },
-      { remark: "no machine is described" }, { isAssumed: true }, { kept: 5 }, { messagesLeftOut: 1 },
-      { axes: [] }, { infos: 1 }, { blocks: 0 },
+      { headline: { standing: "open", text: "X may be left off" } }, { headline: null }, { blocks: 0 },
+      { remark: "no machine is described" }, { kept: 5 }, { messagesLeftOut: 1 },
       { axes: [{ ...axis, uncompensated: " off during 155 feed moves, the longest 812 mm" }] },
-      { axes: [{ ...axis, startUp: "ineffective", end: "ineffective" }] },
-      { axes: [{ ...axis, startUp: "unconfigured", end: "unconfigured" }] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },
       { machine: { ...overview.machine, missing: 1 } },
-      { machine: { ...overview.machine, isDescribed: false } },
       { machine: { ...overview.machine, said: [message("FC120", "wrong")] } },
     ];
     for (const changed of notGood) {
       expect(weights(changed), JSON.stringify(changed)).not.toContain("good");
     }
-    expect(verdict(overview, { ...given, enable: ["X"] }).map(({ weight }) => weight)).not.toContain("good");
   });
 
-  it("says when an axis ends how", () => {
-    const words = "inactive if V.E.A == 2 (line 3), else active";
-    const told = (changed: Partial<Axis>): string =>
-      verdict({ ...overview, axes: [{ ...axis, end: "unknown", ...changed }] }, given)[0]?.text ?? "";
-    expect(told({})).toContain("at the end: X. Only");
-    expect(told({ possible: words })).toContain(`at the end: X (${words}). Only`);
+  it("opens with the sentence of the engine, and says when an axis ends how", () => {
+    const possible = "inactive if V.E.A == 2 (line 3), else active";
+    const headline: Overview["headline"] = { standing: "open", text: "X may be left off" };
+    const told = verdict({ ...overview, headline, axes: [{ ...axis, end: "unknown", possible }] }, given);
+    expect(told.map(({ text }) => text)).toEqual(["X may be left off.", `X at the end: ${possible}.`]);
+    const none = verdict({ ...overview, headline: null, axes: [{ ...axis, startUp: "unconfigured" }] }, given);
+    expect(none.map(({ weight }) => weight)).toEqual(["info"]);
   });
 
   it("names what was not dropped", () => {

@@ -4,7 +4,7 @@
 compensation active after each block. The timeline is a table that pandas, polars and DuckDB accept
 without a copy. ``check`` returns the messages of whole folders, ``audit`` the effect of the order of
 programs. ``current``, ``contour``, ``circle``, ``tune``, ``identify`` and ``verify`` are about the compensation itself,
-``trace`` shows what is in a recording, ``commission`` and ``trend`` evaluate folders of recordings.
+``trace`` shows what is in a recording, ``replay`` compares one with the dry run, ``commission`` and ``trend`` evaluate folders of recordings.
 
     import frictcomp, polars
     timeline = frictcomp.run("part.nc")
@@ -45,6 +45,7 @@ from ._engine import (
     current_of_recording,
     explain,
     identify,
+    replay,
     run,
     trace,
     trend,
@@ -85,6 +86,7 @@ __all__ = [
     "current_of_recording",
     "explain",
     "identify",
+    "replay",
     "run",
     "trace",
     "trend",

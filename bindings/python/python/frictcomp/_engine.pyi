@@ -29,6 +29,7 @@ __all__ = [
     "Text",
     "trace",
     "verify",
+    "replay",
     "run",
     "AuditSequence",
     "audit_sequence",
@@ -781,6 +782,29 @@ def verify(
 
     The channels are named as for ``identify``, which looks at the recording in the same way. ``actual_position`` or
     ``following_error`` shows whether the list acted, and whether it is early or late at reversals.
+    """
+
+def replay(
+    recording: _Path,
+    programs: _Program | Iterable[_Program],
+    *,
+    machine: Machine | _Path | None = None,
+    time: str | None = None,
+    active: Mapping[str, str] | None = None,
+    position: Mapping[str, str] | None = None,
+    line: str | None = None,
+    block: str | None = None,
+    program: str | None = None,
+    units: Mapping[str, str] | None = None,
+    tolerance_um: float | None = None,
+    start: Mapping[str, float] | Iterable[tuple[str, float]] | None = None,
+    limits: Limits | None = None,
+) -> Any:
+    """Compares what a machine did with the dry run of its programs: the document of ``frictcomp replay --format json``.
+
+    The recording says for each axis whether friction compensation is active; ``active`` and ``position`` name its channels of
+    axes, ``{"X": "FrictX"}``, if they are not recognised. The programs are those that ran meanwhile, in their order.
+    ``tolerance_um`` is how much positions may differ where no blocks were recorded, in µm or 0.001°.
     """
 
 def commission(

@@ -63,9 +63,6 @@ pub(crate) struct ReplayArgs {
     execution: ExecutionArgs,
 }
 
-/// The usual tolerance of positions in mm or degrees.
-const TOLERANCE: f64 = 0.1;
-
 /// Runs the command.
 pub(crate) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
@@ -94,7 +91,10 @@ pub(crate) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         inputs: &inputs,
         loaded: &loaded,
         options,
-        tolerance: args.tolerance.map_or(TOLERANCE, |it| it.um() / 1000.0),
+        tolerance: {
+            let given = args.tolerance;
+            given.map_or(Replay::TOLERANCE, |it| it.um() / 1000.0)
+        },
     };
     let replayed = replay.compare(&recording)?;
     let report = ReplayReport {

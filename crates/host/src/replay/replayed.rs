@@ -24,6 +24,9 @@ pub struct Replay<'a> {
 }
 
 impl Replay<'_> {
+    /// The usual tolerance of positions, in mm or degrees.
+    pub const TOLERANCE: f64 = 0.1;
+
     /// Compares a recording with the dry run, trying every answer to the conditions that only the machine
     /// can decide if these are few (R15.21).
     ///

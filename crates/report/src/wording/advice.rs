@@ -90,7 +90,7 @@ impl FinalStates<'_> {
             away(State::Inactive, "off", "ON"),
             away(State::Active, "on", "OFF"),
             listed(&ineffective).map(|axes| {
-                format!("{axes} {are} selected without effect: {they} no accepted value list (explain FC303)")
+                format!("{axes} {are} selected without effect: {they} no accepted value list (see FC303)")
             }),
         ];
         let mut parts: Vec<String> = bad.into_iter().flatten().collect();

@@ -288,6 +288,14 @@ pub struct StepAxis {
     pub left_by: Option<String>,
 }
 
+impl StepAxis {
+    /// Whether its first motion away from its start-up state is certain, and so is that state.
+    pub fn moves_certainly(&self) -> bool {
+        let away = self.away.as_ref();
+        away.is_some_and(|away| !away.perhaps && away.ways.is_empty())
+    }
+}
+
 impl<'a> Sequence<'a> {
     /// Starts a sequence right after the start of the control.
     pub fn new(auditor: &'a Auditor) -> Self {

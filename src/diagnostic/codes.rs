@@ -56,6 +56,7 @@ codes! {
     PErr20131 "P-ERR-20131" Error "G function without a program";
     PErr20160 "P-ERR-20160" Error "M function above 1000";
     PErr20375 "P-ERR-20375" Warning "`$IF` without `$ENDIF`";
+    PErr20472 "P-ERR-20472" Error "coupling group redefined while it is active";
     PErr20839 "P-ERR-20839" Error "jump target that is not permitted";
     PErr20847 "P-ERR-20847" Error "value outside the type of its variable";
     PErr20909 "P-ERR-20909" Error "variable declared twice";

@@ -169,10 +169,22 @@ impl Couplings {
         }
     }
 
-    /// Redefines a group; one that is in force stays so with its new axes. Returns the axes whose
-    /// coupling may have changed.
+    /// Whether a group is in force, or may be; one without a known number may be any.
+    pub(crate) fn of_group(&self, group: &str) -> Coupling {
+        let is_known = !group.is_empty() && group.bytes().all(|it| it.is_ascii_digit());
+        let known = self.groups.get(group);
+        if is_known && known.is_some_and(|group| group.enabled.is_some()) {
+            Coupling::Active
+        } else if self.doubted || (!is_known && self.is_any()) {
+            Coupling::Perhaps
+        } else {
+            Coupling::None
+        }
+    }
+
+    /// Defines a group, which is then not in force. Returns the axes whose coupling may have changed.
     pub(crate) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) -> Vec<AxisIndex> {
-        let (was_enabled, mut changed) = self.take_out(group);
+        let mut changed = self.release(group);
         changed.extend(&axes);
         self.named.extend(&axes);
         let defined = CoupledAxes {
@@ -180,9 +192,6 @@ impl Couplings {
             ..CoupledAxes::default()
         };
         self.groups.insert(group.to_owned(), defined);
-        if let Some(turn) = was_enabled {
-            self.enable_at(group, turn);
-        }
         changed
     }
 
@@ -249,7 +258,15 @@ impl Couplings {
         }
         self.release(group);
         self.turns = self.turns.wrapping_add(1);
-        self.enable_at(group, self.turns);
+        if let Some(known) = self.groups.get_mut(group) {
+            known.enabled = Some(self.turns);
+            self.unknown = self.unknown.saturating_add(u32::from(known.unknown));
+            for &axis in &known.axes {
+                let times = self.holding.entry(axis).or_default();
+                *times = times.saturating_add(1);
+            }
+            self.enabled.insert(self.turns, group.to_owned());
+        }
         self.axes_of(group)
     }
 
@@ -262,31 +279,14 @@ impl Couplings {
         }
     }
 
-    fn enable_at(&mut self, group: &str, turn: u64) {
-        if let Some(known) = self.groups.get_mut(group) {
-            known.enabled = Some(turn);
-            self.unknown = self.unknown.saturating_add(u32::from(known.unknown));
-            for &axis in &known.axes {
-                let times = self.holding.entry(axis).or_default();
-                *times = times.saturating_add(1);
-            }
-            self.enabled.insert(turn, group.to_owned());
-        }
-    }
-
     /// Releases a group. Returns the axes whose coupling may have changed.
     pub(crate) fn release(&mut self, group: &str) -> Vec<AxisIndex> {
-        self.take_out(group).1
-    }
-
-    /// Releases a group. Returns the turn at which it was enabled, and its axes, if it was in force.
-    fn take_out(&mut self, group: &str) -> (Option<u64>, Vec<AxisIndex>) {
         let known = self.groups.get_mut(group);
         let Some((known, turn)) = known.and_then(|known| {
             let turn = known.enabled.take()?;
             Some((known, turn))
         }) else {
-            return (None, Vec::new());
+            return Vec::new();
         };
         self.unknown = self.unknown.saturating_sub(u32::from(known.unknown));
         self.enabled.remove(&turn);
@@ -298,7 +298,7 @@ impl Couplings {
                 self.holding.remove(axis);
             }
         }
-        (Some(turn), self.axes_of(group))
+        self.axes_of(group)
     }
 
     /// Releases the last enabled group. Returns the axes whose coupling may have changed.

@@ -128,6 +128,8 @@ static REFUSALS: &[ControlError] = {
             "write `$ENDIF`";
         20392 "PM/1225681547" Possible, "a `V.I.` variable that no program declares",
             "declare it with `#VAR`";
+        20472 "251698827" Error, "`#SET AX LINK` of a coupling group that is active",
+            "release the group first, with `#DISABLE AX LINK`";
         20590 "251916427" Said("FC912"), "`#IF` that is nested too deep",
             "nest fewer of them";
         20592 "251925131" Said("FC208"), "`#ENDIF` without `#IF`",

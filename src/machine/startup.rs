@@ -1,5 +1,7 @@
 //! Reads the axes that a start-up list describes (R3.12 to R3.14).
 
+use std::collections::BTreeMap;
+
 use super::axis::AxisDraft;
 use super::loader::{FirstChannel, Loader, folder};
 use crate::comp::KindSet;
@@ -69,8 +71,9 @@ impl Loader<'_> {
             axis.shared.clone_from(&shared);
             axis.is_covered = is_whole;
         }
+        let mut attached = BTreeMap::new();
         for named in startup.value_lists.iter().take(MAX_AXES) {
-            self.attach(named, &mut axes);
+            self.attach(named, &mut axes, &mut attached);
         }
         axes
     }
@@ -230,8 +233,13 @@ impl Loader<'_> {
         }
     }
 
-    /// Reads a value list and gives it to its axis.
-    fn attach(&mut self, named: &NamedList, axes: &mut [AxisDraft]) {
+    /// Reads a value list and gives it to its axis, of which an earlier one may be attached already.
+    fn attach<'s>(
+        &mut self,
+        named: &'s NamedList,
+        axes: &mut [AxisDraft],
+        attached: &mut BTreeMap<usize, &'s Given<String>>,
+    ) {
         let Some(list) = self.value_list(&named.path) else {
             return;
         };
@@ -252,7 +260,25 @@ impl Loader<'_> {
             })
         };
         let mut owners = axes.iter_mut().chain(&mut self.slaves);
-        if let Some(owner) = position.and_then(|position| owners.nth(position)) {
+        if let Some((position, owner)) =
+            position.and_then(|position| Some((position, owners.nth(position)?)))
+        {
+            let path = &named.path;
+            let first = *attached.entry(position).or_insert(path);
+            if !std::ptr::eq(first, path) {
+                let message = format!(
+                    "`{}` is a second value list of axis `{}`, after `{}`",
+                    path.value, owner.name, first.value
+                );
+                let said = Diagnostic::new(Code::Fc124, path.place(), message);
+                let said = said.with_label(first.place(), "the first one, which is used here");
+                self.diagnostics.push(
+                    said.with_help(
+                        "keep one of them: which one the control takes is not documented",
+                    ),
+                );
+                return;
+            }
             owner.startup_number.clone_from(&named.axis_number);
             owner.value_list = list;
             return;

@@ -194,6 +194,14 @@ pub struct AxisSummary {
     pub is_rewritten: bool,
 }
 
+impl AxisSummary {
+    /// Whether friction compensation, or another kind, is certainly left away from its start-up state.
+    pub fn is_left_away(&self) -> bool {
+        let is_away = self.end != self.start_up && self.end != State::Unknown;
+        is_away || !self.others_away.is_empty()
+    }
+}
+
 /// A block that changed an axis.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]

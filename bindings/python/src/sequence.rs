@@ -6,7 +6,6 @@ use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{Step, StepAxis};
 use frictcomp_host::AuditOptions;
 use frictcomp_report::Detail;
-use frictcomp_report::counted;
 use frictcomp_report::results::audit::{SequenceReport, sequence_records, sequence_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
@@ -71,9 +70,17 @@ fn followed(job: AuditJob, stop: &Stop) -> Result<(SequenceReport, GivenMessages
     let (auditor, mut errors) = job.auditor(|programs, _| (programs.inputs, Vec::new()), stop);
     let (steps, unread) = auditor.follow();
     errors.extend(unread);
-    match Failure::of_several(errors) {
-        Some(failure) => Err(failure),
-        None => Ok((SequenceReport::new(steps), said(&auditor))),
+    if let Some(failure) = Failure::of_several(errors) {
+        return Err(failure);
+    }
+    let described = auditor.described().map(|(_, machine)| machine);
+    Ok((SequenceReport::new(steps, described), said(&auditor)))
+}
+
+impl PyAuditSequence {
+    /// The verdict, which is the last line of the text.
+    fn verdict(&self) -> &str {
+        self.text.lines().last().unwrap_or_default()
     }
 }
 
@@ -223,17 +230,13 @@ impl PyAuditSequence {
 
     /// The states at the start and the end of each program, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let words = counted(self.text.lines().count(), "program");
         let columns = [
             "position", "file", "axis", "kind", "start", "end", "left_by",
         ];
-        notebook::tabular(py, &words, (&self.table, &columns))
+        notebook::tabular(py, self.verdict(), (&self.table, &columns))
     }
 
     fn __repr__(&self) -> String {
-        format!(
-            "<frictcomp.AuditSequence: {}>",
-            counted(self.text.lines().count(), "program")
-        )
+        format!("<frictcomp.AuditSequence: {}>", self.verdict())
     }
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::comp::{AxisIndex, CompensationError, Kind, KindSet};
+use crate::comp::{AxisIndex, CompensationError, Coupling, Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::axes::{Addressed, AxisNameMeaning, ChannelAxes};
 use crate::interpreter::block::BlockContext;
@@ -19,11 +19,30 @@ use crate::syntax::ast::{Argument, BracketArguments, Hash};
 use crate::text::Span;
 
 impl Executor {
-    pub(crate) fn define_coupling(&mut self, by: MembersBy, hash: &Hash, at: &BlockContext<'_>) {
+    /// The control does not change a group that is in force.
+    pub(crate) fn define_coupling(
+        &mut self,
+        by: MembersBy,
+        hash: &Hash,
+        at: &BlockContext<'_>,
+    ) -> Result<(), Box<Fault>> {
         let axes = self.axes().members(by, &hash.brackets, at.text);
         let group = self.group_of(hash, at);
+        match self.state.control.couplings.of_group(&group) {
+            Coupling::Active => {
+                let what =
+                    format!("coupling group {group} is active, and the control does not change it");
+                return Err(Fault::refused(Code::PErr20472, hash.span, what));
+            }
+            Coupling::Perhaps => {
+                let what = "this coupling group may be active, which the control does not change";
+                self.may_refuse(20472, what, hash.span, at);
+            }
+            Coupling::None => {}
+        }
         self.scratch.wrote = true;
         self.state.control.define_coupling(&group, axes);
+        Ok(())
     }
 
     /// Without a group that of the channel list comes into force (PM/207133579).

@@ -59,7 +59,7 @@ impl Executor {
                     self.scratch.moves.geometry().dwell = Some(seconds);
                 }
             }
-            HashAction::DefineCoupling(by) => self.define_coupling(by, hash, at),
+            HashAction::DefineCoupling(by) => self.define_coupling(by, hash, at)?,
             HashAction::EnableCoupling => self.enable_coupling(hash, at),
             HashAction::ReleaseCoupling => self.disable_coupling(hash, at),
             HashAction::ReleaseCouplings => self.state.control.release_couplings(),

@@ -128,9 +128,14 @@ impl Lister<'_> {
         self.listing.file();
     }
 
-    /// Counts a program with its result.
-    pub(crate) fn program(&mut self, name: &str, result: ProgramResult) {
-        self.listing.program(name, result);
+    /// Counts a program with its result, and the axes that it leaves or may leave away from their start-up states.
+    pub(crate) fn program<'a>(
+        &mut self,
+        name: &str,
+        result: ProgramResult,
+        axes: impl IntoIterator<Item = &'a str>,
+    ) {
+        self.listing.program(name, result, axes);
     }
 
     /// Writes the verdict as the last line of a text (R18.20).

@@ -264,22 +264,22 @@ impl AuditArgs {
         let auditor = self.auditor(inputs, &mut machines, failures);
         outputs.check()?;
         say_undescribed(&auditor, console);
-        let report = SequenceReport::new(failures.keep(auditor.follow()));
+        let steps = failures.keep(auditor.follow());
+        let described = auditor.described().map(|(_, machine)| machine);
+        let report = SequenceReport::new(steps, described);
         let width = target.look.width;
         target.text(&match self.format {
             AuditFormat::Json => RecordsFormat::Json.records("", &sequence_records(&report)),
             AuditFormat::Ndjson => RecordsFormat::Ndjson.records("", &sequence_records(&report)),
+            AuditFormat::Text | AuditFormat::Csv if self.quiet => {
+                fitted(&format!("{}\n", report.headline()), width)
+            }
             AuditFormat::Text | AuditFormat::Csv => {
                 fitted(&sequence_text(&report, console.detail), width)
             }
         })?;
         outputs.finish()?;
         self.machine.say_unread(&machines, &registry, console);
-        for loaded in auditor.machines() {
-            if let Some(assumption) = loaded.machine.assumption() {
-                console.remark(&assumption);
-            }
-        }
         let errors = say_list_errors(&auditor, console);
         let unknown = self.fail_on.judging().judge(report.unknown(), console);
         let inherits = report.has_warnings().then_some(Severity::Warning);

@@ -13,7 +13,7 @@ use crate::machines::{LoadedMachine, Machines};
 use crate::outputs::{MendedFile, mend};
 use crate::run::{Axes, SingleRun, run_alone};
 use crate::workers::in_order;
-use frictcomp::comp::Kind;
+use frictcomp::comp::{Kind, State};
 use frictcomp::diagnostic::{Severity, Wording};
 use frictcomp::interpreter::Options;
 use frictcomp::lists::AxisType;
@@ -75,6 +75,8 @@ pub struct CheckedProgram {
     pub unsaid: BTreeMap<Severity, u64>,
     /// The axes with their feed moves without compensation.
     pub uncompensated: Vec<(String, AxisType, FeedMoves)>,
+    /// The axes that it certainly leaves away from their start-up states, each with its friction compensation.
+    pub left: BTreeMap<String, State>,
     /// The states that are unknown at its end or where their axis moves.
     pub unknown: BTreeSet<(String, Kind)>,
     /// The readings on which its results depend.
@@ -178,6 +180,7 @@ impl<'a> ProgramsOnMachines<'a> {
 struct CheckSink {
     findings: Findings,
     uncompensated: Vec<(String, AxisType, FeedMoves)>,
+    left: BTreeMap<String, State>,
     rests_on: ReadingsInForce,
 }
 
@@ -187,6 +190,9 @@ impl Sink for CheckSink {
             let machine = summary.state.machine;
             self.rests_on = ReadingsInForce::of(summary.rests_on, machine);
             let axes = summary.uncompensated();
+            let left = summary.axes.iter().filter(|axis| axis.is_left_away());
+            let left = left.map(|axis| (machine.axis(axis.axis).name.clone(), axis.end));
+            self.left.extend(left);
             self.uncompensated.extend(axes.map(|axis| {
                 let of = machine.axis(axis.axis);
                 (of.name.clone(), of.axis_type, axis.feed_moves)
@@ -218,6 +224,7 @@ impl CheckOptions {
                 said: Vec::new(),
                 unsaid: sink.findings.unsaid(session.counts()),
                 uncompensated: sink.uncompensated,
+                left: sink.left,
                 unknown: unknown.collect(),
                 rests_on: sink.rests_on,
             },

@@ -39,8 +39,14 @@ impl<W: Write> Listing<W> {
         self.tally.files += 1;
     }
 
-    /// Counts a program with its result.
-    pub fn program(&mut self, name: &str, result: ProgramResult) {
+    /// Counts a program with its result, and the axes that it leaves or may leave away from their start-up states.
+    pub fn program<'a>(
+        &mut self,
+        name: &str,
+        result: ProgramResult,
+        axes: impl IntoIterator<Item = &'a str>,
+    ) {
+        self.tally.axes.extend(axes.into_iter().map(str::to_owned));
         self.format.program(name);
         self.tally.files += 1;
         *self.tally.programs.entry(result).or_default() += 1;

@@ -1,12 +1,13 @@
 //! The totals of the messages of a list.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use frictcomp::comp::State;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::timeline::ReadingsInForce;
 
 use crate::document::{Headline, Standing};
-use crate::wording::counted;
+use crate::wording::{counted, listed};
 
 /// Result of one program, the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -14,8 +15,12 @@ use crate::wording::counted;
 pub enum ProgramResult {
     /// It has an error: the control stops.
     Failed,
-    /// It leaves an axis away from its start-up state.
+    /// It leaves friction compensation of an axis off.
     LeavesOff,
+    /// It leaves an axis otherwise away from its start-up state.
+    LeavesAway,
+    /// It may leave an axis away from its start-up state.
+    MayLeaveAway,
     /// What it does depends on what only the machine knows.
     Depends,
     /// It has another warning.
@@ -25,12 +30,18 @@ pub enum ProgramResult {
 }
 
 impl ProgramResult {
-    /// Returns the result that a message alone gives.
-    pub fn of(said: &Diagnostic) -> Self {
+    /// Returns the result that a message alone gives of a program that leaves these axes away from their start-up states,
+    /// each with its friction compensation.
+    pub fn of(said: &Diagnostic, left: &BTreeMap<String, State>) -> Self {
+        let left = said.axis.as_ref().and_then(|axis| left.get(axis));
         match (said.severity, said.code) {
             (Severity::Error, _) => Self::Failed,
             (Severity::Info, _) => Self::Clean,
-            (Severity::Warning, Code::Fc401 | Code::Fc407) => Self::LeavesOff,
+            (Severity::Warning, Code::Fc401 | Code::Fc407) => match left {
+                Some(State::Inactive) => Self::LeavesOff,
+                Some(_) => Self::LeavesAway,
+                None => Self::MayLeaveAway,
+            },
             (Severity::Warning, Code::Fc325 | Code::Fc901 | Code::Fc902 | Code::Fc903) => {
                 Self::Depends
             }
@@ -38,21 +49,27 @@ impl ProgramResult {
         }
     }
 
-    /// Returns the result in words, after one program and after several.
-    fn words(self) -> [&'static str; 2] {
-        match self {
+    /// Returns the result in words, after one program and after several, about some axes.
+    fn words(self, axes: &str) -> [String; 2] {
+        let [one, several] = match self {
             Self::Failed => ["has errors", "have errors"],
-            Self::LeavesOff => ["leaves an axis off", "leave an axis off"],
+            Self::LeavesOff => ["leaves AXES off", "leave AXES off"],
+            Self::LeavesAway => [
+                "leaves AXES away from the start-up state",
+                "leave AXES away from the start-up state",
+            ],
+            Self::MayLeaveAway => ["may leave AXES away from the start-up state"; 2],
             Self::Depends => ["depends on the machine", "depend on the machine"],
             Self::Warned => ["has warnings", "have warnings"],
             Self::Clean => ["is clean", "are clean"],
-        }
+        };
+        [one, several].map(|words| words.replace("AXES", axes))
     }
 
     fn standing(self) -> Standing {
         match self {
-            Self::Failed | Self::LeavesOff | Self::Warned => Standing::Bad,
-            Self::Depends => Standing::Open,
+            Self::Failed | Self::LeavesOff | Self::LeavesAway | Self::Warned => Standing::Bad,
+            Self::MayLeaveAway | Self::Depends => Standing::Open,
             Self::Clean => Standing::Good,
         }
     }
@@ -68,6 +85,8 @@ pub struct Tally {
     pub missing: u64,
     /// Programs by their results.
     pub programs: BTreeMap<ProgramResult, u64>,
+    /// The axes that are or may be left away from their start-up states.
+    pub axes: BTreeSet<String>,
     /// Diagnostics by severity.
     pub counts: BTreeMap<Severity, u64>,
     /// The readings of open questions on which the results rest (R15.3).
@@ -91,14 +110,16 @@ impl Tally {
         let worst = self.programs.keys().next();
         let standing = worst.map_or(Standing::Open, |it| it.standing());
         let phrase = |(result, count): (&ProgramResult, &u64)| {
-            let [one, several] = result.words();
+            let [one, several] = result.words("an axis");
             format!("{count} {}", if *count == 1 { one } else { several })
         };
+        let axes: Vec<&str> = self.axes.iter().map(String::as_str).collect();
+        let axes = listed(&axes).unwrap_or_else(|| "an axis".to_owned());
         let text = match (worst, all) {
             (None, _) => "no program".to_owned(),
-            (Some(result), 1) => format!("{name} {}", result.words()[0]),
+            (Some(result), 1) => format!("{name} {}", result.words(&axes)[0]),
             (Some(result), _) if self.programs.len() == 1 => {
-                format!("{all} programs {}", result.words()[1])
+                format!("{all} programs {}", result.words("an axis")[1])
             }
             _ => {
                 let parts: Vec<String> = self.programs.iter().map(phrase).collect();

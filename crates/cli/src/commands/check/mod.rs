@@ -315,8 +315,11 @@ fn list_all(checked: CheckedPrograms, listing: &mut Lister<'_>, baseline: &mut B
         }
     }
     // Only now is it known which programs reach a message.
-    let said = checked.causes.diagnostics().iter();
-    let results: Vec<_> = said.map(|said| list((listing, baseline), said)).collect();
+    let said = checked.causes.diagnostics();
+    let listed: Vec<bool> = said
+        .iter()
+        .map(|said| list((listing, baseline), said))
+        .collect();
     for program in checked.programs {
         listing.rests_on(program.rests_on);
         let certain = if program.unknown.is_empty() {
@@ -324,20 +327,26 @@ fn list_all(checked: CheckedPrograms, listing: &mut Lister<'_>, baseline: &mut B
         } else {
             ProgramResult::Depends
         };
-        let results = program.said.iter().map(|at| results[*at]);
+        let listed = || {
+            let places = program.said.iter().filter(|at| listed[**at]);
+            places.map(|at| &said[*at])
+        };
+        let results = listed().map(|said| ProgramResult::of(said, &program.left));
         let result = results.chain([certain]).min().unwrap_or(certain);
-        listing.program(&program.name, result);
+        let worst = listed().filter(|said| ProgramResult::of(said, &program.left) == result);
+        let axes = worst.filter_map(|said| said.axis.as_deref());
+        listing.program(&program.name, result, axes);
     }
 }
 
-/// Lists a message that is not in the baseline, and returns the result that it gives a program.
-fn list((listing, baseline): (&mut Lister<'_>, &mut Baseline), said: &Diagnostic) -> ProgramResult {
-    if !baseline.lists(said) {
-        return ProgramResult::Clean;
+/// Lists a message unless it is in the baseline. Returns whether it is not.
+fn list((listing, baseline): (&mut Lister<'_>, &mut Baseline), said: &Diagnostic) -> bool {
+    let is_new = baseline.lists(said);
+    if is_new {
+        // A writer that accepts no more is found at the end.
+        let _ = listing.diagnostic(said);
     }
-    // A writer that accepts no more is found at the end.
-    let _ = listing.diagnostic(said);
-    ProgramResult::of(said)
+    is_new
 }
 
 /// Returns the remark on programs that were checked only in their callers.

@@ -6,9 +6,11 @@ use serde_json::{Map, Value, json};
 
 use super::subject::axis_name;
 use crate::assumptions::rests_on_text;
-use crate::wording::{Detail, visible_line};
+use crate::document::{Headline, Standing};
+use crate::wording::{Detail, counted, listed, visible_line};
 use frictcomp::audit::{Selected, Step, StepAxis};
 use frictcomp::comp::Kind;
+use frictcomp::machine::Machine;
 use frictcomp::timeline::SCHEMA;
 
 /// Programs in a given order, each with what it does to the axes.
@@ -17,12 +19,78 @@ use frictcomp::timeline::SCHEMA;
 pub struct SequenceReport {
     /// The programs.
     pub steps: Vec<Step>,
+    /// The assumptions about axes on which it rests, in words (R18.2).
+    pub assumptions: Vec<String>,
 }
 
 impl SequenceReport {
-    /// Creates the report on programs that were followed.
-    pub fn new(steps: Vec<Step>) -> Self {
-        Self { steps }
+    /// Creates the report on programs that were followed on some machines.
+    pub fn new<'a>(steps: Vec<Step>, machines: impl Iterator<Item = &'a Machine>) -> Self {
+        Self {
+            steps,
+            assumptions: machines.filter_map(Machine::assumption).collect(),
+        }
+    }
+
+    /// Returns the verdict: which program first moves an axis that an earlier one left away from its start-up state, and
+    /// what is left at the end (R18.20).
+    pub fn headline(&self) -> Headline {
+        let inherits = self.steps.iter().filter_map(|step| {
+            let axis = step.axes.iter().find(|axis| axis.left_by.is_some())?;
+            Some((step, axis, axis.left_by.as_deref()?))
+        });
+        let inherits: Vec<_> = inherits.collect();
+        let stopped = self.steps.iter().find(|step| step.stopped.is_some());
+        let at_end = |is_meant: fn(&StepAxis) -> bool| {
+            let axes = self.steps.last().into_iter().flat_map(|step| &step.axes);
+            let names = axes.filter(|axis| is_meant(axis));
+            let names: Vec<String> = names.map(|axis| axis_name(&axis.axis, axis.kind)).collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            listed(&names)
+        };
+        let is_away = |axis: &StepAxis| axis.end != axis.start_up && axis.end != Selected::Unknown;
+        let (standing, text) = if let Some((step, axis, by)) = inherits.first() {
+            let name = axis_name(&axis.axis, axis.kind);
+            let moves = if axis.moves_certainly() {
+                "moves"
+            } else {
+                "may move"
+            };
+            let more = match inherits.len() - 1 {
+                0 => String::new(),
+                more => format!(
+                    "; so {} {}",
+                    if more == 1 { "does" } else { "do" },
+                    counted(more, "other program")
+                ),
+            };
+            let text = format!(
+                "{} {moves} {name} outside its start-up state, left so by {by}{more}",
+                step.file
+            );
+            (Standing::Bad, text)
+        } else if let Some(step) = stopped {
+            (Standing::Bad, format!("{} stops before its end", step.file))
+        } else if let Some(names) = at_end(is_away) {
+            (
+                Standing::Bad,
+                format!(
+                    "no program moves what another left away; the order leaves {names} away from the start-up state"
+                ),
+            )
+        } else if let Some(names) = at_end(|axis| axis.end == Selected::Unknown) {
+            (
+                Standing::Open,
+                format!(
+                    "it is not known whether the order leaves {names} away from the start-up state"
+                ),
+            )
+        } else if self.steps.is_empty() {
+            (Standing::Open, "no program was followed".to_owned())
+        } else {
+            (Standing::Good, "no program moves what another left away, and the order leaves every axis in its start-up state".to_owned())
+        };
+        Headline::new(standing, text).assuming(self.assumptions.iter().cloned())
     }
 
     /// Whether a program moves an axis that an earlier one left away from its start-up state.
@@ -46,12 +114,14 @@ impl SequenceReport {
     }
 }
 
-/// The programs of the order, one line each, and the readings on which their states rest.
+/// The programs of the order, one line each, the readings on which their states rest, and the verdict.
 pub fn sequence_text(report: &SequenceReport, detail: Detail) -> String {
     let lines = report.steps.iter().map(step_line);
     let last = detail.full(report.steps.last()).flatten();
     let rests_on = last.and_then(|last| rests_on_text(&last.rests_on));
-    let lines = lines.chain(rests_on).map(|line| line + "\n");
+    let verdict = report.headline().to_string();
+    let lines = lines.chain(rests_on).chain([verdict]);
+    let lines = lines.map(|line| line + "\n");
     lines.collect()
 }
 
@@ -103,10 +173,10 @@ fn step_line(step: &Step) -> String {
 fn moves_away(step: &Step, axis: &StepAxis) -> Option<String> {
     let away = axis.away.as_ref()?;
     let place = place(step, &away.site.file, away.site.line);
-    let moves = if away.perhaps || !away.ways.is_empty() {
-        "may move"
-    } else {
+    let moves = if axis.moves_certainly() {
         "moves"
+    } else {
+        "may move"
     };
     let mut text = format!(
         " {moves} outside its start-up state at {place} ({})",
@@ -126,7 +196,7 @@ fn place(step: &Step, file: &str, line: u32) -> String {
     }
 }
 
-/// The steps as records; the first one has `schema`.
+/// The steps and a summary as records; the first one has `schema`.
 pub fn sequence_records(report: &SequenceReport) -> Vec<Value> {
     let records = report.steps.iter().enumerate().map(|(at, step)| {
         let mut record = json!(step);
@@ -142,5 +212,6 @@ pub fn sequence_records(report: &SequenceReport) -> Vec<Value> {
         }
         record
     });
-    records.collect()
+    let summary = json!({ "record": "summary", "headline": report.headline() });
+    records.chain([summary]).collect()
 }

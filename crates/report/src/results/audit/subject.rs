@@ -124,23 +124,33 @@ impl MachineAudit {
     }
 }
 
-/// "33 programs leave X off, 262 run with it off", without the second half where none does; `of_machine` tells the axis
-/// from that of another machine.
-fn cause(finding: &AxisFinding, of_machine: &str) -> String {
-    let counts = [finding.leavers.len(), finding.inheritors.len()];
+/// "33 programs leave X off, 2 may, 262 run with it off", without what none does; `of_machine` tells the axis from that
+/// of another machine.
+fn cause(archive: &Archive, finding: &AxisFinding, of_machine: &str) -> String {
+    let effect = |at: &usize| archive.programs()[*at].axes[finding.at].effect;
+    let possible = finding
+        .leavers
+        .iter()
+        .filter(|at| effect(at) == ProgramEffect::Depends)
+        .count();
+    let counts = [finding.leavers.len() - possible, finding.inheritors.len()];
     let verb = |count, one: &'static str, several| if count == 1 { one } else { several };
     let away = if finding.on_at_start_up { "off" } else { "on" };
-    let programs = if counts[0] == 1 {
-        "program"
-    } else {
-        "programs"
-    };
-    let mut cause = format!(
-        "{} {programs} {} {}{of_machine} {away}",
-        counts[0],
-        verb(counts[0], "leaves", "leave"),
-        axis_name(&finding.axis, finding.kind),
+    let axis = format!(
+        "{}{of_machine} {away}",
+        axis_name(&finding.axis, finding.kind)
     );
+    let mut cause = match (counts[0], possible) {
+        (0, _) => format!("{} may leave {axis}", counted(possible, "program")),
+        (sure, _) => format!(
+            "{} {} {axis}",
+            counted(sure, "program"),
+            verb(sure, "leaves", "leave")
+        ),
+    };
+    if counts[0] > 0 && possible > 0 {
+        let _ = write!(cause, ", {possible} may");
+    }
     if counts[1] > 0 {
         let runs = verb(counts[1], "runs", "run");
         let _ = write!(cause, ", {} {runs} with it {away}", counts[1]);
@@ -223,7 +233,7 @@ impl AuditReport {
             let origin = self.origin_among_several(machine);
             let origin = origin.filter(|_| !is_alone(finding));
             let of_machine = origin.map_or(String::new(), |it| format!(" ({it})"));
-            cause(finding, &of_machine)
+            cause(&machine.archive, finding, &of_machine)
         });
         let mut said: Vec<String> = said.collect();
         let more = said.len().saturating_sub(NAMED);

@@ -59,7 +59,8 @@ fn called(name: &str) -> Option<SourceFile> {
 }
 
 /// The errors of the blocks at which the control stops.
-const STOPS: [Code; 6] = [
+const STOPS: [Code; 7] = [
+    Code::PErr20472,
     Code::PErr70495,
     Code::PErr21381,
     Code::PErr21403,

@@ -411,6 +411,7 @@ impl Session {
             opaque: self.interpreter.opaque(),
             axes: axes.collect(),
             assumed: self.totals.assumed.clone(),
+            silenced: &self.totals.silenced,
             rests_on: self.totals.rests_on.union(self.interpreter.rests_on()),
             state,
         }))

@@ -17,7 +17,9 @@ use crate::machine::Machine;
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span, lines_of};
-use crate::timeline::{ChangedBy, End, EndNote, Join, Record, Row, Sink, StateView};
+use crate::timeline::{
+    ChangedBy, End, EndNote, Join, Record, Row, SilencedMessage, Sink, StateView,
+};
 
 /// Number of blocks that the summary of an axis names.
 const MAX_NAMED: usize = 100;
@@ -41,6 +43,7 @@ const MAX_ALLOWS: usize = 20_000;
 pub(super) struct Allow {
     seq: u64,
     place: Place,
+    reason: Option<String>,
     used: bool,
 }
 
@@ -363,6 +366,7 @@ impl Recorder<'_> {
             let allow = Allow {
                 seq: executed.seq,
                 place: place(Span::new(0, text.len())),
+                reason: allowance.reason.clone(),
                 used: false,
             };
             self.allows.insert(key, allow);
@@ -445,6 +449,14 @@ impl Recorder<'_> {
         };
         let of_end = |code: Code| matches!(code, Code::Fc401 | Code::Fc403 | Code::Fc407);
         allows.retain(|(.., code), _| judged || !of_end(*code));
+        let used = allows.iter().filter(|(_, allow)| allow.used);
+        let silenced = used.map(|((file, line, code), allow)| SilencedMessage {
+            file: file.to_string(),
+            line: *line,
+            code: *code,
+            reason: allow.reason.clone(),
+        });
+        self.totals.silenced.extend(silenced);
         let mut unused = unused_allows(allows);
         unused.retain_mut(|note| levels.weigh(&mut note.diagnostic));
         notes.append(&mut unused);

@@ -9,7 +9,7 @@ use crate::lists::Origin;
 use crate::machine::Machine;
 use crate::readings::{Question, QuestionSet};
 use crate::text::Place;
-use crate::timeline::{ChangedBy, FeedMoves};
+use crate::timeline::{ChangedBy, FeedMoves, SilencedMessage};
 
 /// Totals of a session for the summary record.
 pub(super) struct SessionTotals {
@@ -21,6 +21,8 @@ pub(super) struct SessionTotals {
     pub(super) last_changed: Vec<Option<(u32, u64)>>,
     /// The codes of the messages that states are assumed.
     pub(super) assumed: BTreeSet<Code>,
+    /// The messages that comments silence.
+    pub(super) silenced: BTreeSet<SilencedMessage>,
     /// The open questions whose readings messages depend on (R15.3).
     pub(super) rests_on: QuestionSet,
     pub(super) feed_moves: FeedMoveCounter,
@@ -44,6 +46,7 @@ impl SessionTotals {
             changes: vec![0; axes],
             last_changed: vec![None; axes],
             assumed: BTreeSet::new(),
+            silenced: BTreeSet::new(),
             rests_on: QuestionSet::default(),
             feed_moves: FeedMoveCounter::new(axes),
             unknown: BTreeSet::new(),

@@ -15,6 +15,8 @@ const ALLOW: &str = "allow";
 pub(crate) struct Allowance {
     /// The codes that it allows.
     pub(crate) codes: Vec<Code>,
+    /// The reason that it gives.
+    pub(crate) reason: Option<String>,
     /// Fault of the comment (FC491).
     pub(crate) fault: Option<AllowFault>,
 }
@@ -86,7 +88,10 @@ pub(crate) fn allowed(text: &str) -> Allowance {
             Err(_) if first || code_like => {
                 allowance.fault.get_or_insert_with(|| unknown(&word));
             }
-            Err(_) => break,
+            Err(_) => {
+                allowance.reason = Some(reason(text, word.start).to_owned());
+                break;
+            }
         }
     }
     if allowance.codes.is_empty() && allowance.fault.is_none() {
@@ -94,6 +99,15 @@ pub(crate) fn allowed(text: &str) -> Allowance {
         allowance.fault = Some(first.fault(message, Help::How(HOW)));
     }
     allowance
+}
+
+/// The text from a place to the end of its comment.
+fn reason(text: &str, start: usize) -> &str {
+    let rest = &text[start..];
+    let opened = text[..start].rfind([';', '(']);
+    let is_bracket = opened.is_some_and(|at| text[at..].starts_with('('));
+    let ends = |letter: char| letter == '\n' || (is_bracket && letter == ')');
+    rest.split(ends).next().unwrap_or(rest).trim_end()
 }
 
 /// The comment of a text that is addressed to this tool, with the blanks before it, where it allows a single

@@ -15,6 +15,6 @@ pub use crate::lint::EndNote;
 pub use in_force::{ReadingInForce, ReadingsInForce};
 pub use record::{
     AxisSummary, ChangedBy, DiagnosticRecord, End, FeedMoves, Join, Record, Repeat, Row, SCHEMA,
-    Sink, StateView, Summary, TOOL,
+    SilencedMessage, Sink, StateView, Summary, TOOL,
 };
 pub use serial::{Possible, States};

@@ -1,6 +1,7 @@
 //! The records and the sinks that take them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 use std::ops::ControlFlow;
 
 use serde::Serialize;
@@ -218,6 +219,36 @@ pub struct ChangedBy {
     pub to: State,
 }
 
+/// A message that a comment silences (R9.24).
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct SilencedMessage {
+    /// The file that holds the comment.
+    pub file: String,
+    /// The line of the block.
+    pub line: u32,
+    /// The silenced code.
+    pub code: Code,
+    /// The reason that the comment gives.
+    pub reason: Option<String>,
+}
+
+impl fmt::Display for SilencedMessage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            file,
+            line,
+            code,
+            reason,
+        } = self;
+        write!(f, "{file}:{line}: {code} is silenced")?;
+        match reason {
+            Some(reason) => write!(f, ": {reason}"),
+            None => f.write_str(", without a reason"),
+        }
+    }
+}
+
 /// The end of a session.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -235,6 +266,8 @@ pub struct Summary<'a> {
     /// The codes of messages that limit the validity of the states (R2.94): these rest on an assumption about what only
     /// the machine knows (FC210, FC325, FC902), or the control stops on some ways.
     pub assumed: BTreeSet<Code>,
+    /// The messages that comments silence, with their reasons (R18.29).
+    pub silenced: &'a BTreeSet<SilencedMessage>,
     /// The open questions whose readings the results depend on (R15.3).
     pub rests_on: QuestionSet,
     /// The final state.

@@ -7,7 +7,7 @@ use crate::{root, rust_files};
 
 /// The rooms that each room of a package may import from. Rooms are listed in the order of the data; an import never
 /// goes down. The packages that a package may use are in its `Cargo.toml`.
-const ROOMS: [(&str, &[&str]); 30] = [
+const ROOMS: [(&str, &[&str]); 31] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -115,7 +115,8 @@ const ROOMS: [(&str, &[&str]); 30] = [
     ("currents", &["current"]),
     ("stiction", &[]),
     ("simulation", &["stiction"]),
-    ("circle", &["current", "stiction", "simulation"]),
+    ("linear", &[]),
+    ("circle", &["current", "linear", "stiction", "simulation"]),
     ("contour", &["motion", "current", "simulation"]),
     ("compare", &["contour"]),
     ("trace", &[]),
@@ -127,11 +128,10 @@ const ROOMS: [(&str, &[&str]); 30] = [
 ];
 
 /// A package: its folder, and the name of its single room if it has no rooms.
-const PACKAGES: [(&str, Option<&str>); 8] = [
+const PACKAGES: [(&str, Option<&str>); 7] = [
     (".", None),
     ("crates/physics", None),
     ("crates/recordings", None),
-    ("crates/drives", Some("drives")),
     ("crates/report", Some("report")),
     ("crates/host", Some("host")),
     ("crates/editor", None),
@@ -139,7 +139,7 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 ];
 
 /// Packages that touch no file, no terminal and no environment.
-const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
+const PURE: [&str; 3] = [".", "crates/physics", "crates/recordings"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
 const FOLDERS: [(&str, &str, &[&str]); 29] = [

@@ -14,11 +14,10 @@ struct Package {
     prefix: &'static str,
 }
 
-const PACKAGES: [Package; 7] = [
+const PACKAGES: [Package; 6] = [
     package(".", ""),
     package("crates/physics", ""),
     package("crates/recordings", ""),
-    package("crates/drives", "drives"),
     package("crates/report", "report"),
     package("crates/host", "host"),
     package("crates/editor", ""),

@@ -205,7 +205,7 @@ fn every_package_has_its_licences_and_a_readme_whose_links_work() {
         assert!(!readme.contains(".."), "{folder}: {readme}");
         readmes.push(format!("{folder}/{readme}"));
     }
-    assert_eq!(readmes.len(), 9);
+    assert_eq!(readmes.len(), 8);
     for readme in readmes {
         for link in links(&read(&readme)) {
             assert!(link.starts_with("https://"), "{readme}: {link}");

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Disk, read_axis, refuse_copies};
+use frictcomp_host::{Disk, channels_of, named_axes, read_axis, refuse_copies};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyOptions, ListRequest, ListRequestError, TorqueKind, identify as find,
@@ -104,7 +104,7 @@ pub(crate) fn identify(
         units: given_units(units)?,
         ..ChannelSelection::default()
     };
-    let recorded = AxisRecordings {
+    let mut recorded = AxisRecordings {
         recordings: recordings.paths(),
         selection,
         cycle_s: seconds(py, cycle_time_ms)?,
@@ -112,12 +112,24 @@ pub(crate) fn identify(
         compensation: compensation.map(switched).transpose()?,
     };
     interruptible(py, move |_| {
+        if let Some(first) = recorded.recordings.first() {
+            find_axis(&mut recorded.selection, first)?;
+        }
         if circles {
             recorded.on_circles()
         } else {
             recorded.at_speeds(&options)
         }
     })
+}
+
+/// Takes the only axis by whose name the channels of a recording are recognised, if none is given.
+pub(crate) fn find_axis(selection: &mut ChannelSelection, recording: &Path) -> Result<(), Failure> {
+    if selection.axis.is_none() {
+        let mut named = named_axes(&channels_of(recording)?);
+        selection.axis = if named.len() == 1 { named.pop() } else { None };
+    }
+    Ok(())
 }
 
 /// The units of channels by their names.

@@ -12,7 +12,7 @@ use frictcomp_report::results::verify::{self, VerifyReport};
 use pyo3::prelude::*;
 
 use crate::failure::Failure;
-use crate::identify::{given_units, switched};
+use crate::identify::{find_axis, given_units, switched};
 use crate::json::JsonText;
 use crate::words::{meant, meant_if_given, seconds};
 use crate::work::interruptible;
@@ -71,7 +71,7 @@ pub(crate) fn verify_list(
     reading: Option<&str>,
 ) -> PyResult<JsonText> {
     let cycle_s = seconds(py, cycle_time_ms)?;
-    let selection = ChannelSelection {
+    let mut selection = ChannelSelection {
         axis,
         time,
         position,
@@ -86,6 +86,7 @@ pub(crate) fn verify_list(
     let compensation = compensation.map(switched).transpose()?;
     let reading = meant("reading", reading)?;
     interruptible(py, move |_| {
+        find_axis(&mut selection, &recording)?;
         let disk = Disk::default();
         let list = read_value_list(&value_list, &FileRegistry::default(), &disk)?.list;
         let read = read_axis(&recording, &selection, cycle_s, &disk)?;

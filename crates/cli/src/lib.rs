@@ -133,7 +133,7 @@ fn status_of(tool: clap::Command, arguments: Vec<OsString>) -> u8 {
         let arguments = Arguments::from_arg_matches(&matches)?;
         Ok((arguments, written(&matches)))
     });
-    let (arguments, written) = match parsed {
+    let (mut arguments, written) = match parsed {
         Ok(parsed) => parsed,
         Err(error) => return say_usage(&error, &hidden),
     };
@@ -148,7 +148,7 @@ fn status_of(tool: clap::Command, arguments: Vec<OsString>) -> u8 {
     } else {
         Detail::Brief
     });
-    dispatch(&arguments.command, console).unwrap_or_else(|failure| {
+    dispatch(&mut arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
         exit::FAILED
     })
@@ -224,7 +224,7 @@ fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
     }
 }
 
-fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
+fn dispatch(command: &mut Command, console: Console) -> Result<u8, Failure> {
     match command {
         Command::Run(args) => run::run(args, console),
         Command::Check(args) => check::run(args, console),

@@ -25,6 +25,7 @@ pub mod ask;
 pub mod commission;
 pub mod conformance;
 mod disk;
+mod drives;
 mod error;
 mod machines;
 mod outputs;
@@ -47,6 +48,7 @@ pub use disk::{
     Input, Naming, NotEncodable, OpenText, Replaces, SharedMap, decode, is_program, is_source,
     read_text, reopen, sha256_of,
 };
+pub use drives::{XmlError, read_devices, read_network};
 pub use error::HostError;
 pub use machines::{
     AllowedRoots, ConfigurationChoice, ListsOnDisk, LoadedMachine, MachineOfVersions,
@@ -59,8 +61,8 @@ pub use outputs::{
     write_mended, write_new,
 };
 pub use recordings::{
-    TraceError, commanded_axes, is_recording, read_axis, read_circles, read_commanded, read_trace,
-    read_turns, recordings_in, refuse_copies,
+    TraceError, channels_of, commanded_axes, is_recording, named_axes, read_axis, read_circles,
+    read_commanded, read_trace, read_turns, recordings_in, refuse_copies,
 };
 pub use run::{
     Axes, ContourSetup, GoldenDrift, GoldenFile, GoldenKind, GoldenResults, NoDrivenContour,

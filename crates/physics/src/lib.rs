@@ -35,6 +35,7 @@ pub mod compare;
 pub mod contour;
 pub mod current;
 mod currents;
+pub mod linear;
 pub mod motion;
 pub mod simulation;
 pub mod stiction;

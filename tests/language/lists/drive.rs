@@ -8,7 +8,7 @@ use frictcomp::drive_interface::{
 };
 use frictcomp::machine::{NoLists, check_list};
 use frictcomp::text::SourceFile;
-use frictcomp_drives::{read_devices, read_network};
+use frictcomp_host::{read_devices, read_network};
 
 /// Returns what is known of the drive of a configured axis whose list has these lines.
 fn drive(lines: &str, evidence: &Evidence) -> DriveReport {

@@ -7,10 +7,10 @@ use clap::{Args, ValueEnum};
 use super::per_axis::{ByAxis, PerAxis};
 use super::quantities;
 use crate::output::Failure;
-use frictcomp_host::{FileRegistry, MachineOptions, Machines};
+use frictcomp_host::{FileRegistry, MachineOptions, Machines, channels_of, named_axes};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{AxisRecording, TorqueKind};
-use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Unit};
+use frictcomp_recordings::trace::{Channel, ChannelQuantity, ChannelSelection, Unit};
 use frictcomp_report::visible_line;
 
 /// Options for the channels of the motion of an axis. In each of them `%` stands for the name of the axis.
@@ -34,9 +34,13 @@ pub(crate) struct MotionChannels {
 }
 
 impl MotionChannels {
-    /// Whether the user names the channels of the motion.
-    pub(crate) fn is_named(&self) -> bool {
-        !(self.position.is_empty() && self.velocity.is_empty())
+    /// Returns the axes that the user's names of channels mean in a recording; `None` where none is named.
+    pub(crate) fn axes_in(&self, recording: &Path) -> Result<Option<Vec<String>>, Failure> {
+        let given: Vec<&PerAxis> = self.position.iter().chain(&self.velocity).collect();
+        if given.is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(axes_meant(&channels_of(recording)?, &given)))
     }
 
     /// Returns the user's selection of the channels of one of some axes.
@@ -166,6 +170,22 @@ pub(crate) struct AxisChannelArgs {
 }
 
 impl AxisChannelArgs {
+    /// Takes the axes that the names of channels mean in a recording, or else the only one by whose name its channels are
+    /// recognised, if no axis is given.
+    pub(crate) fn find_axes(&mut self, recording: &Path) -> Result<(), Failure> {
+        if self.axes.is_empty() {
+            let channels = channels_of(recording)?;
+            let motion = self.motion.position.iter().chain(&self.motion.velocity);
+            let given: Vec<&PerAxis> = motion.chain(&self.torque.torque).collect();
+            self.axes = axes_meant(&channels, &given);
+            let mut named = named_axes(&channels);
+            if self.axes.is_empty() && named.len() == 1 {
+                self.axes.append(&mut named);
+            }
+        }
+        Ok(())
+    }
+
     /// Returns the user's selection of the channels of an axis in a recording. The way in a turn of the motor is that
     /// of the machine to whose folder the recording belongs, if it is not given.
     pub(crate) fn selection(
@@ -207,6 +227,24 @@ impl AxisChannelArgs {
             }
         }
     }
+}
+
+/// Returns the axes that names of channels mean in a recording: those for which a pattern names a channel, and those that
+/// `X=CHANNEL` gives.
+fn axes_meant(channels: &[Channel], given: &[&PerAxis]) -> Vec<String> {
+    let mut axes: Vec<String> = Vec::new();
+    for channel in channels {
+        for axis in given
+            .iter()
+            .flat_map(|it| [&channel.name, &channel.symbol].map(|name| it.axis_of(name)))
+            .flatten()
+        {
+            if !axes.iter().any(|it| it == axis) {
+                axes.push(axis.to_owned());
+            }
+        }
+    }
+    axes
 }
 
 /// Returns the name of an axis, if one was given.

@@ -23,6 +23,20 @@ impl PerAxis {
         self.0.to_string_lossy().contains('%')
     }
 
+    /// Returns the axis whose channel has a name, where the option is a pattern or names an axis.
+    pub(crate) fn axis_of<'n>(&'n self, channel: &'n str) -> Option<&'n str> {
+        let is_axis = |it: &&str| !it.is_empty() && it.chars().all(char::is_alphanumeric);
+        match (self.parts(), self.0.to_str()?.split_once('%')) {
+            (Some((axis, named)), _) => (named == channel).then_some(axis),
+            (None, Some((before, after))) => {
+                let axis = channel.strip_prefix(before)?;
+                axis.strip_suffix(after)
+            }
+            (None, None) => None,
+        }
+        .filter(is_axis)
+    }
+
     fn parts(&self) -> Option<(&str, &str)> {
         let (name, value) = self.0.to_str()?.split_once('=')?;
         Some((name.trim(), value.trim()))

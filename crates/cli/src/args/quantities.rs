@@ -17,6 +17,11 @@ pub(crate) fn mm_or_degrees(text: &str) -> Result<f64, String> {
     parse(text, &[&[MM], &UM_OF_MM, &DEGREES])
 }
 
+/// Parses a part in per cent.
+pub(crate) fn percent(text: &str) -> Result<f64, String> {
+    parse(text, &[&[("%", 1.0, 1.0)]])
+}
+
 /// Parses a deviation in µm.
 pub(crate) fn um(text: &str) -> Result<f64, String> {
     parse(
@@ -97,8 +102,11 @@ fn parse(text: &str, units: &[&[UnitScale]]) -> Result<f64, String> {
     });
     let value = values.find(|value| value.is_finite());
     value.ok_or_else(|| {
-        let others = others.join(", ");
-        format!("write a number in {alone}, or with one of the units {others}")
+        let others = match &*others.join(", ") {
+            "" => String::new(),
+            others => format!(", or with one of the units {others}"),
+        };
+        format!("write a number in {alone}{others}")
     })
 }
 

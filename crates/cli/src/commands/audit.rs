@@ -71,7 +71,7 @@ pub(crate) struct AuditArgs {
     #[arg(long)]
     all: bool,
     /// Print only the verdict
-    #[arg(long, short, conflicts_with_all = ["sequence", "all", "format", "diff"])]
+    #[arg(long, short, conflicts_with_all = ["all", "format", "diff"])]
     quiet: bool,
     /// The number of programs to run at once; by default the number of processors
     #[arg(long, short, value_name = "N")]

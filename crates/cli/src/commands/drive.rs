@@ -10,8 +10,7 @@ use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::drive_interface::{DriveReport, Evidence, SlaveOfAxis, check_drive};
 use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
-use frictcomp_drives::{XmlError, read_devices, read_network};
-use frictcomp_host::{Disk, FileRegistry, read_list};
+use frictcomp_host::{Disk, FileRegistry, XmlError, read_devices, read_list, read_network};
 use frictcomp_report::results::drives::{drives_headline, render_drives};
 use frictcomp_report::{ListingFormat, command_line};
 

@@ -46,7 +46,9 @@ pub(crate) struct VerifyArgs {
 }
 
 /// Runs the command.
-pub(crate) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
+pub(crate) fn run(args: &mut VerifyArgs, console: Console) -> Result<u8, Failure> {
+    args.channels.find_axes(&args.recording)?;
+    let args = &*args;
     let registry = FileRegistry::default();
     registry.reads("recording", &args.recording);
     let job = Job::new(&args.result, &registry, console)?.with_page(&args.html)?;

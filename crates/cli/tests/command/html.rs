@@ -262,6 +262,17 @@ fn nothing_in_a_program_becomes_active() {
     assert!(source.contains(
         "<img src=x onerror=alert(1)> ]]> & \" ' \u{2400} \u{27e8}U+202E\u{27e9}gnp.exe"
     ));
+    bench.write("b.nc", "N10 X[COMP OFF FRICT] (<i>)\nN20 M30\n");
+    bench.write("c.nc", "N20 M30\n");
+    bench.call(&["diff", "c.nc", "b.nc", "--html", "d.html"]);
+    let compared = bench.read("d.html");
+    assert!(
+        compared.contains("(&lt;i&gt;)") && !compared.contains("<i>"),
+        "{compared}"
+    );
+    let undescribed = report_of(&bench, &["b.nc", "--isolated"]);
+    assert!(undescribed.contains("No machine is described"));
+    assert!(!undescribed.to_lowercase().contains("nothing to do"));
 }
 
 #[test]

@@ -2,8 +2,6 @@
 
 mod archives;
 mod roots;
-mod variables;
-mod ways;
 
 use std::fs;
 

@@ -81,7 +81,7 @@ fn channels_that_are_recognised_need_no_option() {
     bench.stdout(&["identify", "x.csv", "--write-list", "x.lis"]);
     let verified = bench.stdout(&["verify", "x.csv", "--value-list", "x.lis"]);
     assert!(
-        verified.starts_with("x.lis fits the recorded torque from"),
+        verified.starts_with("x.lis fits the recorded torque of X from"),
         "{verified}"
     );
     let current = [

@@ -18,7 +18,7 @@ use frictcomp::diagnostic::{Severity, Wording};
 use frictcomp::interpreter::Options;
 use frictcomp::lists::AxisType;
 use frictcomp::session::{Causes, Findings, ProposedFixes, SafeFixes, Session};
-use frictcomp::timeline::{FeedMoves, ReadingsInForce, Record, Sink};
+use frictcomp::timeline::{FeedMoves, ReadingsInForce, Record, SilencedMessage, Sink};
 
 /// Programs, each with the machine of its folder.
 pub struct ProgramsOnMachines<'a> {
@@ -77,6 +77,8 @@ pub struct CheckedProgram {
     pub uncompensated: Vec<(String, AxisType, FeedMoves)>,
     /// The axes that it certainly leaves away from their start-up states, each with its friction compensation.
     pub left: BTreeMap<String, State>,
+    /// The messages that its comments silence.
+    pub silenced: BTreeSet<SilencedMessage>,
     /// The states that are unknown at its end or where their axis moves.
     pub unknown: BTreeSet<(String, Kind)>,
     /// The readings on which its results depend.
@@ -181,6 +183,7 @@ struct CheckSink {
     findings: Findings,
     uncompensated: Vec<(String, AxisType, FeedMoves)>,
     left: BTreeMap<String, State>,
+    silenced: BTreeSet<SilencedMessage>,
     rests_on: ReadingsInForce,
 }
 
@@ -193,6 +196,7 @@ impl Sink for CheckSink {
             let left = summary.axes.iter().filter(|axis| axis.is_left_away());
             let left = left.map(|axis| (machine.axis(axis.axis).name.clone(), axis.end));
             self.left.extend(left);
+            self.silenced.extend(summary.silenced.iter().cloned());
             self.uncompensated.extend(axes.map(|axis| {
                 let of = machine.axis(axis.axis);
                 (of.name.clone(), of.axis_type, axis.feed_moves)
@@ -225,6 +229,7 @@ impl CheckOptions {
                 unsaid: sink.findings.unsaid(session.counts()),
                 uncompensated: sink.uncompensated,
                 left: sink.left,
+                silenced: sink.silenced,
                 unknown: unknown.collect(),
                 rests_on: sink.rests_on,
             },

@@ -11,6 +11,7 @@ pub(crate) use signatures::{SignedAt, signatures_of, switches_of};
 pub use trace_error::TraceError;
 pub(crate) use traces::read_motion;
 pub use traces::{
-    commanded_axes, is_recording, read_axis, read_circles, read_commanded, read_trace, read_turns,
+    channels_of, commanded_axes, is_recording, named_axes, read_axis, read_circles, read_commanded,
+    read_trace, read_turns,
 };
 pub(crate) use traces::{lacks, numbers_of, position_column};

@@ -82,6 +82,15 @@ pub enum TraceError {
 }
 
 impl TraceError {
+    pub(super) fn problem(path: &Path, problem: TraceProblem) -> Self {
+        Self::Problem {
+            path: path.to_owned(),
+            problem,
+        }
+    }
+}
+
+impl TraceError {
     /// Returns the advice.
     pub fn help(&self) -> Option<String> {
         let help = match self {

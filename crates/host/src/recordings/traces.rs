@@ -3,6 +3,7 @@
 
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use super::trace_error::TraceError;
 use crate::disk::{Disk, decode};
@@ -80,10 +81,19 @@ fn read(
     disk: &Disk,
     choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
 ) -> Result<TraceRecording, HostError> {
-    let problem = |problem| TraceError::Problem {
-        path: path.to_owned(),
-        problem,
-    };
+    let mut reader = TraceReader::new(most_rows, choose);
+    feed(path, disk, &mut reader, || false)?;
+    let problem = |problem| TraceError::problem(path, problem);
+    Ok(reader.finish().map_err(problem)?)
+}
+
+/// Feeds a reader with a file, until it is done.
+fn feed(
+    path: &Path,
+    disk: &Disk,
+    reader: &mut TraceReader<'_>,
+    is_done: impl Fn() -> bool,
+) -> Result<(), HostError> {
     let failed = |error: io::Error| match error.kind() {
         io::ErrorKind::IsADirectory => HostError::FolderAsRecording(path.to_owned()),
         _ => HostError::read(path, error),
@@ -98,16 +108,48 @@ fn read(
         return Err(TraceError::Closed(path.to_owned()).into());
     }
     let mut file = disk.open(path).map_err(failed)?;
-    let mut reader = TraceReader::new(most_rows, choose);
     let mut piece = vec![0; PIECE];
-    loop {
+    while !is_done() {
         let length = file.read(&mut piece).map_err(failed)?;
         if length == 0 {
             break;
         }
-        reader.feed(&piece[..length]).map_err(problem)?;
+        let fed = reader.feed(&piece[..length]);
+        fed.map_err(|problem| TraceError::problem(path, problem))?;
     }
-    Ok(reader.finish().map_err(problem)?)
+    Ok(())
+}
+
+/// Returns the channels of a recording.
+///
+/// # Errors
+/// The file cannot be read, or is not a trace.
+pub fn channels_of(path: &Path) -> Result<Vec<Channel>, HostError> {
+    let found = OnceLock::new();
+    let mut reader = TraceReader::new(MAX_ROWS, |channels: &[Channel]| {
+        found.get_or_init(|| channels.to_vec());
+        Ok(Choice::default())
+    });
+    feed(path, &Disk::default(), &mut reader, || {
+        found.get().is_some()
+    })?;
+    if found.get().is_none() {
+        let problem = |problem| TraceError::problem(path, problem);
+        reader.finish().map_err(problem)?;
+    }
+    Ok(found.get().cloned().unwrap_or_default())
+}
+
+/// Returns the axes by whose names channels are recognised, in their order.
+pub fn named_axes(channels: &[Channel]) -> Vec<String> {
+    let mut axes: Vec<String> = Vec::new();
+    let named = channels.iter().filter_map(|it| it.recognised()?.axis);
+    for axis in named.filter(|axis| !axis.starts_with(|it: char| it.is_ascii_digit())) {
+        if !axes.contains(&axis) {
+            axes.push(axis);
+        }
+    }
+    axes
 }
 
 /// Returns the axes of a recording by whose names commanded positions or velocities are recognised, in the order of its
@@ -116,21 +158,20 @@ fn read(
 /// # Errors
 /// The file cannot be read, or has other content.
 pub fn commanded_axes(path: &Path) -> Result<Vec<String>, HostError> {
-    let mut axes: Vec<String> = Vec::new();
+    let channels = channels_of(path)?;
     let any = ChannelSelection::default();
-    read(path, MAX_ROWS, &Disk::default(), |channels| {
-        let quantities = [ChannelQuantity::Position, ChannelQuantity::Velocity];
-        let is_sole =
-            quantities.map(|quantity| any.find(quantity, channels)) != [Ok(None), Ok(None)];
-        let recognised = channels.iter().filter_map(Channel::recognised);
-        let motion = [ChannelRole::Position, ChannelRole::Velocity];
-        for axis in recognised.filter_map(|it| it.axis.filter(|_| motion.contains(&it.role))) {
-            if !is_sole && !axes.contains(&axis) {
-                axes.push(axis);
-            }
+    let quantities = [ChannelQuantity::Position, ChannelQuantity::Velocity];
+    if quantities.map(|quantity| any.find(quantity, &channels)) != [Ok(None), Ok(None)] {
+        return Ok(Vec::new());
+    }
+    let mut axes: Vec<String> = Vec::new();
+    let motion = [ChannelRole::Position, ChannelRole::Velocity];
+    let recognised = channels.iter().filter_map(Channel::recognised);
+    for axis in recognised.filter_map(|it| it.axis.filter(|_| motion.contains(&it.role))) {
+        if !axes.contains(&axis) {
+            axes.push(axis);
         }
-        Ok(Choice::default())
-    })?;
+    }
     Ok(axes)
 }
 

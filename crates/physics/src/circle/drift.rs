@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::linear::Normal;
+use crate::linear::Normal;
 
 /// Number of differences in a block for the standard error: neighbours may be alike.
 const BLOCK: u16 = 8;

@@ -5,12 +5,12 @@ use serde::Serialize;
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::evidence_shape::{ShapeTerm, Term};
-use super::linear::Normal;
 use super::profile::{ProfilePoint, RadialProfile, UM_PER_M};
 use super::quiet::{Beside, QuietPath};
 use super::tails::{TailPlace, Tails};
 use super::turning::CosineSine;
 use super::window::CrossingWindow;
+use crate::linear::Normal;
 
 /// The glitch at one crossing (R5.22).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

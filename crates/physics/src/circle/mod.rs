@@ -21,7 +21,6 @@ mod fitted;
 mod glitch;
 mod lap;
 mod learn;
-mod linear;
 mod method;
 mod oscillation;
 mod periodic;

@@ -8,11 +8,11 @@
 
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
-use super::linear::Normal;
 use super::profile::{ProfilePoint, RadialProfile, UM_PER_M};
 use super::tails::{TailPlace, Tails};
 use super::turning::CosineSine;
 use super::window::CrossingWindow;
+use crate::linear::Normal;
 
 /// The undisturbed path, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,11 +3,11 @@
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::evidence_shape::{SHAPES, ShapeTerm, ShapeValues, Term};
-use super::linear::Normal;
 use super::periodic::{Joint, Screw};
 use super::series::AngleSeries;
 use super::tails::{Decays, TailPlace, Tails, columns};
 use super::turning::CosineSine;
+use crate::linear::Normal;
 
 /// Shapes visible in both directions, with their places in a row, and the ratio of each to its unknown.
 const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [

@@ -4,9 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::following::{COARSEST_S, STANDSTILL, commanded, step_at_reversals};
 use super::results::RecordingOutcome;
-use crate::identify::{
-    AxisRecording, count, median, moving_average, noise_of, samples_in, solve_linear,
-};
+use crate::identify::{AxisRecording, count, median, moving_average, noise_of, samples_in};
+use frictcomp_physics::linear::solve_linear;
 
 /// The time in s over which noise is averaged to find what friction leaves.
 const AVERAGED_S: f64 = 0.02;

@@ -9,7 +9,8 @@ use std::cmp::Ordering;
 
 use thiserror::Error;
 
-use crate::identify::{Track, count, moving_average, noise_of, samples_in, solve_linear};
+use crate::identify::{Track, count, moving_average, noise_of, samples_in};
+use frictcomp_physics::linear::solve_linear;
 
 /// Samples that are further apart do not show a glitch: twice the requested time.
 pub(super) const COARSEST_S: f64 = 0.002_05;

@@ -6,8 +6,8 @@
 //! replaced by what the other reversals predict of it (instrumental variables, the instruments of each
 //! window fitted without it).
 
-use super::curve::inverse;
 use super::statistics::count;
+use frictcomp_physics::linear::inverse;
 
 /// A window around a reversal.
 #[derive(Debug, Clone, Copy)]

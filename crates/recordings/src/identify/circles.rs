@@ -1,6 +1,5 @@
 //! Friction from recorded circles: no constant speeds, but every speed in both directions (R6.19).
 
-use super::curve::solve_linear;
 use super::doubts;
 use super::finding::TraceFinding;
 use super::identified::IdentifyError;
@@ -11,6 +10,7 @@ use super::statistics::{count, moving_average, samples_in};
 use super::track::{AxisSamples, Track, TrackError};
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
+use frictcomp_physics::linear::solve_linear;
 
 /// Friction found on circles.
 #[derive(Debug, Clone, PartialEq)]

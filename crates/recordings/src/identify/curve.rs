@@ -1,5 +1,6 @@
 //! The friction curve through the pairs (R6.15).
 
+use frictcomp_physics::linear::solve_linear;
 use serde::{Deserialize, Serialize};
 
 use super::pair::Pair;
@@ -229,53 +230,4 @@ impl SignedPoints {
         }
         Some(found)
     }
-}
-
-/// Solves a system of linear equations, the right side in the last column of each row; `None` if
-/// it has no single solution.
-pub(crate) fn solve_linear(rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
-    let solved = solve_systems(rows)?;
-    Some(solved.into_iter().map(|row| row[0]).collect())
-}
-
-/// The inverse of a square matrix, if it has one.
-pub(super) fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-    let unit = |at: usize| (0..matrix.len()).map(move |it| if it == at { 1.0 } else { 0.0 });
-    let rows = matrix.iter().enumerate();
-    solve_systems(
-        rows.map(|(at, row)| row.iter().copied().chain(unit(at)).collect())
-            .collect(),
-    )
-}
-
-/// Solves systems of linear equations with one matrix, their right sides in the columns after it: a row
-/// of results for each unknown.
-fn solve_systems(mut rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
-    let size = rows.len();
-    let scale: Vec<f64> = (0..size).map(|at| rows[at][at].abs().max(1e-300)).collect();
-    for column in 0..size {
-        let pivot = (column..size)
-            .max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()))?;
-        rows.swap(column, pivot);
-        let head = rows[column][column];
-        if !head.is_finite() || head.abs() <= 1e-13 * scale[column] {
-            return None;
-        }
-        let above = rows[column].clone();
-        for (at, row) in rows.iter_mut().enumerate() {
-            if at == column || row[column] == 0.0 {
-                continue;
-            }
-            let factor = row[column] / head;
-            for (value, above) in row.iter_mut().zip(&above).skip(column) {
-                *value -= factor * above;
-            }
-        }
-    }
-    let solved = rows.into_iter().enumerate();
-    Some(
-        solved
-            .map(|(at, row)| row[size..].iter().map(|it| it / row[at]).collect())
-            .collect(),
-    )
 }

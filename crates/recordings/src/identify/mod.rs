@@ -34,8 +34,8 @@ mod warnings;
 
 pub use branches::{BranchPoint, DirectionBranches};
 pub use circles::{OnCircles, identify_circles};
+pub(crate) use curve::along;
 pub use curve::{Fit, FrictionCurve};
-pub(crate) use curve::{along, solve_linear};
 pub use finding::TraceFinding;
 pub use identified::{Identified, IdentifyError, IdentifyOptions};
 pub use measured::{Contradiction, Measured, TorqueKind};

@@ -4,10 +4,10 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::curve::solve_linear;
 use super::segment::Segment;
 use super::statistics::{count, trimmed_mean};
 use super::track::AxisSamples;
+use frictcomp_physics::linear::solve_linear;
 
 /// A torque that repeats with the position.
 #[derive(Debug, Clone, Copy, PartialEq)]

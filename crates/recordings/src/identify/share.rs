@@ -6,8 +6,8 @@
 //! not known: each set of them is fitted, and weighted by its likelihood.
 
 use super::around::{Instruments, SignalAround, SignalWindow, dot};
-use super::curve::inverse;
 use super::statistics::{count, median, noise_of, samples_in};
+use frictcomp_physics::linear::inverse;
 
 /// The part of the current of a list that is in a torque, with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]

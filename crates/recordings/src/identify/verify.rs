@@ -2,7 +2,6 @@
 
 use std::ops::RangeInclusive;
 
-use super::curve::solve_linear;
 use super::identified::IdentifyError;
 use super::recorded::AxisRecording;
 use super::speeds::doubts_about;
@@ -14,6 +13,7 @@ use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::{
     AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
 };
+use frictcomp_physics::linear::solve_linear;
 
 /// Fit of a value list to a recording.
 #[derive(Debug, Clone, PartialEq)]

@@ -53,10 +53,16 @@ impl Headline {
         Self { standing, text }
     }
 
-    /// Returns the verdict with what it assumes, if anything.
+    /// Returns the verdict with what it assumes, if anything, each assumption once.
     pub fn assuming(mut self, assumptions: impl IntoIterator<Item = String>) -> Self {
+        let mut all: Vec<String> = Vec::new();
         for assumption in assumptions {
-            self.text = format!("{} ({assumption})", self.text);
+            if !all.contains(&assumption) {
+                all.push(assumption);
+            }
+        }
+        if !all.is_empty() {
+            self.text = format!("{} ({})", self.text, all.join("; "));
         }
         self
     }

@@ -116,7 +116,7 @@ impl Tally {
         let axes: Vec<&str> = self.axes.iter().map(String::as_str).collect();
         let axes = listed(&axes).unwrap_or_else(|| "an axis".to_owned());
         let text = match (worst, all) {
-            (None, _) => "no program".to_owned(),
+            (None, _) => "no program was checked".to_owned(),
             (Some(result), 1) => format!("{name} {}", result.words(&axes)[0]),
             (Some(result), _) if self.programs.len() == 1 => {
                 format!("{all} programs {}", result.words("an axis")[1])

@@ -4,6 +4,7 @@ use crate::svg::{
     Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PanelHeight, Series,
     StartUpRelation, XMark,
 };
+use crate::wording::rounded;
 use frictcomp::comp::State;
 use frictcomp::lists::AxisType;
 use frictcomp_physics::current::Added;
@@ -241,7 +242,7 @@ impl CurrentPlot {
                 let space = if name.is_empty() { "" } else { " " };
                 format!(
                     "the largest current{space}{name} is {} drive units",
-                    axis.largest
+                    rounded(axis.largest)
                 )
             })
             .collect();

@@ -1,6 +1,7 @@
 //! Value lists as curves.
 
 use crate::svg::{ChartAxis, CurveNote, Drawn, LineChart, Panel, Series, number};
+use crate::wording::rounded;
 use frictcomp::machine::AcceptedList;
 
 use super::units::{minute_unit, velocity_unit};
@@ -72,7 +73,7 @@ const PER_MINUTE: f64 = 0.06;
 fn describe_list(accepted: &AcceptedList) -> String {
     let points = accepted.list.table.iter();
     let points: Vec<String> = points
-        .map(|point| format!("{} at {}", point.output, point.input))
+        .map(|point| format!("{} at {}", rounded(point.output), point.input))
         .collect();
     match accepted.axis.as_str() {
         "" => format!("{}.", points.join(", ")),

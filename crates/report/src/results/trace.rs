@@ -151,6 +151,7 @@ fn number(value: f64) -> String {
 #[derive(Serialize)]
 struct TraceDocument<'a> {
     schema: u32,
+    headline: Headline,
     file: &'a str,
     layout: &'static str,
     channels: Vec<ChannelRecord<'a>>,
@@ -183,6 +184,7 @@ pub fn render_json(report: &TraceReport<'_>) -> String {
     let recording = report.recording;
     to_json(&TraceDocument {
         schema: 1,
+        headline: report.headline(),
         file: &report.name,
         layout: recording.layout().as_str(),
         channels: recording

@@ -184,6 +184,7 @@ impl<'a> Player<'a> {
             opaque: &opaque,
             axes: axes.collect(),
             assumed: std::collections::BTreeSet::new(),
+            silenced: &std::collections::BTreeSet::new(),
             rests_on: frictcomp::readings::QuestionSet::default(),
             state: view,
         };

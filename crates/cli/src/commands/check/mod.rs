@@ -2,6 +2,7 @@
 
 mod baseline;
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,7 @@ use frictcomp_host::{
     is_source, processors,
 };
 use frictcomp_report::assumptions::rests_on_text;
-use frictcomp_report::{ListingFormat, ProgramResult, command_line, wrap};
+use frictcomp_report::{ListingFormat, ProgramResult, command_line, visible_line, wrap};
 
 /// Print all messages of all programs, and mend what is safe
 ///
@@ -154,6 +155,8 @@ fn check(
     outputs.check()?;
     let checked = failures.keep(programs.check(&options));
     let in_callers = checked.in_callers;
+    let silenced = checked.programs.iter().flat_map(|it| &it.silenced);
+    let silenced: BTreeSet<String> = silenced.map(ToString::to_string).collect();
     list_all(checked, &mut listing, &mut baseline);
     found.left_out.forget_read(&registry);
     let missed = found.left_out.diagnostics(&mut machines);
@@ -183,6 +186,9 @@ fn check(
     if args.listing.format == ListingFormat::Text && !args.baseline.is_written() {
         listing.hint().iter().for_each(|hint| console.remark(hint));
         let beside = in_callers_remark(in_callers) + &passed_over(found.left_out.others());
+        for silenced in &silenced {
+            console.detail(&visible_line(silenced));
+        }
         console.detail(&(total(listing.tally()) + &beside));
         if let Some(said) = rests_on_text(&listing.tally().rests_on) {
             console.detail(&said);

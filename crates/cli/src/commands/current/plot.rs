@@ -51,7 +51,7 @@ pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
         _ => ("held", "with `--reading standstill=zero` it is 0"),
     };
     Console::talk(&format!(
-        "C11: in {} at standstill the current{axis} is {now}; {other}",
+        "in {} at standstill the current{axis} is {now}; {other}",
         counted(cycles, "cycle")
     ));
 }
@@ -61,7 +61,7 @@ pub(super) fn say_sign<'a>(mut lists: impl Iterator<Item = &'a FrictionList>) {
     let adds = |list: &FrictionList| list.table.iter().any(|point| point.output != 0.0);
     if lists.any(adds) {
         Console::talk(
-            "C12: `out` is taken to have the sign of the torque at positive velocity; check the \
+            "`out` is taken to have the sign of the torque at positive velocity; check the \
              sign on the machine first, `frictcomp explain P-COMP-00047` says how",
         );
     }

@@ -40,8 +40,11 @@ pub(super) fn run(recording: &Path, args: &CurrentArgs, console: Console) -> Res
     let registry = FileRegistry::default();
     registry.reads("recording", recording);
     let mut axes = args.axes.clone();
-    if axes.is_empty() && !args.channels.is_named() {
-        axes = commanded_axes(recording)?;
+    if axes.is_empty() {
+        axes = match args.channels.axes_in(recording)? {
+            Some(meant) => meant,
+            None => commanded_axes(recording)?,
+        };
     }
     let mut names: Vec<&str> = axes.iter().map(String::as_str).collect();
     if names.is_empty() {

@@ -41,7 +41,7 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=200))]
     pub(super) points: Option<u32>,
     /// Use as few points as keep the list within this percentage of the friction
-    #[arg(long, value_name = "PCT", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PCT", value_parser = quantities::percent, allow_negative_numbers = true)]
     pub(super) max_error: Option<f64>,
     /// The feed in mm/min at which the machine works
     #[arg(
@@ -67,7 +67,7 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "FILE")]
     pub(super) write_list: Option<PathBuf>,
     /// Write the value list of each axis to this folder, named after the axis: `X.lis`
-    #[arg(long, value_name = "FOLDER", requires = "axes", conflicts_with_all = ["write_list", "circles", "states"])]
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["write_list", "circles", "states"])]
     pub(super) into: Option<PathBuf>,
 }
 

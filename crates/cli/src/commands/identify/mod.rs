@@ -20,11 +20,15 @@ use frictcomp_report::results::identify::on_circles::{self, OnCirclesReport};
 use frictcomp_report::results::identify::{IdentifyReport, document, render_json};
 
 /// Runs the command.
-pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
+pub(crate) fn run(args: &mut IdentifyArgs, console: Console) -> Result<u8, Failure> {
     let options = options(args)?;
     if args.states {
         return states::run(args, &options, console);
     }
+    if let Some(first) = args.recordings.first() {
+        args.channels.find_axes(first)?;
+    }
+    let args = &*args;
     let registry = FileRegistry::default();
     args.recordings
         .iter()
@@ -69,7 +73,12 @@ fn lists(args: &IdentifyArgs, outputs: &mut Outputs) -> Result<Vec<OutputFile>, 
     let Some(folder) = &args.into else {
         return Ok(Vec::new());
     };
-    let axes = args.channels.axes().into_iter();
+    let axes = args.channels.axes();
+    if axes == [""] {
+        let message = "`--into` names each list after its axis, and no axis is known";
+        return Err(Failure::new(message).with_help("name the axes, `--axis X,Y`"));
+    }
+    let axes = axes.into_iter();
     axes.map(|axis| outputs.list_in_folder("--into", &folder.join(format!("{axis}.lis"))))
         .collect()
 }

@@ -16,12 +16,17 @@ const WORKING: &str = "warm";
 
 /// Identifies each state; the list is made for the state in which the machine works.
 pub(super) fn run(
-    args: &IdentifyArgs,
+    args: &mut IdentifyArgs,
     options: &IdentifyOptions,
     console: Console,
 ) -> Result<u8, Failure> {
-    let recordings = args.recordings.iter().map(|it| state_of(it));
+    let given = std::mem::take(&mut args.recordings);
+    let recordings = given.iter().map(|it| state_of(it));
     let recordings = recordings.collect::<Result<Vec<(&str, PathBuf)>, Failure>>()?;
+    if let Some((_, first)) = recordings.first() {
+        args.channels.find_axes(first)?;
+    }
+    let args = &*args;
     let names: Vec<&str> = recordings.iter().map(|it| it.0).collect();
     let axis = args.channels.sole_axis("the states are those of")?;
     let working = working(&names, args.working.as_deref().unwrap_or(WORKING))?;

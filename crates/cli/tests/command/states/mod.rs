@@ -1,3 +1,1 @@
 mod saved;
-mod undescribed;
-mod versions;

@@ -3,10 +3,10 @@
 use super::observed::DriveFit;
 use super::unknowns::{BEFORE, STEPS, UNKNOWNS, Unknowns};
 use crate::circle::cma_es::XorShift;
-use crate::circle::linear::Normal;
 use crate::circle::reference::CircleError;
 use crate::circle::tune::reversal::AxisAlone;
 use crate::circle::waveform::Waveform;
+use crate::linear::Normal;
 use crate::simulation::FrictionModel;
 
 /// Samples of a waveform that count as one: each is a mean over as many.

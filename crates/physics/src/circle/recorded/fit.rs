@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::error::RecordedError;
 use super::limits::MOST_MM;
-use crate::circle::linear::Normal;
+use crate::linear::Normal;
 
 /// Number of steps of the fit; it converges in a few.
 const STEPS: usize = 12;

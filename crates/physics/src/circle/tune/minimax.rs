@@ -4,8 +4,8 @@
 //! `t·ln Σ exp(value/t)`, which is smooth and convex, and limits by logarithmic barriers; Newton's method finds
 //! the minimum, with `t` decreasing.
 
-use super::super::linear::Normal;
 use super::shape::FREE;
+use crate::linear::Normal;
 
 /// A value for each variable: the outputs up to 1 mm/s.
 pub(super) type FreeValues = [f64; FREE];

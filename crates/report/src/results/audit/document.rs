@@ -1,6 +1,6 @@
 //! An audit as a document: the findings of each axis with the cure, and a table of programs and axes.
 
-use super::subject::{AuditReport, CurePlace, MachineAudit, Word, axis_name};
+use super::subject::{AuditReport, CurePlace, MachineAudit, Word, axis_name, possible_leavers};
 use crate::assumptions::rests_on_text;
 use crate::document::{Document, Phrase, Table};
 use crate::wording::{counted, visible_line};
@@ -79,10 +79,15 @@ fn push_finding(out: &mut Document<'_>, machine: &MachineAudit, finding: &AxisFi
         0 => String::new(),
         count => format!(", {}", counted(count, "unknown program")),
     };
+    let leave = match possible_leavers(&machine.archive, finding) {
+        0 => ("leaves", "leave"),
+        all if all == finding.leavers.len() => ("may leave", "may leave"),
+        _ => ("leaves or may leave", "leave or may leave"),
+    };
     out.lines([format!(
         "\n{}: {} it {away}, {} in that state{unknown}",
         visible_line(&axis_name(&finding.axis, finding.kind)),
-        verb(finding.leavers.len(), finding, ("leaves", "leave")),
+        verb(finding.leavers.len(), finding, leave),
         verb(finding.inheritors.len(), finding, ("moves", "move")),
     )]);
     let mut list =

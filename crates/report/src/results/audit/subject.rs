@@ -124,15 +124,19 @@ impl MachineAudit {
     }
 }
 
+/// Returns the number of programs that leave an axis away from its start-up state on some ways only.
+pub(super) fn possible_leavers(archive: &Archive, finding: &AxisFinding) -> usize {
+    let effect = |at: &&usize| archive.programs()[**at].axes[finding.at].effect;
+    let leavers = finding.leavers.iter();
+    leavers
+        .filter(|at| effect(at) == ProgramEffect::Depends)
+        .count()
+}
+
 /// "33 programs leave X off, 2 may, 262 run with it off", without what none does; `of_machine` tells the axis from that
 /// of another machine.
 fn cause(archive: &Archive, finding: &AxisFinding, of_machine: &str) -> String {
-    let effect = |at: &usize| archive.programs()[*at].axes[finding.at].effect;
-    let possible = finding
-        .leavers
-        .iter()
-        .filter(|at| effect(at) == ProgramEffect::Depends)
-        .count();
+    let possible = possible_leavers(archive, finding);
     let counts = [finding.leavers.len() - possible, finding.inheritors.len()];
     let verb = |count, one: &'static str, several| if count == 1 { one } else { several };
     let away = if finding.on_at_start_up { "off" } else { "on" };
@@ -186,10 +190,14 @@ impl AuditReport {
             said.push(unknown);
             (Standing::Open, format!("{programs}: {}", said.join("; ")))
         } else {
-            let text = format!(
-                "{programs}: in no order does one move an axis that another left away from its start-up state"
-            );
-            (Standing::Good, text)
+            let left = self.causes(|it| !it.leavers.is_empty());
+            let (standing, left) = match &*left.join("; ") {
+                "" => (Standing::Good, String::new()),
+                left => (Standing::Open, format!("{left}, but ")),
+            };
+            let order =
+                "in no order does one move an axis that another left away from its start-up state";
+            (standing, format!("{programs}: {left}{order}"))
         };
         let assumptions = self.assumptions().map(str::to_owned);
         Headline::new(standing, text).assuming(assumptions)

@@ -235,6 +235,7 @@ fn push_curve(out: &mut Document<'_>, found: &Identified) {
 #[derive(Serialize)]
 struct IdentifyDocument<'a> {
     schema: u32,
+    headline: Headline,
     axis: Option<&'a str>,
     points: Vec<PointRecord>,
     /// `None` where both directions differ by more than it.
@@ -325,6 +326,7 @@ pub(crate) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
     };
     IdentifyDocument {
         schema: 1,
+        headline: report.headline(),
         axis: report.axis.as_deref(),
         points: found
             .points

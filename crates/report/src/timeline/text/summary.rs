@@ -5,7 +5,9 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::assumptions::rests_on_text;
 use crate::document::{Headline, Standing};
-use crate::wording::{Detail, FinalStates, Look, feed_moves_text, grouped, last_part};
+use crate::wording::{
+    Detail, FinalStates, Look, feed_moves_text, grouped, last_part, visible_line,
+};
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Severity;
 use frictcomp::interpreter::EndedBy;
@@ -41,6 +43,10 @@ pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedB
     }
     if is_long {
         opaque(out, summary, look);
+        for silenced in summary.silenced {
+            let text = visible_line(&silenced.to_string()).into_owned();
+            Paragraph::new(DIM, &text).write(out, look);
+        }
     }
     advice(out, summary, by, look);
 }

@@ -1,8 +1,9 @@
-//! Linear least squares with a few unknowns.
+//! Systems of linear equations: any of them by [`solve_linear`], and the normal equations of fits with a few unknowns,
+//! whose positive matrix needs no search for pivots.
 
 /// The normal equations of a fit with `N` unknowns.
 #[derive(Debug, Clone)]
-pub(super) struct Normal<const N: usize> {
+pub(crate) struct Normal<const N: usize> {
     matrix: [[f64; N]; N],
     right: [f64; N],
 }
@@ -11,7 +12,7 @@ pub(super) struct Normal<const N: usize> {
 const LEAST_PIVOT: f64 = 1e-12;
 
 impl<const N: usize> Normal<N> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             matrix: [[0.0; N]; N],
             right: [0.0; N],
@@ -19,7 +20,7 @@ impl<const N: usize> Normal<N> {
     }
 
     /// Takes an equation: the unknowns times `row` make `value`.
-    pub(super) fn add(&mut self, row: [f64; N], value: f64) {
+    pub(crate) fn add(&mut self, row: [f64; N], value: f64) {
         for (at, sums) in self.matrix.iter_mut().enumerate() {
             if row[at] == 0.0 {
                 continue;
@@ -32,7 +33,7 @@ impl<const N: usize> Normal<N> {
     }
 
     /// Holds unknowns without an equation at 0.
-    pub(super) fn hold_unused(&mut self) {
+    pub(crate) fn hold_unused(&mut self) {
         for at in 0..N {
             if self.matrix[at][at] == 0.0 {
                 self.matrix[at][at] = 1.0;
@@ -41,13 +42,13 @@ impl<const N: usize> Normal<N> {
     }
 
     /// The unknowns of the same equations with other values, given as their sums with each row.
-    pub(super) fn solve_for(&self, right: [f64; N]) -> Option<[f64; N]> {
+    pub(crate) fn solve_for(&self, right: [f64; N]) -> Option<[f64; N]> {
         let matrix = self.matrix;
         Self { matrix, right }.solve()
     }
 
     /// Adds the equations of another fit a number of times.
-    pub(super) fn add_times(&mut self, other: &Self, times: f64) {
+    pub(crate) fn add_times(&mut self, other: &Self, times: f64) {
         for (sums, row) in self.matrix.iter_mut().zip(&other.matrix) {
             for (sum, it) in sums.iter_mut().zip(row) {
                 *sum += times * it;
@@ -59,12 +60,12 @@ impl<const N: usize> Normal<N> {
     }
 
     /// The square root of the diagonal at an unknown: its effect on all values.
-    pub(super) fn scale(&self, unknown: usize) -> f64 {
+    pub(crate) fn scale(&self, unknown: usize) -> f64 {
         self.matrix[unknown][unknown].sqrt()
     }
 
     /// The variances of the unknowns for values of the variance 1, one independent of the other.
-    pub(super) fn spreads(&self) -> Option<[f64; N]> {
+    pub(crate) fn spreads(&self) -> Option<[f64; N]> {
         let mut spreads = [0.0; N];
         for (at, spread) in spreads.iter_mut().enumerate() {
             let mut unit = [0.0; N];
@@ -76,7 +77,7 @@ impl<const N: usize> Normal<N> {
 
     /// The unknowns, by elimination; `None` if the equations do not determine them. The matrix
     /// is positive, so that its diagonal gives the pivots.
-    pub(super) fn solve(mut self) -> Option<[f64; N]> {
+    pub(crate) fn solve(mut self) -> Option<[f64; N]> {
         let diagonal: [f64; N] = std::array::from_fn(|at| self.matrix[at][at]);
         for (at, whole) in diagonal.into_iter().enumerate() {
             let pivot = self.matrix[at][at];
@@ -101,6 +102,55 @@ impl<const N: usize> Normal<N> {
         }
         unknowns.iter().all(|it| it.is_finite()).then_some(unknowns)
     }
+}
+
+/// Solves a system of linear equations, the right side in the last column of each row; `None` if
+/// it has no single solution.
+pub fn solve_linear(rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let solved = solve_systems(rows)?;
+    Some(solved.into_iter().map(|row| row[0]).collect())
+}
+
+/// The inverse of a square matrix, if it has one.
+pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let unit = |at: usize| (0..matrix.len()).map(move |it| if it == at { 1.0 } else { 0.0 });
+    let rows = matrix.iter().enumerate();
+    solve_systems(
+        rows.map(|(at, row)| row.iter().copied().chain(unit(at)).collect())
+            .collect(),
+    )
+}
+
+/// Solves systems of linear equations with one matrix, their right sides in the columns after it: a row
+/// of results for each unknown.
+fn solve_systems(mut rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+    let size = rows.len();
+    let scale: Vec<f64> = (0..size).map(|at| rows[at][at].abs().max(1e-300)).collect();
+    for column in 0..size {
+        let pivot = (column..size)
+            .max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()))?;
+        rows.swap(column, pivot);
+        let head = rows[column][column];
+        if !head.is_finite() || head.abs() <= 1e-13 * scale[column] {
+            return None;
+        }
+        let above = rows[column].clone();
+        for (at, row) in rows.iter_mut().enumerate() {
+            if at == column || row[column] == 0.0 {
+                continue;
+            }
+            let factor = row[column] / head;
+            for (value, above) in row.iter_mut().zip(&above).skip(column) {
+                *value -= factor * above;
+            }
+        }
+    }
+    let solved = rows.into_iter().enumerate();
+    Some(
+        solved
+            .map(|(at, row)| row[size..].iter().map(|it| it / row[at]).collect())
+            .collect(),
+    )
 }
 
 #[cfg(test)]

@@ -420,9 +420,9 @@ impl Observation {
                     !known.motion.perhaps || !is_sure
                 });
             let is_open = selected == Selected::Unknown;
-            let is_as_sure = |known: &Moved| is_open || !known.motion.perhaps;
-            let is_seen =
-                is_at_start_up || !is_certain || observed.astray.as_ref().is_some_and(is_as_sure);
+            let is_sure = is_certain && !is_open;
+            let is_as_sure = |known: &Moved| !is_sure || !known.motion.perhaps;
+            let is_seen = is_at_start_up || observed.astray.as_ref().is_some_and(is_as_sure);
             if is_known && is_seen {
                 continue;
             }

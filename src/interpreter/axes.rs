@@ -127,23 +127,32 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// The axes that a definition of a coupling group names: `[1, X = Y]`, or `[1, 8 = 2]` by their logical numbers.
+    /// The pairs of axes that a definition of a coupling group names, slave and master: `[1, X = Y]`, or `[1, 8 = 2]` by
+    /// their logical numbers. An axis whose partner the machine does not have stands twice. `None` where a number may be
+    /// that of an axis without a known one.
     pub(crate) fn members(
         self,
         by: MembersBy,
         arguments: &BracketArguments,
         text: &str,
-    ) -> Vec<AxisIndex> {
-        match by {
-            MembersBy::Name => self.given(arguments, text),
-            MembersBy::Number => {
-                let numbers = arguments.logical_numbers(text);
-                let number = |axis: &AxisIndex| self.machine.axis(*axis).number;
-                let is_named =
-                    |axis: &AxisIndex| number(axis).is_some_and(|it| numbers.contains(&it));
-                self.all().filter(is_named).collect()
+    ) -> Option<Vec<AxisIndex>> {
+        let has_unnumbered = || {
+            let mut all = self.all();
+            all.any(|axis| self.machine.axis(axis).number.is_none())
+        };
+        let mut members = Vec::new();
+        for pair in arguments.pairs(text) {
+            let pair = pair.map(|name| match by {
+                MembersBy::Name => self.any(name),
+                MembersBy::Number => self.machine.axis_numbered(name.parse().ok()?),
+            });
+            if by == MembersBy::Number && pair.contains(&None) && has_unnumbered() {
+                return None;
             }
+            let known = pair.into_iter().flatten().chain(pair.into_iter().flatten());
+            members.extend(known.take(2));
         }
+        Some(members)
     }
 
     /// The axis that an argument gives by its name or its logical number.

@@ -22,6 +22,9 @@ pub(crate) struct Couplings {
     enabled: BTreeMap<u64, String>,
     /// Number of groups in force that couple each axis.
     holding: BTreeMap<AxisIndex, u32>,
+    /// Number of groups in force in which each axis is a slave, and a master.
+    #[serde(default)]
+    sides: BTreeMap<AxisIndex, [u32; 2]>,
     /// Number of times a group was enabled.
     turns: u64,
     /// Every axis that a group ever named.
@@ -50,6 +53,17 @@ struct CoupledAxes {
     enabled: Option<u64>,
     /// Whether the channel parameters define it, so that its axes are unknown.
     unknown: bool,
+}
+
+/// More groups in force than a control has; conflicts of further ones are not looked for.
+const MOST_GROUPS: usize = 32;
+
+impl CoupledAxes {
+    /// Its pairs, slave and master, of which both are axes of the machine.
+    fn pairs(&self) -> impl Iterator<Item = [AxisIndex; 2]> {
+        let pairs = self.axes.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+        pairs.filter(|[slave, master]| slave != master)
+    }
 }
 
 impl PartialEq for Couplings {
@@ -182,6 +196,46 @@ impl Couplings {
         }
     }
 
+    /// The definition of a group is not known.
+    fn forget(&mut self, group: &str) -> Vec<AxisIndex> {
+        let changed = self.release(group);
+        self.groups.remove(group);
+        changed
+    }
+
+    /// An axis of a group that is to be enabled and that another group in force does not admit, with the number of the error
+    /// (R2.114).
+    pub(crate) fn conflict(&self, group: &str) -> Option<(u32, AxisIndex)> {
+        if self.enabled.len() > MOST_GROUPS {
+            return None;
+        }
+        let known = self.groups.get(group)?;
+        let is_in = |axis: AxisIndex, side: usize| {
+            let sides = self.sides.get(&axis);
+            known.enabled.is_none() && sides.is_some_and(|sides| sides[side] > 0)
+        };
+        known.pairs().find_map(|[slave, master]| {
+            let found = [(slave, 0, 21283), (slave, 1, 21284), (master, 0, 21285)];
+            let found = found
+                .into_iter()
+                .find(|(axis, side, _)| is_in(*axis, *side));
+            found.map(|(axis, _, number)| (number, axis))
+        })
+    }
+
+    /// Counts the axes of a group that comes into force, or is released.
+    fn count(&mut self, pairs: &[[AxisIndex; 2]], change: impl Fn(u32) -> u32) {
+        for pair in pairs {
+            for (side, axis) in pair.iter().enumerate() {
+                let sides = self.sides.entry(*axis).or_default();
+                sides[side] = change(sides[side]);
+                if *sides == [0; 2] {
+                    self.sides.remove(axis);
+                }
+            }
+        }
+    }
+
     /// Defines a group, which is then not in force. Returns the axes whose coupling may have changed.
     pub(crate) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) -> Vec<AxisIndex> {
         let mut changed = self.release(group);
@@ -265,7 +319,9 @@ impl Couplings {
                 let times = self.holding.entry(axis).or_default();
                 *times = times.saturating_add(1);
             }
+            let pairs: Vec<_> = known.pairs().collect();
             self.enabled.insert(self.turns, group.to_owned());
+            self.count(&pairs, |groups| groups.saturating_add(1));
         }
         self.axes_of(group)
     }
@@ -298,6 +354,13 @@ impl Couplings {
                 self.holding.remove(axis);
             }
         }
+        let pairs: Vec<_> = self
+            .groups
+            .get(group)
+            .into_iter()
+            .flat_map(CoupledAxes::pairs)
+            .collect();
+        self.count(&pairs, |groups| groups.saturating_sub(1));
         self.axes_of(group)
     }
 
@@ -318,6 +381,7 @@ impl Couplings {
         self.unknown = 0;
         self.enabled.clear();
         self.holding.clear();
+        self.sides.clear();
         for group in self.groups.values_mut() {
             group.enabled = None;
         }
@@ -328,6 +392,12 @@ impl Couplings {
 impl ControlState {
     pub(crate) fn define_coupling(&mut self, group: &str, axes: Vec<AxisIndex>) {
         let changed = self.couplings.define(group, axes);
+        self.mark_coupled(changed);
+    }
+
+    /// The definition of a group is not known: once it is in force, any axis may be coupled.
+    pub(crate) fn forget_coupling(&mut self, group: &str) {
+        let changed = self.couplings.forget(group);
         self.mark_coupled(changed);
     }
 

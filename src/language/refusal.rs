@@ -64,6 +64,8 @@ static REFUSALS: &[ControlError] = {
             "write a variable of your own";
         20131 "206278923" Error, "G80 to G89 and G800 on without a program, and a G function that the control does not know",
             "name the program, `g80_prog_file` or `g800_prog_file[0]` in the channel list";
+        20137 "250902411" Possible, "G74 while a coupling group is active",
+            "release all coupling groups first, with `#AX LINK OFF ALL`";
         20160 "diagnosis" Error, "an M function above 1000; how many P-CHAN-00041 allows is a limit of the build and in no list",
             "use a number up to 1000";
         20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
@@ -130,6 +132,12 @@ static REFUSALS: &[ControlError] = {
             "declare it with `#VAR`";
         20472 "251698827" Error, "`#SET AX LINK` of a coupling group that is active",
             "release the group first, with `#DISABLE AX LINK`";
+        20475 "251703179" Possible, "an axis that a coupling group couples to itself",
+            "couple it to another axis";
+        20476 "251707531" Possible, "a slave that a coupling group couples to two axes",
+            "give each slave one master";
+        20477 "251711883" Possible, "an axis that is master and slave in one coupling group",
+            "couple both slaves to the common master";
         20590 "251916427" Said("FC912"), "`#IF` that is nested too deep",
             "nest fewer of them";
         20592 "251925131" Said("FC208"), "`#ENDIF` without `#IF`",
@@ -172,6 +180,12 @@ static REFUSALS: &[ControlError] = {
             "save them first, with `#SAVE CONFIG [AX]`";
         21275 "254009739" Error, "`#LOAD CONFIG [AXLINK]` with no saved couplings",
             "save them first, with `#SAVE CONFIG [AXLINK]`";
+        21283 "254044555" Possible, "a slave that is a slave in another active coupling group",
+            "release the other group first, with `#DISABLE AX LINK`";
+        21284 "254048907" Possible, "a slave that is a master in another active coupling group",
+            "release the other group first, with `#DISABLE AX LINK`";
+        21285 "254053259" Possible, "a master that is a slave in another active coupling group",
+            "release the other group first, with `#DISABLE AX LINK`";
         21381 "254436235" Error, "a cycle call while a modal cycle is active",
             "write `#DISABLE MODAL CYCLE` before it";
         21387 "254462347" Error, "`#IF` without `#ENDIF`",

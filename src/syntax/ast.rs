@@ -373,13 +373,10 @@ impl BracketArguments {
         words.any(|word| word.contains(letters))
     }
 
-    /// Returns the logical axis numbers after the coupling group, `8` and `2` of `[1, 8 = 2]`.
-    pub(crate) fn logical_numbers(&self, text: &str) -> Vec<u32> {
-        let members = self.0.iter().skip(1);
-        let spans = members.flat_map(|it| it.key.into_iter().chain([it.span]));
-        spans
-            .filter_map(|span| span.of(text).parse().ok())
-            .collect()
+    /// Returns the keys with their values, `8` and `2` of `[1, 8 = 2]`.
+    pub(crate) fn pairs<'a>(&'a self, text: &'a str) -> impl Iterator<Item = [&'a str; 2]> {
+        let pairs = self.0.iter();
+        pairs.filter_map(move |it| Some([it.key?.of(text), it.span.of(text)]))
     }
 
     /// Returns their words, keys and values alike.

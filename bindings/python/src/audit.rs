@@ -7,7 +7,6 @@ use frictcomp::audit::{AxisAudit, ProgramAudit};
 use frictcomp_host::{
     ArchiveAuditor, AuditOptions, FileRegistry, HostError, Input, MachineOptions, Machines,
 };
-use frictcomp_report::counted;
 use frictcomp_report::results::audit::{AuditReport, MachineAudit, records};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
@@ -287,8 +286,7 @@ impl PyAudit {
 
     /// The effect of each program on each axis, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let programs = counted(self.programs, "program");
-        let words = format!("{programs}, {}", counted(self.hazards, "hazard"));
+        let words = notebook::verdict(&self.records);
         let columns = ["file", "axis", "kind", "effect", "reason", "inherits"];
         notebook::tabular(py, &words, (&self.table, &columns))
     }

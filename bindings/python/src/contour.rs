@@ -245,7 +245,7 @@ impl PyContour {
 
     /// Its picture, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        notebook::pictured(py, &self.remarks.join("; "), &[&self.svg])
+        notebook::pictured(py, &notebook::verdict(&self.record), &[&self.svg])
     }
 
     fn __repr__(&self) -> String {

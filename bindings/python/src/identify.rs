@@ -278,8 +278,7 @@ impl PyIdentified {
 
     /// Its picture, if it has one, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let words = format!("Friction identified from {}", self.from);
-        notebook::pictured(py, &words, self.svg.as_slice())
+        notebook::pictured(py, &notebook::verdict(&self.record), self.svg.as_slice())
     }
 
     fn __repr__(&self) -> String {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::hash::{BuildHasher, RandomState};
 
 use pyo3::prelude::*;
+use serde_json::Value;
 
 use crate::arrow::ArrowTable;
 
@@ -46,6 +47,17 @@ pub(crate) fn tabular(
         let _ = write!(html, "<p>{more} more rows</p>");
     }
     Ok(html)
+}
+
+/// Returns the verdict of a document, or of the last one among records.
+pub(crate) fn verdict(record: &str) -> String {
+    let document: Value = serde_json::from_str(record).unwrap_or_default();
+    let headed = match &document {
+        Value::Array(records) => records.last(),
+        one => Some(one),
+    };
+    let words = headed.and_then(|it| it["headline"]["text"].as_str());
+    words.unwrap_or_default().to_owned()
 }
 
 fn escaped(py: Python<'_>, text: &str) -> PyResult<String> {

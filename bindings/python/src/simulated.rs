@@ -334,7 +334,7 @@ impl PyCircle {
 
     /// Its picture, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        notebook::pictured(py, "Circular test", &[&self.svg])
+        notebook::pictured(py, &notebook::verdict(&self.record), &[&self.svg])
     }
 
     fn __repr__(&self) -> &'static str {
@@ -390,11 +390,7 @@ impl PyTuned {
 
     /// Its picture, for notebooks.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        notebook::pictured(
-            py,
-            &format!("Value list for the plant {}", self.plant),
-            &[&self.svg],
-        )
+        notebook::pictured(py, &notebook::verdict(&self.record), &[&self.svg])
     }
 
     fn __repr__(&self) -> String {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import pickle
 import re
 import xml.etree.ElementTree as ElementTree
@@ -114,6 +115,10 @@ def test_every_result_shows_itself_in_a_notebook_with_ids_of_its_own() -> None:
         frictcomp.audit(program, machine=machine),
         frictcomp.audit_sequence([program, program], machine=machine),
     ]
+    for it in pictured:
+        if hasattr(it, "record"):
+            verdict = html.escape(it.record["headline"]["text"])
+            assert f"<p>{verdict}</p>" in it._repr_html_()
     page = "".join(it._repr_html_() for it in [*pictured, *tables])
     # The picture of a contour has one inside.
     assert page.count("<svg") == len(pictured) + 1 and page.count("<table") == len(tables)

@@ -11,7 +11,7 @@ use crate::interpreter::motion::form::{
     Arc, AxisWord, BlockEnd, Centre, Geometry, Motion, MovedAxis, PathFeed, PathForm, Travel, Turn,
     WordValue,
 };
-use crate::interpreter::motion::modal::Modal;
+use crate::interpreter::motion::modal::{CUTTER_RADIUS, Modal};
 use crate::interpreter::motion::pace::{Haste, ProgrammedFeed};
 use crate::language::{AxisWords, Certainty, Group, HashCommand, MotionEffect, MotionKind, Moves};
 use crate::lists::AxisType;
@@ -459,6 +459,10 @@ fn follow(moving: &mut BTreeMap<AxisIndex, MovedAxis>, links: &[CouplingLink]) -
 impl MotionSetting<'_> {
     /// The axes of a frame, and whether each certainly moves with another of them.
     fn frame(self, name: &str) -> Option<(Vec<AxisIndex>, Certainty)> {
+        if name == CUTTER_RADIUS {
+            // The path of the tool centre is beside the programmed one.
+            return Some((self.axes.plane(self.modal), Certainty::Possible));
+        }
         let row = HashCommand::named(name)?.motion?;
         Some(match row.moves {
             Moves::Plane => {

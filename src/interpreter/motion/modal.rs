@@ -182,7 +182,7 @@ impl Modal {
             }
             Group::CutterRadius => {
                 self.functions.tool_side = number;
-                self.transform("G41", number != 40);
+                self.transform(CUTTER_RADIUS, number != 40);
             }
             Group::CircleCentre => self.functions.centre_absolute = number == 161,
             Group::ExactStop if number == 360 => self.functions.block_end = BlockEnd::ExactStop,
@@ -258,7 +258,7 @@ impl Modal {
         } else {
             self.transformed.remove(name)
         };
-        if changed && name != "G41" {
+        if changed && name != CUTTER_RADIUS {
             self.havoc_positions();
         }
     }
@@ -502,7 +502,7 @@ impl Modal {
         };
         match function.group {
             Some(Group::Offset) => self.havoc_positions(),
-            Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
+            Some(Group::CutterRadius) if number != 40 => self.transform(CUTTER_RADIUS, true),
             _ => {}
         }
         match function.action {
@@ -656,7 +656,7 @@ impl Modal {
 /// What the command or function of a name makes of positions (R11.30): an M, T or D function that may move the
 /// origin leaves paths as they are; one whose number is not known may call any program.
 fn frame_of(name: &str) -> PositionFrame {
-    if name == "G41" {
+    if name == CUTTER_RADIUS {
         return PositionFrame::Contour;
     }
     let is_function = name.starts_with(['M', 'T', 'D']) && name[1..].parse::<u64>().is_ok();
@@ -792,8 +792,11 @@ impl GFunctions {
     }
 }
 
+/// Name of the tool radius compensation, G41 or G42, among what transforms.
+pub(crate) const CUTTER_RADIUS: &str = "G41";
+
 /// G functions that separate positions from those of the machine.
-const TRANSFORMING: [&str; 2] = ["G41", "G21"];
+const TRANSFORMING: [&str; 2] = [CUTTER_RADIUS, "G21"];
 
 /// G functions and feeds before a cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use crate::interpreter::block::{BlockContext, declared_name};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::events::{Note, NoteKind, Notes};
 use crate::interpreter::executor::{Executor, RunState};
-use crate::interpreter::motion::modal::PositionFrame;
+use crate::interpreter::motion::modal::{CUTTER_RADIUS, PositionFrame};
 use crate::interpreter::values::expression::{
     Evaluator, ExpressionScope, Macros, ParameterSource, misused,
 };
@@ -720,7 +720,7 @@ impl Executor {
         if name.family() == VariableFamily::External {
             return self.check_flush(Flushes::Both, &written, span, at);
         }
-        if !self.state.control.modal.transformed.contains("G41") {
+        if !self.state.control.modal.transformed.contains(CUTTER_RADIUS) {
             return;
         }
         let message = format!(

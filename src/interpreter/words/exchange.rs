@@ -40,8 +40,14 @@ impl Executor {
             }
             Coupling::None => {}
         }
+        if let Some((number, what)) = impossible_pair(&hash.brackets, at.text) {
+            self.may_refuse(number, &what, hash.span, at);
+        }
         self.scratch.wrote = true;
-        self.state.control.define_coupling(&group, axes);
+        match axes {
+            Some(axes) => self.state.control.define_coupling(&group, axes),
+            None => self.state.control.forget_coupling(&group),
+        }
         Ok(())
     }
 
@@ -55,6 +61,11 @@ impl Executor {
         if group == LISTED && channel.is_whole && channel.coupled.is_empty() {
             let what = "the channel list defines no coupling group 0";
             self.may_refuse(None, what, hash.span, at);
+        }
+        if let Some((number, axis)) = self.state.control.couplings.conflict(&group) {
+            let name = &self.machine.axis(axis).name;
+            let what = format!("axis `{name}` is in another active coupling group");
+            self.may_refuse(number, &what, hash.span, at);
         }
         self.state.control.enable_coupling(&group, &self.machine);
     }
@@ -367,4 +378,19 @@ impl<'a> NamedInExchange<'a> {
 
 fn is_name_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+/// Returns why the control refuses the pairs of a coupling group, with the number of its error.
+fn impossible_pair(arguments: &BracketArguments, text: &str) -> Option<(u32, String)> {
+    let pairs: Vec<[&str; 2]> = arguments.pairs(text).collect();
+    pairs.iter().enumerate().find_map(|(at, &[slave, master])| {
+        if slave == master {
+            return Some((20475, format!("axis `{slave}` would follow itself")));
+        }
+        if pairs[..at].iter().any(|other| other[0] == slave) {
+            return Some((20476, format!("axis `{slave}` would follow two axes")));
+        }
+        let is_master = pairs.iter().any(|other| other[1] == slave);
+        is_master.then(|| (20477, format!("axis `{slave}` would lead and follow")))
+    })
 }

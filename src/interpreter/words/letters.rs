@@ -431,6 +431,13 @@ impl Executor {
             self.scratch.moves.drop_all();
             return;
         }
+        if matches!(self.scratch.actions.axis_words, AxisWords::Homing)
+            && self.state.control.couplings.is_any()
+            && let Some(word) = self.scratch.moves.words().first()
+        {
+            let what = "G74 stands where a coupling group is active";
+            self.may_refuse(20137, what, word.span, at);
+        }
         // The lint for switches during motion looks at arcs (R1.57).
         let is_arc = self.state.control.modal.functions.is_arc();
         let is_followed = is_arc || self.options.takes_motions();

@@ -9,6 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::{AfterError, BlockContext, FailedAt, OwnEnd, stops};
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::{Executor, MentionedUnknowns};
+use crate::interpreter::motion::modal::CUTTER_RADIUS;
 use crate::interpreter::options::StopPolicy;
 use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::location::Unknown;
@@ -290,7 +291,7 @@ impl Executor {
     ) {
         let modal = &self.state.control.modal;
         let (number, under) = match flushes {
-            Flushes::Radius | Flushes::Both if modal.transformed.contains("G41") => {
+            Flushes::Radius | Flushes::Both if modal.transformed.contains(CUTTER_RADIUS) => {
                 (20651, "G41 or G42")
             }
             Flushes::Spline | Flushes::Both if modal.is_spline() => (120_434, "a spline"),

@@ -131,7 +131,9 @@ fn way(kind: MotionKind) -> &'static str {
         MotionKind::Homing => " towards its reference point",
         MotionKind::Independent => " by itself",
         MotionKind::Coupled => " because it follows another axis",
-        MotionKind::Frame => " because coordinates are rotated or transformed",
+        MotionKind::Frame => {
+            " because coordinates are rotated, transformed or offset by a tool radius"
+        }
         _ => "",
     }
 }

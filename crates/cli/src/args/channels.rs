@@ -170,16 +170,19 @@ pub(crate) struct AxisChannelArgs {
 }
 
 impl AxisChannelArgs {
-    /// Takes the axes that the names of channels mean in a recording, or else the only one by whose name its channels are
-    /// recognised, if no axis is given.
-    pub(crate) fn find_axes(&mut self, recording: &Path) -> Result<(), Failure> {
+    /// Takes the axes that the names of channels mean in a recording, or else those by whose names its channels are
+    /// recognised: the ones for which a list is given, or the only one, if no axis is given.
+    pub(crate) fn find_axes(&mut self, recording: &Path, lists: &[PerAxis]) -> Result<(), Failure> {
         if self.axes.is_empty() {
             let channels = channels_of(recording)?;
             let motion = self.motion.position.iter().chain(&self.motion.velocity);
             let given: Vec<&PerAxis> = motion.chain(&self.torque.torque).collect();
             self.axes = axes_meant(&channels, &given);
             let mut named = named_axes(&channels);
-            if self.axes.is_empty() && named.len() == 1 {
+            if named.len() > 1 {
+                named.retain(|axis| lists.iter().any(|list| list.is_of(axis)));
+            }
+            if self.axes.is_empty() && (named.len() == 1 || !lists.is_empty()) {
                 self.axes.append(&mut named);
             }
         }

@@ -128,12 +128,13 @@ impl Lister<'_> {
         self.listing.file();
     }
 
-    /// Counts a program with its result, and the axes that it leaves or may leave away from their start-up states.
+    /// Counts a program with its result, and the axes that it leaves or may leave away from their start-up states, each with
+    /// the result that this alone gives.
     pub(crate) fn program<'a>(
         &mut self,
         name: &str,
         result: ProgramResult,
-        axes: impl IntoIterator<Item = &'a str>,
+        axes: impl IntoIterator<Item = (ProgramResult, &'a str)>,
     ) {
         self.listing.program(name, result, axes);
     }

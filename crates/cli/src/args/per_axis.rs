@@ -23,6 +23,11 @@ impl PerAxis {
         self.0.to_string_lossy().contains('%')
     }
 
+    /// Whether it names an axis.
+    pub(crate) fn is_of(&self, axis: &str) -> bool {
+        self.parts().is_some_and(|(name, _)| name == axis)
+    }
+
     /// Returns the axis whose channel has a name, where the option is a pattern or names an axis.
     pub(crate) fn axis_of<'n>(&'n self, channel: &'n str) -> Option<&'n str> {
         let is_axis = |it: &&str| !it.is_empty() && it.chars().all(char::is_alphanumeric);

@@ -47,7 +47,7 @@ pub(crate) struct VerifyArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &mut VerifyArgs, console: Console) -> Result<u8, Failure> {
-    args.channels.find_axes(&args.recording)?;
+    args.channels.find_axes(&args.recording, &args.value_list)?;
     let args = &*args;
     let registry = FileRegistry::default();
     registry.reads("recording", &args.recording);

@@ -113,7 +113,7 @@ fn every_form_moves_the_axis() {
         ),
         (
             "X",
-            "#AX LINK [1, [Z=Y,G], [X=Z,G]]\r\n#AX LINK ON [1]\r\nG0 Y5",
+            "#AX LINK [1, [Z=Y,G], [X=Y,G]]\r\n#AX LINK ON [1]\r\nG0 Y5",
             "coupled",
         ),
         (

@@ -312,12 +312,15 @@ fn against_rated(
         return Ok(None);
     };
     let part = least.friction.abs() / rated;
-    let friction = format!(
-        "friction is {:.3} at {:.3} mm/s, {:.1} % of the rated torque",
-        least.friction,
-        least.speed,
-        part * 100.0
-    );
+    let told = |of: &Pair| {
+        format!(
+            "friction is {:.3} at {:.3} mm/s, {:.1} % of the rated torque",
+            of.friction,
+            of.speed,
+            of.friction.abs() / rated * 100.0
+        )
+    };
+    let friction = told(least);
     if upper(least) < LEAST_OF_RATED * rated {
         if measured.compensation == Some(Switched::Off) {
             return Ok(Some(TraceFinding::new(
@@ -334,10 +337,14 @@ fn against_rated(
             "record with friction compensation off, or confirm that it was, and check the unit",
         ));
     }
-    if part > 1.0 {
+    let lower = |it: &Pair| it.friction.abs() - 2.0 * it.error;
+    if let Some(most) = pairs.iter().find(|it| lower(it) > rated) {
         return Err(refused(
             Code::Fc524,
-            format!("{friction}: the unit is another one, such as a tenth of it"),
+            format!(
+                "{}: the unit is another one, such as a tenth of it",
+                told(most)
+            ),
             "compare it with what the drive shows, and give its unit",
         ));
     }

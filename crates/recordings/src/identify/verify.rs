@@ -39,6 +39,9 @@ pub struct Verified {
     pub residual: f64,
     /// The reversals of the recording.
     pub reversals: Vec<Reversal>,
+    /// The range in which both directions differ most beyond an offset, with half of the difference as a part of the
+    /// predicted friction, if that is no noise.
+    pub one_sided: Option<ScaleRange>,
     /// Whether only motion farther than [`CONTACT_MM`] from the last reversal counts for the scales.
     pub is_away_from_reversals: bool,
     /// Whether the recording is not what it seems, or friction changes in it (R6.21).
@@ -165,14 +168,16 @@ pub fn verify_followed(
         return Err(IdentifyError::NoSegments);
     };
     let slowest = motion.slowest(&used);
+    let fastest = motion.fastest();
+    let range = |at: usize, scale| ScaleRange {
+        from: at.checked_sub(1).map_or(slowest, |before| BOUNDS[before]),
+        to: BOUNDS[at].min(fastest),
+        scale,
+    };
+    let one_sided = ranges.one_sided(&samples, &motion, &used);
+    let one_sided = one_sided.map(|(at, part)| range(at, part));
     let scales = ranges.scales.iter().enumerate();
-    let ranges = scales.filter_map(|(at, scale)| {
-        Some(ScaleRange {
-            from: at.checked_sub(1).map_or(slowest, |before| BOUNDS[before]),
-            to: BOUNDS[at].min(motion.fastest()),
-            scale: (*scale)?,
-        })
-    });
+    let ranges = scales.filter_map(|(at, scale)| Some(range(at, (*scale)?)));
     let scale = whole.scales[0].unwrap_or(0.0);
     let rest: Vec<f64> = (0..samples.torques.len())
         .map(|at| samples.torques[at] - whole.inertia * motion.accelerations[at] - whole.offset)
@@ -222,6 +227,7 @@ pub fn verify_followed(
             .iter()
             .filter_map(|&at| motion.reversal(&samples, &rest, at))
             .collect(),
+        one_sided,
         is_away_from_reversals,
         is_doubted: false,
     })
@@ -421,6 +427,41 @@ struct Regression {
     offset: f64,
 }
 
+/// Directions that differ by more than this part of the friction beyond an offset are no noise of a recording.
+const ONE_SIDED: f64 = 0.1;
+
+impl Regression {
+    /// Returns the range in which the recorded torque lies most to one side of the fit in both directions, and how much, as a
+    /// part of the predicted friction. A value list is alike in both directions, and an offset at all speeds.
+    fn one_sided(
+        &self,
+        samples: &AxisSamples,
+        motion: &PredictedMotion,
+        used: &[usize],
+    ) -> Option<(usize, f64)> {
+        let mut sums = [[(0.0, 0.0, 0_usize); 2]; BOUNDS.len()];
+        for &at in used {
+            let range = range_of(motion.velocities[at].abs());
+            let Some(scale) = self.scales[range] else {
+                continue;
+            };
+            let predicted = scale * motion.predicted[at];
+            let fitted = predicted + self.inertia * motion.accelerations[at] + self.offset;
+            let sum = &mut sums[range][usize::from(motion.signs[at] < 0.0)];
+            sum.0 += samples.torques[at] - fitted;
+            sum.1 += predicted.abs();
+            sum.2 += 1;
+        }
+        let parts = sums.iter().enumerate().filter_map(|(range, sides)| {
+            let is_known = sides.iter().all(|side| side.2 >= FEWEST && side.1 > 0.0);
+            let [forth, back] = sides.map(|side| side.0 / side.1);
+            is_known.then_some((range, f64::midpoint(forth, back)))
+        });
+        let most = parts.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()));
+        most.filter(|(_, part)| part.abs() > ONE_SIDED)
+    }
+}
+
 /// The torque as the prediction times a scale, which may differ between ranges, an inertia times the
 /// acceleration, and an offset.
 fn regress(
@@ -512,6 +553,14 @@ impl Verified {
             said.push(format!(
                 "the list is {amount} % {word} from {:.2} to {:.2} mm/s",
                 begin.from, end.to
+            ));
+        }
+        if let Some(range) = &self.one_sided {
+            said.push(format!(
+                "friction differs by direction, from {:.2} to {:.2} mm/s by {:.0} % beyond an offset, which no list holds",
+                range.from,
+                range.to,
+                200.0 * range.scale.abs()
             ));
         }
         if let Some(word) = self.timing.early_or_late() {

@@ -7,9 +7,10 @@ use std::fmt::Write as _;
 
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::TablePoint;
+use frictcomp_physics::current::Reading;
 use frictcomp_recordings::identify::{
-    FrictionCurve, Identified, IdentifyError, IdentifyOptions, RequestedPoints, Track, TrackError,
-    identify,
+    FrictionCurve, Identified, IdentifyError, IdentifyOptions, Predictor, RequestedPoints, Track,
+    TrackError, identify, verify,
 };
 use frictcomp_testing::recorded_drive::{ASYMMETRY, Bench, FC, FV, Recorded, UNIT, VS, WEIGHT};
 
@@ -442,6 +443,36 @@ fn recordings_without_friction_are_refused() {
         refused(&slow),
         IdentifyError::Track(TrackError::Slow { .. })
     ));
+}
+
+#[test]
+fn friction_that_differs_by_direction_fits_no_list() {
+    // R6.20 R6.25: an offset, such as a weight, is no such difference.
+    let even = track(Bench::default().record());
+    let list = identify(&even, &IdentifyOptions::default())
+        .expect("friction")
+        .list();
+    let verified = |torque: fn(f64, f64) -> f64| {
+        let mut changed = even.clone();
+        let velocities = even.velocities.as_ref().expect("velocities");
+        for (value, velocity) in changed.torques.iter_mut().zip(velocities) {
+            *value = torque(*value, *velocity);
+        }
+        let predictor = Predictor {
+            list: &list,
+            reading: Reading::default(),
+            cycle_s: None,
+        };
+        verify(&changed, &predictor).expect("a verdict")
+    };
+    for torque in [|value, _| value, |value, _| value + 60.0] {
+        let fits = verified(torque);
+        assert!(fits.one_sided.is_none(), "{:?}", fits.one_sided);
+    }
+    let found = verified(|value, velocity| value * if velocity > 0.0 { 1.5 } else { 0.5 });
+    assert!(!found.agrees(), "{:?}", found.ranges);
+    let said = found.verdict().join("; ");
+    assert!(said.contains("friction differs by direction"), "{said}");
 }
 
 #[test]

@@ -39,14 +39,18 @@ impl<W: Write> Listing<W> {
         self.tally.files += 1;
     }
 
-    /// Counts a program with its result, and the axes that it leaves or may leave away from their start-up states.
+    /// Counts a program with its result, and the axes that it leaves or may leave away from their start-up states, each with
+    /// the result that this alone gives.
     pub fn program<'a>(
         &mut self,
         name: &str,
         result: ProgramResult,
-        axes: impl IntoIterator<Item = &'a str>,
+        axes: impl IntoIterator<Item = (ProgramResult, &'a str)>,
     ) {
-        self.tally.axes.extend(axes.into_iter().map(str::to_owned));
+        for (result, axis) in axes {
+            let axes = self.tally.axes.entry(result).or_default();
+            axes.insert(axis.to_owned());
+        }
         self.format.program(name);
         self.tally.files += 1;
         *self.tally.programs.entry(result).or_default() += 1;

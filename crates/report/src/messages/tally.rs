@@ -49,6 +49,14 @@ impl ProgramResult {
         }
     }
 
+    /// Whether it is that of an axis.
+    pub fn is_of_axis(self) -> bool {
+        matches!(
+            self,
+            Self::LeavesOff | Self::LeavesAway | Self::MayLeaveAway
+        )
+    }
+
     /// Returns the result in words, after one program and after several, about some axes.
     fn words(self, axes: &str) -> [String; 2] {
         let [one, several] = match self {
@@ -85,8 +93,8 @@ pub struct Tally {
     pub missing: u64,
     /// Programs by their results.
     pub programs: BTreeMap<ProgramResult, u64>,
-    /// The axes that are or may be left away from their start-up states.
-    pub axes: BTreeSet<String>,
+    /// The axes that are or may be left away from their start-up states, by the results that this gives.
+    pub axes: BTreeMap<ProgramResult, BTreeSet<String>>,
     /// Diagnostics by severity.
     pub counts: BTreeMap<Severity, u64>,
     /// The readings of open questions on which the results rest (R15.3).
@@ -113,11 +121,21 @@ impl Tally {
             let [one, several] = result.words("an axis");
             format!("{count} {}", if *count == 1 { one } else { several })
         };
-        let axes: Vec<&str> = self.axes.iter().map(String::as_str).collect();
-        let axes = listed(&axes).unwrap_or_else(|| "an axis".to_owned());
         let text = match (worst, all) {
             (None, _) => "no program was checked".to_owned(),
-            (Some(result), 1) => format!("{name} {}", result.words(&axes)[0]),
+            (Some(ProgramResult::Failed), 1) => format!("{name} has errors"),
+            (Some(result), 1) if self.axes.is_empty() => {
+                format!("{name} {}", result.words("an axis")[0])
+            }
+            (Some(_), 1) => {
+                let left = self.axes.iter().map(|(result, axes)| {
+                    let axes: Vec<&str> = axes.iter().map(String::as_str).collect();
+                    let [one, _] = result.words(&listed(&axes).unwrap_or_default());
+                    one
+                });
+                let left: Vec<String> = left.collect();
+                format!("{name} {}", left.join(" and "))
+            }
             (Some(result), _) if self.programs.len() == 1 => {
                 format!("{all} programs {}", result.words("an axis")[1])
             }

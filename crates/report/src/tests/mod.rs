@@ -72,7 +72,7 @@ fn the_example_as_json_lines() {
     {"record":"block","program":1,"seq":5,"file":"demo.nc","line":7,"n":55,"text":"N55 M30 ;Program end","changes":[],"friction":{"X":"inactive","Y":"inactive","Z":"unconfigured"}}
     {"record":"diagnostic","program":1,"seq":2,"code":"FC401","severity":"warning","file":"demo.nc","line":4,"column":5,"end_line":4,"end_column":22,"axis":"Y","message":"friction compensation of `Y` is left inactive","help":["add `Y[COMP ON FRICT]` before M30"]}
     {"record":"end","program":1,"seq":5,"by":"M30","friction":{"X":"inactive","Y":"inactive","Z":"unconfigured"}}
-    {"record":"summary","programs":1,"blocks":5,"errors":0,"warnings":2,"opaque":{"#HSC":3},"friction":{"X":"inactive","Y":"inactive","Z":"unconfigured"},"headline":{"standing":"bad","text":"X and Y are left off"}}
+    {"record":"summary","programs":1,"blocks":5,"errors":0,"warnings":2,"opaque":{"#HSC":3},"friction":{"X":"inactive","Y":"inactive","Z":"unconfigured"},"headline":{"standing":"bad","text":"X and Y are left off (assuming friction compensation on X and Y)"}}
     "##);
 }
 
@@ -225,7 +225,7 @@ fn the_example_as_text() {
               |
               = help: add `Y[COMP ON FRICT]` before M30
 
-    X and Y are left off
+    X and Y are left off (assuming friction compensation on X and Y)
     "#);
 }
 
@@ -258,7 +258,7 @@ fn eight_axes_stay_readable() {
        101    N10 C[COMP OFF FRICT]          on   off  -    on   on   off◄ on   on
             end by M30                       on   off  -    on   on   off  on   on
 
-    Y and C are left off
+    Y and C are left off (assuming friction compensation on X, Y, A, B, C, U and V)
     ");
 }
 
@@ -291,7 +291,7 @@ fn axes_are_listed_as_they_occur() {
          3  Z0                                              inactive    unconfigured
             end by M30                                      inactive    unconfigured
 
-    X is left off
+    X is left off (assuming friction compensation on X)
     ");
 }
 

@@ -339,8 +339,11 @@ fn list_all(checked: CheckedPrograms, listing: &mut Lister<'_>, baseline: &mut B
         };
         let results = listed().map(|said| ProgramResult::of(said, &program.left));
         let result = results.chain([certain]).min().unwrap_or(certain);
-        let worst = listed().filter(|said| ProgramResult::of(said, &program.left) == result);
-        let axes = worst.filter_map(|said| said.axis.as_deref());
+        let axes = listed().filter_map(|said| {
+            let result = ProgramResult::of(said, &program.left);
+            let axis = said.axis.as_deref().filter(|_| result.is_of_axis());
+            Some((result, axis?))
+        });
         listing.program(&program.name, result, axes);
     }
 }

@@ -18,6 +18,7 @@ use frictcomp_recordings::identify::{
 use frictcomp_recordings::value_lists::{IdentifiedFrom, render_identified};
 use frictcomp_report::results::identify::on_circles::{self, OnCirclesReport};
 use frictcomp_report::results::identify::{IdentifyReport, document, render_json};
+use frictcomp_report::visible_line;
 
 /// Runs the command.
 pub(crate) fn run(args: &mut IdentifyArgs, console: Console) -> Result<u8, Failure> {
@@ -26,7 +27,7 @@ pub(crate) fn run(args: &mut IdentifyArgs, console: Console) -> Result<u8, Failu
         return states::run(args, &options, console);
     }
     if let Some(first) = args.recordings.first() {
-        args.channels.find_axes(first)?;
+        args.channels.find_axes(first, &[])?;
     }
     let args = &*args;
     let registry = FileRegistry::default();
@@ -77,6 +78,13 @@ fn lists(args: &IdentifyArgs, outputs: &mut Outputs) -> Result<Vec<OutputFile>, 
     if axes == [""] {
         let message = "`--into` names each list after its axis, and no axis is known";
         return Err(Failure::new(message).with_help("name the axes, `--axis X,Y`"));
+    }
+    if let Some(axis) = axes
+        .iter()
+        .find(|it| it.contains(['/', '\\', ':']) || it.starts_with('.'))
+    {
+        let message = format!("`{}` is no name of a list", visible_line(axis));
+        return Err(Failure::new(message).with_help("name the axis as its channels do"));
     }
     let axes = axes.into_iter();
     axes.map(|axis| outputs.list_in_folder("--into", &folder.join(format!("{axis}.lis"))))

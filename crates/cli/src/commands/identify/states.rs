@@ -24,7 +24,7 @@ pub(super) fn run(
     let recordings = given.iter().map(|it| state_of(it));
     let recordings = recordings.collect::<Result<Vec<(&str, PathBuf)>, Failure>>()?;
     if let Some((_, first)) = recordings.first() {
-        args.channels.find_axes(first)?;
+        args.channels.find_axes(first, &[])?;
     }
     let args = &*args;
     let names: Vec<&str> = recordings.iter().map(|it| it.0).collect();

@@ -1,5 +1,6 @@
 //! The effect of a given order, program by program (R10.6).
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
@@ -7,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::subject::axis_name;
 use crate::assumptions::rests_on_text;
 use crate::document::{Headline, Standing};
-use crate::wording::{Detail, counted, listed, visible_line};
+use crate::wording::{Detail, listed, visible_line};
 use frictcomp::audit::{Selected, Step, StepAxis};
 use frictcomp::comp::Kind;
 use frictcomp::machine::Machine;
@@ -56,16 +57,18 @@ impl SequenceReport {
             } else {
                 "may move"
             };
-            let more = match inherits.len() - 1 {
+            let others = inherits.iter().map(|(step, ..)| step.file.as_str());
+            let others: BTreeSet<&str> = others.filter(|file| *file != step.file).collect();
+            let more = match others.len() {
                 0 => String::new(),
-                more => format!(
-                    "; so {} {}",
-                    if more == 1 { "does" } else { "do" },
-                    counted(more, "other program")
-                ),
+                1 => "; another program does, too, or may".to_owned(),
+                more => format!("; {more} other programs do, too, or may"),
             };
+            let stops = stopped.map_or(String::new(), |step| {
+                format!("; {} stops before its end", step.file)
+            });
             let text = format!(
-                "{} {moves} {name} outside its start-up state, left so by {by}{more}",
+                "{} {moves} {name} outside its start-up state, left so by {by}{more}{stops}",
                 step.file
             );
             (Standing::Bad, text)

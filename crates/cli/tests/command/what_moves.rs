@@ -123,7 +123,7 @@ fn every_form_moves_the_axis() {
         ),
         (
             "X",
-            "#SET AX LINK [1, X=Y]\r\n#ENABLE AX LINK [1]\r\nG74 Y1",
+            "#GANTRY ON [X, Y]\r\nG74 Y1",
             "homing",
         ),
         ("X", "#ROTATION ON [ANGLE=30]\r\nG1 Y5 F100", "frame"),

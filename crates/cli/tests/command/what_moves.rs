@@ -121,11 +121,7 @@ fn every_form_moves_the_axis() {
             "X[MC_GearIn Master=2 RatioNumerator=1 RatioDenominator=1]\r\nG0 Y5",
             "coupled",
         ),
-        (
-            "X",
-            "#GANTRY ON [X, Y]\r\nG74 Y1",
-            "homing",
-        ),
+        ("X", "#GANTRY ON [X, Y]\r\nG74 Y1", "homing"),
         ("X", "#ROTATION ON [ANGLE=30]\r\nG1 Y5 F100", "frame"),
         ("X", "#ROTATION ON [ANGLE 30]\r\nG1 Y5 F100", "frame"),
     ] {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Disk, channels_of, named_axes, read_axis, refuse_copies};
+use frictcomp_host::{Disk, read_axis, refuse_copies, sole_axis};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyOptions, ListRequest, ListRequestError, TorqueKind, identify as find,
@@ -126,8 +126,7 @@ pub(crate) fn identify(
 /// Takes the only axis by whose name the channels of a recording are recognised, if none is given.
 pub(crate) fn find_axis(selection: &mut ChannelSelection, recording: &Path) -> Result<(), Failure> {
     if selection.axis.is_none() {
-        let mut named = named_axes(&channels_of(recording)?);
-        selection.axis = if named.len() == 1 { named.pop() } else { None };
+        selection.axis = sole_axis(recording, &Disk::default())?;
     }
     Ok(())
 }

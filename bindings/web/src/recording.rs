@@ -4,6 +4,7 @@ use std::path::Path;
 
 use frictcomp_host::{
     FileRegistry, HostError, TraceError, read_axis, read_trace, read_turns, read_value_list,
+    sole_axis,
 };
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, Recording};
 use frictcomp_physics::current::Reading;
@@ -106,8 +107,12 @@ pub(crate) fn answer(
 pub(crate) fn verify(dropped: &mut Dropped, settings: &VerifySettings) -> Result<Vec<u8>, Refusal> {
     let disk = dropped.disk();
     let list = read_value_list(Path::new(&settings.list), &FileRegistry::default(), &disk)?.list;
+    let axis = match &settings.axis {
+        Some(given) => Some(given.clone()),
+        None => sole_axis(Path::new(&settings.path), &disk)?,
+    };
     let selection = ChannelSelection {
-        axis: settings.axis.clone(),
+        axis: axis.clone(),
         velocity: settings.velocity.clone(),
         torque: settings.torque.clone(),
         ..ChannelSelection::default()
@@ -121,7 +126,7 @@ pub(crate) fn verify(dropped: &mut Dropped, settings: &VerifySettings) -> Result
     let verified = verify_recording(&mut recording, &predictor)
         .map_err(|error| Refusal::new(error.to_string()))?;
     let report = VerifyReport {
-        axis: settings.axis.clone(),
+        axis,
         trace: settings.path.clone(),
         list: settings.list.clone(),
         recording,

@@ -62,7 +62,7 @@ pub use outputs::{
 };
 pub use recordings::{
     TraceError, channels_of, commanded_axes, is_recording, named_axes, read_axis, read_circles,
-    read_commanded, read_trace, read_turns, recordings_in, refuse_copies,
+    read_commanded, read_trace, read_turns, recordings_in, refuse_copies, sole_axis,
 };
 pub use run::{
     Axes, ContourSetup, GoldenDrift, GoldenFile, GoldenKind, GoldenResults, NoDrivenContour,

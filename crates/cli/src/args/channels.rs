@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::per_axis::{ByAxis, PerAxis};
 use super::quantities;
 use crate::output::Failure;
-use frictcomp_host::{FileRegistry, MachineOptions, Machines, channels_of, named_axes};
+use frictcomp_host::{Disk, FileRegistry, MachineOptions, Machines, channels_of, named_axes};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{AxisRecording, TorqueKind};
 use frictcomp_recordings::trace::{Channel, ChannelQuantity, ChannelSelection, Unit};
@@ -40,7 +40,10 @@ impl MotionChannels {
         if given.is_empty() {
             return Ok(None);
         }
-        Ok(Some(axes_meant(&channels_of(recording)?, &given)))
+        Ok(Some(axes_meant(
+            &channels_of(recording, &Disk::default())?,
+            &given,
+        )))
     }
 
     /// Returns the user's selection of the channels of one of some axes.
@@ -174,7 +177,7 @@ impl AxisChannelArgs {
     /// recognised: the ones for which a list is given, or the only one, if no axis is given.
     pub(crate) fn find_axes(&mut self, recording: &Path, lists: &[PerAxis]) -> Result<(), Failure> {
         if self.axes.is_empty() {
-            let channels = channels_of(recording)?;
+            let channels = channels_of(recording, &Disk::default())?;
             let motion = self.motion.position.iter().chain(&self.motion.velocity);
             let given: Vec<&PerAxis> = motion.chain(&self.torque.torque).collect();
             self.axes = axes_meant(&channels, &given);

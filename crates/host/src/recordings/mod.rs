@@ -12,6 +12,6 @@ pub use trace_error::TraceError;
 pub(crate) use traces::read_motion;
 pub use traces::{
     channels_of, commanded_axes, is_recording, named_axes, read_axis, read_circles, read_commanded,
-    read_trace, read_turns,
+    read_trace, read_turns, sole_axis,
 };
 pub(crate) use traces::{lacks, numbers_of, position_column};

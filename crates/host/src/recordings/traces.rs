@@ -124,20 +124,27 @@ fn feed(
 ///
 /// # Errors
 /// The file cannot be read, or is not a trace.
-pub fn channels_of(path: &Path) -> Result<Vec<Channel>, HostError> {
+pub fn channels_of(path: &Path, disk: &Disk) -> Result<Vec<Channel>, HostError> {
     let found = OnceLock::new();
     let mut reader = TraceReader::new(MAX_ROWS, |channels: &[Channel]| {
         found.get_or_init(|| channels.to_vec());
         Ok(Choice::default())
     });
-    feed(path, &Disk::default(), &mut reader, || {
-        found.get().is_some()
-    })?;
+    feed(path, disk, &mut reader, || found.get().is_some())?;
     if found.get().is_none() {
         let problem = |problem| TraceError::problem(path, problem);
         reader.finish().map_err(problem)?;
     }
     Ok(found.get().cloned().unwrap_or_default())
+}
+
+/// Returns the only axis by whose name the channels of a recording are recognised.
+///
+/// # Errors
+/// The file cannot be read, or is not a trace.
+pub fn sole_axis(path: &Path, disk: &Disk) -> Result<Option<String>, HostError> {
+    let mut named = named_axes(&channels_of(path, disk)?);
+    Ok(named.pop().filter(|_| named.is_empty()))
 }
 
 /// Returns the axes by whose names channels are recognised, in their order.
@@ -158,7 +165,7 @@ pub fn named_axes(channels: &[Channel]) -> Vec<String> {
 /// # Errors
 /// The file cannot be read, or has other content.
 pub fn commanded_axes(path: &Path) -> Result<Vec<String>, HostError> {
-    let channels = channels_of(path)?;
+    let channels = channels_of(path, &Disk::default())?;
     let any = ChannelSelection::default();
     let quantities = [ChannelQuantity::Position, ChannelQuantity::Velocity];
     if quantities.map(|quantity| any.find(quantity, &channels)) != [Ok(None), Ok(None)] {

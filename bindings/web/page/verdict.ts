@@ -44,7 +44,8 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   const notes = [...doubts(overview, given)];
   const { headline } = overview;
   if (headline !== null) {
-    const weight = headline.standing === "good" && notes.length > 0 ? "info" : WEIGHTS[headline.standing];
+    const weight = headline.standing === "good" && (notes.length > 0 || !isQuiet(overview))
+      ? "info" : WEIGHTS[headline.standing];
     return [{ weight, text: sentence(headline.text) }, ...notes];
   }
   const isConfigured = overview.axes.some((axis) => axis.startUp !== "unconfigured");
@@ -52,6 +53,12 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
     notes.push({ weight: "info", text: "No axis of this program has friction compensation configured." });
   }
   return notes;
+}
+
+/** Whether a run on a described machine came to its end, and nothing was said of it. */
+function isQuiet({ errors, warnings, infos, endedBy, machine }: Overview): boolean {
+  const isWhole = endedBy !== null && !["error", "budget"].includes(endedBy);
+  return isWhole && machine.isDescribed && errors + warnings + infos === 0;
 }
 
 /** What a verdict does not say of the run and of the dropped files. */

@@ -29,7 +29,9 @@ describe("the verdict", () => {
     expect(weights({})).toEqual(["good"]);
     const notGood: Partial<Overview>[] = [
       { headline: { standing: "open", text: "X may be left off" } }, { headline: null }, { blocks: 0 },
+      { endedBy: "error", errors: 1 }, { endedBy: "budget" }, { endedBy: null }, { warnings: 1 }, { infos: 1 },
       { remark: "no machine is described" }, { kept: 5 }, { messagesLeftOut: 1 },
+      { machine: { ...overview.machine, isDescribed: false } }, { headline: null, axes: [] },
       { axes: [{ ...axis, uncompensated: " off during 155 feed moves, the longest 812 mm" }] },
       { machine: { ...overview.machine, missing: 1 } },
       { machine: { ...overview.machine, said: [message("FC120", "wrong")] } },

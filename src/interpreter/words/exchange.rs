@@ -385,12 +385,12 @@ fn impossible_pair(arguments: &BracketArguments, text: &str) -> Option<(u32, Str
     let pairs: Vec<[&str; 2]> = arguments.pairs(text).collect();
     pairs.iter().enumerate().find_map(|(at, &[slave, master])| {
         if slave == master {
-            return Some((20475, format!("axis `{slave}` would follow itself")));
+            return Some((20475, format!("axis `{slave}` would be its own master")));
         }
         if pairs[..at].iter().any(|other| other[0] == slave) {
-            return Some((20476, format!("axis `{slave}` would follow two axes")));
+            return Some((20476, format!("axis `{slave}` would have two masters")));
         }
         let is_master = pairs.iter().any(|other| other[1] == slave);
-        is_master.then(|| (20477, format!("axis `{slave}` would lead and follow")))
+        is_master.then(|| (20477, format!("axis `{slave}` would be master and slave")))
     })
 }

@@ -435,7 +435,7 @@ impl Executor {
             && self.state.control.couplings.is_any()
             && let Some(word) = self.scratch.moves.words().first()
         {
-            let what = "G74 stands where a coupling group is active";
+            let what = "G74 is called while a coupling group is active";
             self.may_refuse(20137, what, word.span, at);
         }
         // The lint for switches during motion looks at arcs (R1.57).

@@ -446,6 +446,23 @@ fn recordings_without_friction_are_refused() {
 }
 
 #[test]
+fn friction_above_the_rated_torque_at_any_speed_is_no_list() {
+    // R6.21
+    let track = track(Bench::default().record());
+    let found = identify(&track, &IdentifyOptions::default()).expect("friction");
+    let frictions = found.pairs.iter().map(|pair| pair.friction.abs());
+    let most = frictions.fold(0.0, f64::max);
+    let with = |rated: f64| {
+        let mut options = IdentifyOptions::default();
+        options.measured.rated = Some(rated);
+        identify(&track, &options)
+    };
+    assert!(with(1.1 * most).is_ok());
+    let error = with(0.9 * most).expect_err("one speed above it");
+    assert!(error.to_string().contains("of the rated torque"), "{error}");
+}
+
+#[test]
 fn friction_that_differs_by_direction_fits_no_list() {
     // R6.20 R6.25: an offset, such as a weight, is no such difference.
     let even = track(Bench::default().record());

@@ -1,6 +1,7 @@
 //! Many programs: which there are, how they call each other, what their order does.
 
 mod audits;
+mod baseline;
 mod call_graph;
 mod changed_programs;
 mod checks;
@@ -13,6 +14,7 @@ mod unread;
 mod walk;
 
 pub use audits::{ArchiveAuditor, AuditOptions, programs_in_order};
+pub use baseline::{Baseline, KnownFindings};
 pub use call_graph::{CallGraph, FoundCall, GraphProgram, MissingCall};
 pub use changed_programs::ChangedPrograms;
 pub use checks::{

@@ -38,10 +38,10 @@ mod workers;
 
 pub use archive::{
     ArchiveAuditor, AuditOptions, Baseline, CallGraph, CalledPrograms, ChangedFile,
-    ChangedPrograms, CheckOptions, CheckedProgram, CheckedPrograms, FoundCall, FoundPrograms,
-    GraphProgram, KnownFindings, LeftOutFile, LeftOutFiles, MendedProgram, MissingCall, OldFile,
-    ProgramsOnMachines, Revision, UnreadVariable, WhyLeftOut, find_programs, find_startup,
-    outline_of, programs_in_order, unread_variables,
+    ChangedPrograms, CheckOptions, CheckedProgram, CheckedPrograms, FoundCall, FoundList,
+    FoundPrograms, GraphProgram, KnownFindings, LeftOutFile, LeftOutFiles, MendedProgram,
+    MissingCall, OldFile, ProgramsOnMachines, Revision, UnreadVariable, WhyLeftOut, find_programs,
+    lists_below, outline_of, programs_in_order, unread_variables,
 };
 pub use disk::{
     CONFIG_NAME, Disk, EncodedText, FileRegistry, FolderOptions, FolderSelection, IgnoreFiles,

@@ -21,7 +21,7 @@ pub use checks::{
     CalledPrograms, CheckOptions, CheckedProgram, CheckedPrograms, ProgramsOnMachines,
 };
 pub use cures::MendedProgram;
-pub use first_look::{find_startup, outline_of};
+pub use first_look::{FoundList, lists_below, outline_of};
 pub use git::{ChangedFile, OldFile, Revision};
 pub use left_out::{LeftOutFile, LeftOutFiles, WhyLeftOut};
 pub use unread::{UnreadVariable, unread_variables};

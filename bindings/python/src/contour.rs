@@ -140,19 +140,19 @@ impl ContourJob {
         let loaded = watched_machine_of(self.machine.clone(), &self.programs, watcher)?;
         let setup = self.setup(&loaded)?;
         let input = &self.programs.inputs[0];
-        let mut contour = drive_contour(input, &loaded, &setup, recorder)?;
+        let (contour, mut recorder) = drive_contour(input, &loaded, &setup, recorder)?;
         let subject = ContourSubject {
             program: input.name(Naming::AsGiven),
             plant: self.plant,
         };
-        let picture = contour.sink().take_picture();
+        let picture = recorder.take_picture();
         let picture = picture.expect("the recorder draws");
         let chart = picture.chart(&subject.heading(&contour));
         Ok(Driven {
-            record: render_json(&mut contour, &ContourLimits::default()),
+            record: render_json(&contour, &recorder, &ContourLimits::default()),
             svg: chart.render(Frame::Alone),
             remarks: contour_remarks(&contour, Detail::Full),
-            said: GivenMessages::of_trace(contour.diagnostics(), &loaded),
+            said: GivenMessages::of_trace((&contour.errors, &contour.remarks), &loaded),
         })
     }
 

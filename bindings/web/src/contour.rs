@@ -5,7 +5,7 @@ use std::sync::Arc;
 use frictcomp::diagnostic::UnknownName;
 use frictcomp::interpreter::Options;
 use frictcomp_host::{ContourSetup, LoadedMachine, Naming, NoDrivenContour, Watch, drive_contour};
-use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
+use frictcomp_physics::contour::{ContourOptions, ContourReport, NoContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_report::Detail;
@@ -48,7 +48,7 @@ struct ContourAnswer<'a> {
 }
 
 /// A contour that was driven, and its names.
-type Driven = (ProgramContour<ContourRecorder<'static>>, ContourSubject);
+type Driven = (ContourReport, ContourRecorder<'static>, ContourSubject);
 
 fn drive(dropped: &mut Dropped, settings: &ContourSettings) -> Result<Driven, Refusal> {
     let input = dropped.program(&settings.program)?;
@@ -57,12 +57,12 @@ fn drive(dropped: &mut Dropped, settings: &ContourSettings) -> Result<Driven, Re
     expect_axes(&loaded, &settings.start)?;
     loaded.watch = Arc::new(Watch::by(Arc::new(Page)));
     let setup = setup(&loaded, settings)?;
-    let contour = drive_contour(&input, &loaded, &setup, recorder)?;
+    let (contour, recorder) = drive_contour(&input, &loaded, &setup, recorder)?;
     let subject = ContourSubject {
         program: input.name(Naming::AsGiven),
         plant: settings.plant.clone(),
     };
-    Ok((contour, subject))
+    Ok((contour, recorder, subject))
 }
 
 /// Refuses a start of an axis that the machine does not have.
@@ -110,28 +110,26 @@ pub(crate) fn answer(
     dropped: &mut Dropped,
     settings: &ContourSettings,
 ) -> Result<Vec<u8>, Refusal> {
-    let (mut contour, subject) = drive(dropped, settings)?;
-    let has_moved = contour.machine_time_s() > 0.0;
-    let picture = contour.sink().take_picture().filter(|_| has_moved);
+    let (contour, mut recorder, subject) = drive(dropped, settings)?;
+    let picture = recorder.take_picture().filter(|_| contour.has_moved());
     let chart = picture.map(|picture| picture.chart(&subject.heading(&contour)));
-    let document = document(&mut contour, &subject);
+    let document = document(&contour, &recorder, &subject);
     let svg = chart.map(|chart| chart.render(Frame::Alone));
     Ok(json(&ContourAnswer {
         drawn: DrawnReport {
             svg,
             report: document.shown(Detail::Brief),
         },
-        notes: notes(&contour, has_moved),
+        notes: notes(&contour),
     }))
 }
 
-fn notes(contour: &ProgramContour<ContourRecorder<'_>>, has_moved: bool) -> Vec<String> {
-    let (errors, remarks) = contour.diagnostics();
-    let said = errors.iter().chain(remarks);
-    let mut notes: Vec<String> = said
+fn notes(contour: &ContourReport) -> Vec<String> {
+    let mut notes: Vec<String> = contour
+        .diagnostics()
         .map(|said| format!("{} {}", said.code, said.message))
         .collect();
-    if !has_moved {
+    if !contour.has_moved() {
         notes.push(
             "no motion was driven: program absolute positions and F first, or say above where the \
              axes start"
@@ -146,16 +144,16 @@ pub(crate) fn report(
     dropped: &mut Dropped,
     settings: &ContourSettings,
 ) -> Result<Vec<u8>, Refusal> {
-    let (mut contour, subject) = drive(dropped, settings)?;
-    let picture = contour.sink().take_picture();
+    let (contour, mut recorder, subject) = drive(dropped, settings)?;
+    let picture = recorder.take_picture();
     let picture = picture.ok_or_else(|| Refusal::new("nothing was driven"))?;
     let mut written = Vec::new();
     let mut sources = Texts(dropped.disk());
     render_contour(
-        (&mut contour, &subject),
+        (&contour, &recorder),
+        &subject,
         &picture,
-        &mut sources,
-        &mut written,
+        (&mut sources, &mut written),
     )
     .map_err(|error| Refusal::new(error.to_string()))?;
     Ok(written)

@@ -10,7 +10,7 @@ use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp_host::{
     FileRegistry, Input, LoadedMachine, Naming, NoDrivenContour, OutputFile, drive_contour,
 };
-use frictcomp_physics::contour::{ContourLimits, ContourOptions, ProgramContour};
+use frictcomp_physics::contour::{ContourLimits, ContourOptions, ContourReport};
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::results::contour::{
@@ -88,23 +88,22 @@ pub(crate) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     outputs.check()?;
     let width = result.look.width;
     let target = &mut result;
-    let mut contour = drive_contour(&input, &loaded, &setup, |options| {
+    let (contour, mut recorder) = drive_contour(&input, &loaded, &setup, |options| {
         args.recorder(options, (target, &pictures))
     })?;
-    check(&mut contour)?;
+    check(&mut recorder)?;
     let subject = ContourSubject {
         program: input.name(Naming::AsGiven),
         plant: simulation.plant().to_owned(),
     };
-    pictures.draw(&mut contour, &subject)?;
+    pictures.draw((&contour, &mut recorder), &subject)?;
     let text = match args.result.format {
-        ContourFormat::Text => document(&mut contour, &subject).text(console.detail, width),
-        ContourFormat::Json => render_json(&mut contour, &limits),
+        ContourFormat::Text => document(&contour, &recorder, &subject).text(console.detail, width),
+        ContourFormat::Json => render_json(&contour, &recorder, &limits),
         ContourFormat::Ndjson => render_summary(&contour, &limits),
         ContourFormat::Csv => String::new(),
     };
     let said = said(&contour, &loaded);
-    let has_moved = contour.machine_time_s() > 0.0;
     // A row has no place for remarks on the whole program.
     let remarks = match args.result.format {
         ContourFormat::Csv if limits.any() => contour_remarks(&contour, console.detail),
@@ -116,11 +115,11 @@ pub(crate) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
         _ => Vec::new(),
     };
     let exceeded = limit_remarks(&contour, &limits);
-    drop(contour);
+    drop(recorder);
     result.text(&text)?;
     outputs.finish()?;
     console.show(&said);
-    if !has_moved {
+    if !contour.has_moved() {
         Console::talk(
             "no motion was driven: program absolute positions and F first, or give the axis \
              positions with `--start X0,Y0`",
@@ -140,8 +139,8 @@ pub(crate) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
 }
 
 /// Checks for a reason to stop a contour before the program ends.
-fn check(contour: &mut ProgramContour<ContourRecorder<'_>>) -> Result<(), Failure> {
-    match contour.sink().take_error() {
+fn check(recorder: &mut ContourRecorder<'_>) -> Result<(), Failure> {
+    match recorder.take_error() {
         Some(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(Failure::output(error))
         }
@@ -158,10 +157,10 @@ struct Pictures {
 impl Pictures {
     fn draw(
         &mut self,
-        contour: &mut ProgramContour<ContourRecorder<'_>>,
+        (contour, recorder): (&ContourReport, &mut ContourRecorder<'_>),
         subject: &ContourSubject,
     ) -> Result<(), Failure> {
-        let Some(picture) = contour.sink().take_picture() else {
+        let Some(picture) = recorder.take_picture() else {
             return Ok(());
         };
         if let Some(svg) = &mut self.svg {
@@ -169,7 +168,7 @@ impl Pictures {
             write_text(svg, &chart.render(Frame::Alone))?;
         }
         if let Some(html) = &mut self.html {
-            render_contour((contour, subject), &picture, &mut Files, html)
+            render_contour((contour, recorder), subject, &picture, (&mut Files, html))
                 .map_err(Failure::output)?;
         }
         Ok(())
@@ -227,10 +226,9 @@ impl ContourArgs {
 }
 
 /// Returns the messages: errors of the program, remarks on the trace.
-fn said(contour: &ProgramContour<ContourRecorder<'_>>, loaded: &LoadedMachine) -> Vec<Diagnostic> {
-    let (errors, remarks) = contour.diagnostics();
-    let mut said = errors.to_vec();
-    for remark in remarks {
+fn said(contour: &ContourReport, loaded: &LoadedMachine) -> Vec<Diagnostic> {
+    let mut said = contour.errors.clone();
+    for remark in &contour.remarks {
         if let Some(severity) = loaded.levels.severity(remark.code) {
             let mut remark = remark.clone();
             remark.severity = severity;

@@ -260,13 +260,13 @@ fn contour(
     let simulation = &args.simulation;
     let of = (loaded, Naming::FileName);
     let setup = simulation.setup(of, &args.execution, registry)?;
-    let mut contour = drive_contour(program, loaded, &setup, |_| BlockDeviations::default())?;
+    let contour = drive_contour(program, loaded, &setup, |_| BlockDeviations::default())?;
     let subject = GoldenContour {
         program: program.name(Naming::FileName),
         plant: simulation.plant().to_owned(),
         start: simulation.start.given().to_vec(),
     };
-    Ok(agreed_contour(&mut contour, &subject))
+    Ok(agreed_contour(contour, &subject))
 }
 
 /// Returns the timeline of one program, the same on every machine and in every folder.

@@ -20,7 +20,7 @@ use frictcomp_host::{
     ContourSetup, FileRegistry, Input, LoadedMachine, MachineOptions, Machines, Naming,
     NoDrivenContour, Progress, Watch, Watcher, drive_contour, find_plant,
 };
-use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
+use frictcomp_physics::contour::{ContourOptions, ContourReport, NoContour};
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::{FrictionModel, Preset};
 use frictcomp_report::Detail;
@@ -121,16 +121,15 @@ pub(super) fn contour(view: &RequestView, params: &ContourParams) -> Result<Cont
     loaded.watch = Arc::new(Watch::by(Arc::new(Asker(view.cancel.clone()))));
     let settings = &view.client.settings.contour;
     let setup = setup(view, &loaded)?;
-    let mut driven = drive_contour(&input, &loaded, &setup, recorder)?;
+    let (driven, mut recorder) = drive_contour(&input, &loaded, &setup, recorder)?;
     let subject = ContourSubject {
         program: name(open),
         plant: settings.plant.clone(),
     };
     let remarks = remarks(&driven, &loaded, settings);
-    let has_moved = driven.machine_time_s() > 0.0;
     let heading = subject.heading(&driven);
-    let picture = driven.sink().take_picture().filter(|_| has_moved);
-    let report = json!(document(&mut driven, &subject).shown(Detail::Full));
+    let picture = recorder.take_picture().filter(|_| driven.has_moved());
+    let report = json!(document(&driven, &recorder, &subject).shown(Detail::Full));
     let shown = picture.map(|picture| picture.followed(&heading));
     Ok(Contour::of(view, shown, (report, remarks)))
 }
@@ -190,7 +189,7 @@ fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
 
 /// Returns what the contour is based on, and what it lacks.
 fn remarks(
-    driven: &ProgramContour<ContourRecorder<'_>>,
+    driven: &ContourReport,
     loaded: &LoadedMachine,
     settings: &ContourSettings,
 ) -> Vec<String> {
@@ -207,14 +206,13 @@ fn remarks(
             settings.plant
         ));
     }
-    if driven.machine_time_s() <= 0.0 {
+    if !driven.has_moved() {
         remarks.push(
             "no motion was driven: program absolute positions and F first, or give the axis positions in `frictcomp.contour.start`"
                 .to_owned(),
         );
     }
-    let (errors, notes) = driven.diagnostics();
-    let said = errors.iter().chain(notes);
+    let said = driven.diagnostics();
     remarks.extend(said.map(|said| format!("{} {}", said.code, said.message)));
     remarks
 }

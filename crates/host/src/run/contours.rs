@@ -15,7 +15,7 @@ use frictcomp::lists::FrictionList;
 use frictcomp::session::SessionOptions;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_physics::contour::{
-    ContourOptions, ContourSink, MovingAxes, NoContour, ProgramContour, parameterise,
+    ContourOptions, ContourReport, ContourSink, MovingAxes, NoContour, ProgramContour, parameterise,
 };
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::{Cause, PlannerOptions, ProgramTrace, Sample, TraceSink};
@@ -67,7 +67,7 @@ pub enum NoDrivenContour {
 }
 
 /// Drives the path of a program: a first run finds the axes that move, and, if there is a watcher,
-/// the machine time; a second one drives them. `sink` is made for the driven axes.
+/// the machine time; a second one drives them. `sink` is made for the driven axes, and returned with the contour.
 ///
 /// # Errors
 /// The program cannot be read or its axes cannot be driven, a drive is unstable, or the watcher stops it.
@@ -76,7 +76,7 @@ pub fn drive_contour<S: ContourSink>(
     loaded: &LoadedMachine,
     setup: &ContourSetup,
     sink: impl FnOnce(&ContourOptions) -> S,
-) -> Result<ProgramContour<S>, NoDrivenContour> {
+) -> Result<(ContourReport, S), NoDrivenContour> {
     if *input == Input::Stdin {
         return Err(NoDrivenContour::OnlyOnce);
     }
@@ -118,14 +118,14 @@ pub fn drive_contour<S: ContourSink>(
     if loaded.watch.is_stopped() {
         return Err(NoDrivenContour::Stopped);
     }
-    contour.finish();
-    if contour.is_unstable() {
+    let (report, sink) = contour.finish();
+    if report.is_unstable {
         return Err(NoDrivenContour::Unstable {
             program: input.name(Naming::AsGiven),
-            after_s: contour.machine_time_s(),
+            after_s: report.machine_time_s,
         });
     }
-    Ok(contour)
+    Ok((report, sink))
 }
 
 /// Facts known before the axes are driven.

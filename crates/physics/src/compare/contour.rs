@@ -4,7 +4,7 @@
 use super::alignment::align;
 use super::comparison::Which;
 use crate::contour::{
-    BlockDeviation, BlockDeviations, ContourObstacle, Deviations, ProgramContour, WorstPlace,
+    BlockDeviation, BlockDeviations, ContourObstacle, ContourReport, Deviations, WorstPlace,
 };
 
 /// The contour of one version.
@@ -15,13 +15,12 @@ pub struct VersionContour {
     obstacles: Vec<ContourObstacle>,
 }
 
-impl From<ProgramContour<BlockDeviations>> for VersionContour {
-    fn from(mut contour: ProgramContour<BlockDeviations>) -> Self {
-        let obstacles = contour.obstacles();
+impl From<(ContourReport, BlockDeviations)> for VersionContour {
+    fn from((contour, blocks): (ContourReport, BlockDeviations)) -> Self {
         Self {
-            deviations: contour.deviations().programmed.clone(),
-            blocks: std::mem::take(contour.sink()).into_blocks(),
-            obstacles,
+            deviations: contour.deviations.programmed,
+            blocks: blocks.into_blocks(),
+            obstacles: contour.obstacles,
         }
     }
 }

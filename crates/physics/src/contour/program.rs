@@ -12,6 +12,7 @@ use super::obstacle::ContourObstacle;
 use super::options::{ContourAxis, ContourOptions, MOST_AXES};
 use super::path::{CommandedPath, Distance, Places};
 use super::per_run::PerRun;
+use super::report::ContourReport;
 use super::reversals::{ContourReversal, ReversalFinder, WindowEvent};
 use super::run::DrivenRun;
 use crate::current::{
@@ -19,11 +20,9 @@ use crate::current::{
     VELOCITY_UNITS_PER_MM_PER_S,
 };
 use crate::motion::{
-    AssumedLimits, Cause, Movement, ProgramTrace, Sample, TraceSink, Transitions,
-    without_assumed_limits,
+    AssumedLimits, Cause, Movement, ProgramTrace, Sample, TraceSink, without_assumed_limits,
 };
 use frictcomp::comp::{AxisIndex, State};
-use frictcomp::diagnostic::Diagnostic;
 use frictcomp::interpreter::{Motion, PositionFrame};
 use frictcomp::machine::Machine;
 use frictcomp::readings::QuestionSet;
@@ -189,64 +188,73 @@ impl<S: ContourSink> ProgramContour<S> {
         self.trace.sink_ref()
     }
 
-    /// Ends the session: the rest of the trace is driven.
-    pub fn finish(&mut self) {
+    /// Ends the session: the rest of the trace is driven. Returns the contour and the listener.
+    pub fn finish(mut self) -> (ContourReport, S) {
         if self.trace.finish().is_continue() {
             let _ = self.trace.sink().drain();
         }
         if let Some(unlimited) = &mut self.unlimited {
             let _ = unlimited.finish();
         }
+        let slow_share_by_assumed = self.slow_share_by_assumed();
+        let obstacles = self.obstacles(slow_share_by_assumed);
+        let machine_time_s = self.machine_time_s();
+        let time_not_of_the_machine_s = self.time_not_of_the_machine_s();
+        let transitions = self.trace.transitions();
+        let (errors, remarks) = self.trace.diagnostics();
+        let (errors, remarks) = (errors.to_vec(), remarks.to_vec());
+        let (is_cut_short, left_out) = (self.trace.is_cut_short(), self.trace.left_out());
+        let moving = self.moving;
+        let assumed = self.assumed.into_iter();
+        let assumed = assumed.filter(|(axis, _)| moving.contains(*axis));
+        let assumed_limits = assumed.map(|(_, limits)| limits).collect();
+        let Tracer {
+            options,
+            deviations,
+            due,
+            feed,
+            axes,
+            is_unstable,
+            sink,
+            ..
+        } = self.trace.into_sink();
+        let report = ContourReport {
+            options,
+            deviations,
+            due,
+            feed,
+            slow_share_by_assumed,
+            assumed_limits,
+            transitions,
+            obstacles,
+            axes,
+            machine_time_s,
+            time_not_of_the_machine_s,
+            is_cut_short,
+            is_unstable,
+            left_out,
+            errors,
+            remarks,
+            rests_on: self.rests_on,
+        };
+        (report, sink)
     }
 
-    /// Returns the readings of open questions on which the contour rests, once the session is over (R15.3).
-    pub fn rests_on(&self) -> &ReadingsInForce {
-        &self.rests_on
+    /// The machine time in s that has been driven.
+    pub fn machine_time_s(&self) -> f64 {
+        seconds(self.tracer().cycles, self.tracer().options.planner.cycle_s)
     }
 
-    /// Returns the deviations of each run from the path.
-    pub fn deviations(&self) -> &PerRun<Deviations> {
-        &self.tracer().deviations
+    fn time_not_of_the_machine_s(&self) -> f64 {
+        let cycles = self.tracer().not_of_the_machine;
+        seconds(cycles, self.tracer().options.planner.cycle_s)
     }
 
-    /// Returns the cost of missing compensation.
-    pub fn due(&self) -> &Due {
-        &self.tracer().due
-    }
-
-    /// The programmed and the reached feed.
-    pub fn feed(&self) -> &FeedReached {
-        &self.tracer().feed
-    }
-
-    /// The share of the cutting time that runs below 80 % of F because of assumed limits (R11.23): it
-    /// would not if the moving axes had no limits other than those of the configuration.
-    pub fn slow_share_by_assumed(&self) -> f64 {
+    fn slow_share_by_assumed(&self) -> f64 {
         let unlimited = self.unlimited.as_ref().map(ProgramTrace::sink_ref);
         unlimited.map_or(0.0, |FeedOnly(unlimited)| {
-            self.feed().slow_share_against(unlimited)
+            self.tracer().feed.slow_share_against(unlimited)
         })
-    }
-
-    /// The assumed limits of the axes that the program moves.
-    pub fn assumed_limits(&self) -> impl Iterator<Item = &AssumedLimits> {
-        let assumed = self.assumed.iter();
-        let moving = assumed.filter(|(axis, _)| self.moving.contains(*axis));
-        moving.map(|(_, limits)| limits)
-    }
-
-    /// Whether every motion was driven, with positions of the machine: otherwise an axis may reverse
-    /// more often.
-    pub fn is_whole(&self) -> bool {
-        let is_beside = |it: &ContourObstacle| {
-            matches!(
-                it,
-                ContourObstacle::AssumedLimits(_)
-                    | ContourObstacle::NothingCut
-                    | ContourObstacle::UnknownState(..)
-            )
-        };
-        self.left_out() == 0 && self.obstacles().iter().all(is_beside)
     }
 
     /// The axes that are cut while their state is not known.
@@ -263,29 +271,26 @@ impl<S: ContourSink> ProgramContour<S> {
         })
     }
 
-    /// Returns the treatment of the transitions between feed moves.
-    pub fn transitions(&self) -> Transitions {
-        self.trace.transitions()
-    }
-
     /// Returns the obstacles to a verdict on the whole contour.
-    pub fn obstacles(&self) -> Vec<ContourObstacle> {
+    fn obstacles(&self, slow_share_by_assumed: f64) -> Vec<ContourObstacle> {
         let mut obstacles = Vec::new();
+        let left_out = self.trace.left_out_feed();
+        let deviations = &self.tracer().deviations;
         if self.machine_time_s() <= 0.0 {
             obstacles.push(ContourObstacle::NotDriven);
-        } else if self.left_out_feed() == 0 && self.deviations().programmed.max_at().is_none() {
+        } else if left_out == 0 && deviations.programmed.max_at().is_none() {
             obstacles.push(ContourObstacle::NothingCut);
         }
-        if self.left_out_feed() > 0 {
+        if left_out > 0 {
             obstacles.push(ContourObstacle::LeftOut(
-                self.left_out_feed(),
+                left_out,
                 self.trace.left_out_feed_at().to_vec(),
             ));
         }
         let undecided = self.trace.undecided().iter();
         obstacles.extend(undecided.map(ContourObstacle::undecided));
         obstacles.extend(self.unknown_states());
-        let (errors, remarks) = self.diagnostics();
+        let (errors, remarks) = self.trace.diagnostics();
         let budgets = remarks.iter().filter(|remark| remark.code.is_budget());
         let ends = errors.iter().chain(budgets);
         for end in ends.map(|end| ContourObstacle::Ended(end.code)) {
@@ -297,64 +302,10 @@ impl<S: ContourSink> ProgramContour<S> {
         if seconds > 0.0 {
             obstacles.push(ContourObstacle::NotOfTheMachine(seconds));
         }
-        let share = self.slow_share_by_assumed();
-        if is_too_slow(share) {
-            obstacles.push(ContourObstacle::AssumedLimits(share));
+        if is_too_slow(slow_share_by_assumed) {
+            obstacles.push(ContourObstacle::AssumedLimits(slow_share_by_assumed));
         }
         obstacles
-    }
-
-    /// The reversals of each axis, those of the plane first.
-    pub fn axes(&self) -> &[ContourSummary] {
-        &self.tracer().axes
-    }
-
-    /// The machine time in s that was driven.
-    pub fn machine_time_s(&self) -> f64 {
-        seconds(self.tracer().cycles, self.tracer().options.planner.cycle_s)
-    }
-
-    /// The machine time in s in which positions were not those of the machine (R11.8).
-    pub fn time_not_of_the_machine_s(&self) -> f64 {
-        let cycles = self.tracer().not_of_the_machine;
-        seconds(cycles, self.tracer().options.planner.cycle_s)
-    }
-
-    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
-    /// known.
-    pub fn is_cut_short(&self) -> bool {
-        self.trace.is_cut_short()
-    }
-
-    /// Returns the number of motions left out because their target or their feed is not known.
-    pub fn left_out(&self) -> u64 {
-        self.trace.left_out()
-    }
-
-    /// Returns the number of those that are not known to be rapid moves: their deviation may be of any
-    /// size.
-    pub fn left_out_feed(&self) -> u64 {
-        self.trace.left_out_feed()
-    }
-
-    /// Whether a drive was unstable; the contour ends there.
-    pub fn is_unstable(&self) -> bool {
-        self.tracer().is_unstable
-    }
-
-    /// The axes, their drives and their lists.
-    pub fn options(&self) -> &ContourOptions {
-        &self.tracer().options
-    }
-
-    /// The errors that the session reported, then the messages about the trace.
-    pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
-        self.trace.diagnostics()
-    }
-
-    /// The listener to the contour.
-    pub fn sink(&mut self) -> &mut S {
-        &mut self.trace.sink().sink
     }
 }
 

@@ -1,7 +1,6 @@
 //! The verdict on a contour against limits (R11.24).
 
-use super::obstacle::ContourObstacle;
-use super::program::{ContourSink, ProgramContour};
+use super::report::ContourReport;
 use crate::motion::Cause;
 use std::sync::Arc;
 
@@ -58,14 +57,9 @@ impl ContourLimits {
         self.deviation_um.is_some() || self.due_um.is_some()
     }
 
-    /// Returns the verdict on a contour with these obstacles; `None` if it can be judged and there is no
-    /// limit.
-    pub fn verdict<S: ContourSink>(
-        &self,
-        contour: &ProgramContour<S>,
-        obstacles: &[ContourObstacle],
-    ) -> Option<ContourVerdict> {
-        if !obstacles.is_empty() {
+    /// Returns the verdict on a contour; `None` if it can be judged and there is no limit.
+    pub fn verdict(&self, contour: &ContourReport) -> Option<ContourVerdict> {
+        if !contour.obstacles.is_empty() {
             return Some(ContourVerdict::NotJudged);
         }
         let verdict = if self.exceeded(contour).is_empty() {
@@ -77,9 +71,9 @@ impl ContourLimits {
     }
 
     /// Returns the figures of a contour that are above their limits, with their places.
-    pub fn exceeded<S: ContourSink>(&self, contour: &ProgramContour<S>) -> Vec<ExceededLimit> {
-        let programmed = &contour.deviations().programmed;
-        let due = contour.due();
+    pub fn exceeded(&self, contour: &ContourReport) -> Vec<ExceededLimit> {
+        let programmed = &contour.deviations.programmed;
+        let due = &contour.due;
         let figures = [
             (
                 LimitedFigure::Deviation,

@@ -150,6 +150,11 @@ impl<S: TraceSink> ProgramTrace<S> {
     pub fn sink(&mut self) -> &mut S {
         &mut self.sink
     }
+
+    /// Ends the trace where it is, and returns its receiver.
+    pub fn into_sink(self) -> S {
+        self.sink
+    }
 }
 
 /// Most stretches that are named.

@@ -13,7 +13,7 @@ use super::source::Sources;
 use crate::pictures::ContourPicture;
 use crate::results::contour::{ContourRecorder, ContourSubject, document};
 use frictcomp::comp::State;
-use frictcomp_physics::contour::{ContourReversal, ProgramContour};
+use frictcomp_physics::contour::{ContourReport, ContourReversal};
 
 const LINES: PagePart<'_> = PagePart::new("lines", "Reversals by line");
 const SOURCE: PagePart<'_> = PagePart::new("source", "Source with its reversals");
@@ -27,17 +27,16 @@ const MAX_LINES: usize = 500;
 /// # Errors
 /// Those of `out`.
 pub fn render_contour(
-    (contour, subject): (&mut ProgramContour<ContourRecorder<'_>>, &ContourSubject),
+    (contour, recorder): (&ContourReport, &ContourRecorder<'_>),
+    subject: &ContourSubject,
     picture: &ContourPicture,
-    sources: &mut dyn Sources,
-    out: &mut dyn Write,
+    (sources, out): (&mut dyn Sources, &mut dyn Write),
 ) -> io::Result<()> {
-    let told = document(contour, subject);
     let name = subject.heading(contour);
     let is_whole = contour.is_whole();
-    let reversals = contour.sink().reversals();
+    let reversals = recorder.reversals();
     let files = ReversedFiles::of(reversals);
-    let mut document = told;
+    let mut document = document(contour, recorder, subject);
     document.leading_figure(|| {
         let picture = picture.clone();
         picture.linked_chart(&name, |file, line| files.link(file, line))

@@ -142,8 +142,8 @@ pub(crate) fn drive_on(
     parameterise(&mut machine, &axes);
     let mut contour = ProgramContour::new(&machine, ContourOptions::new(axes), found);
     run(&machine, program, (at, &mut contour));
-    contour.finish();
-    assert!(!contour.is_unstable());
-    assert_eq!(contour.left_out(), 0);
-    std::mem::take(contour.sink())
+    let (report, found) = contour.finish();
+    assert!(!report.is_unstable);
+    assert_eq!(report.left_out, 0);
+    found
 }

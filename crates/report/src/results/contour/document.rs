@@ -10,7 +10,7 @@ use crate::document::{Document, Headline, Phrase, Standing, Table};
 use crate::wording::{Detail, counted, glitch_in_words, visible_line};
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{
-    ContourReversal, ContourSink, ContourSummary, Deviations, GlitchFigure, ProgramContour,
+    ContourReport, ContourReversal, ContourSummary, Deviations, GlitchFigure,
 };
 use frictcomp_physics::motion::Cause;
 
@@ -25,8 +25,8 @@ pub struct ContourSubject {
 
 impl ContourSubject {
     /// The program, and whether its contour is judged.
-    pub fn heading<S: ContourSink>(&self, contour: &ProgramContour<S>) -> String {
-        if contour.obstacles().is_empty() {
+    pub fn heading(&self, contour: &ContourReport) -> String {
+        if contour.obstacles.is_empty() {
             self.program.clone()
         } else {
             format!("{}, not judged", self.program)
@@ -36,8 +36,8 @@ impl ContourSubject {
 
 /// The verdict: the reversals without compensation and what they cost, or what is not judged (R18.11, R18.20,
 /// R18.26).
-pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
-    let missing = contour.axes().iter().filter(|axis| axis.uncompensated > 0);
+pub fn headline(contour: &ContourReport) -> Headline {
+    let missing = contour.axes.iter().filter(|axis| axis.uncompensated > 0);
     let costs = |axis: &&ContourSummary| {
         let dearest = axis.dearest.as_ref();
         dearest.is_some_and(|it| it.figure == GlitchFigure::Measured)
@@ -61,7 +61,7 @@ pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
         format!("{} is not compensated at {reversals}{cost}", axis.axis)
     });
     let missing: Vec<String> = missing.collect();
-    let worst = contour.axes().iter().filter_map(|axis| axis.worst.as_ref());
+    let worst = contour.axes.iter().filter_map(|axis| axis.worst.as_ref());
     let worst = worst.max_by(|one, other| {
         one.glitch_um
             .programmed
@@ -88,7 +88,7 @@ pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
             ProgramBlock::from(worst).words()
         );
         (Standing::Good, text)
-    } else if contour.deviations().programmed.max_at().is_some() {
+    } else if contour.deviations.programmed.max_at().is_some() {
         (Standing::Good, "no axis reverses while cutting".to_owned())
     } else {
         (
@@ -96,8 +96,7 @@ pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
             "no path was driven while cutting".to_owned(),
         )
     };
-    let obstacles = contour.obstacles();
-    match (obstacles.first(), standing) {
+    match (contour.obstacles.first(), standing) {
         (None, _) => Headline::new(standing, found),
         (Some(first), standing) => {
             let standing = if standing == Standing::Bad {
@@ -112,28 +111,28 @@ pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
 
 /// The figures of the three runs, a sentence for each axis, the worst reversals, and the conditions.
 pub fn document(
-    contour: &mut ProgramContour<ContourRecorder<'_>>,
+    contour: &ContourReport,
+    recorder: &ContourRecorder<'_>,
     subject: &ContourSubject,
 ) -> Document<'static> {
     let title = format!("Contour of {}", subject.heading(contour));
     let mut out = Document::new(title, headline(contour));
-    let axes = &contour.options().axes;
+    let axes = &contour.options.axes;
     let _ = writeln!(
         out,
         "\n{}: contour in the plane {}{}, {:.3} s of machine time, plant {}\n",
         visible_line(&subject.program),
         axes[0].name,
         axes[1].name,
-        contour.machine_time_s(),
+        contour.machine_time_s,
         visible_line(&subject.plant),
     );
-    let obstacles = contour.obstacles();
-    out.lines(not_judged(&obstacles));
-    if !obstacles.is_empty() {
+    out.lines(not_judged(&contour.obstacles));
+    if !contour.obstacles.is_empty() {
         out.push_str("\n");
     }
     out.section("Figures");
-    if contour.deviations().programmed.max_at().is_some() {
+    if contour.deviations.programmed.max_at().is_some() {
         push_figures(&mut out, contour);
         push_due(&mut out, contour);
     } else {
@@ -143,21 +142,21 @@ pub fn document(
     out.push_str("\n");
     out.section("Reversals");
     let is_whole = contour.is_whole();
-    for axis in contour.axes() {
+    for axis in &contour.axes {
         let _ = writeln!(out, "{}", sentence(axis, Counted::of(is_whole)));
     }
-    push_switches(&mut out, contour.sink().switches());
-    push_beside_the_plane(&mut out, contour.axes());
-    push_worst(&mut out, contour.sink().worst(), &subject.program);
-    let unknown = contour.time_not_of_the_machine_s();
+    push_switches(&mut out, recorder.switches());
+    push_beside_the_plane(&mut out, &contour.axes);
+    push_worst(&mut out, recorder.worst(), &subject.program);
+    let unknown = contour.time_not_of_the_machine_s;
     if unknown > 0.0 {
         let _ = writeln!(
             out,
             "left out: {unknown:.3} s in which positions are those of the program, not of the machine"
         );
     }
-    if contour.left_out() > 0 {
-        let motions = match contour.left_out() {
+    if contour.left_out > 0 {
+        let motions = match contour.left_out {
             1 => "1 motion".to_owned(),
             count => format!("{count} motions"),
         };
@@ -169,15 +168,15 @@ pub fn document(
     out.folded("Conditions");
     out.push_str("\n");
     out.lines(conditions(contour));
-    out.lines(contour.options().axes.iter().map(compensation));
-    let drives = contour.options().axes.iter().map(|axis| &axis.drive);
+    out.lines(contour.options.axes.iter().map(compensation));
+    let drives = contour.options.axes.iter().map(|axis| &axis.drive);
     out.lines([not_modelled_line(&not_modelled(drives))]);
     out
 }
 
 /// The figures of the three runs, and the places of the extreme ones.
-fn push_figures<S: ContourSink>(out: &mut Document<'_>, contour: &ProgramContour<S>) {
-    let runs = contour.deviations();
+fn push_figures(out: &mut Document<'_>, contour: &ContourReport) {
+    let runs = &contour.deviations;
     let runs = [&runs.programmed, &runs.all_on, &runs.all_off];
     let table = Table::default().left("while cutting, in µm");
     let mut table = table.right("programmed").right("all on").right("all off");
@@ -224,8 +223,8 @@ fn places(at: [Option<&Cause>; 3]) -> Option<String> {
     Some(places.collect::<Vec<String>>().join(", "))
 }
 
-fn push_due<S: ContourSink>(out: &mut Document<'_>, contour: &ProgramContour<S>) {
-    let due = contour.due();
+fn push_due(out: &mut Document<'_>, contour: &ContourReport) {
+    let due = &contour.due;
     let _ = match &due.at {
         Some(at) => writeln!(
             out,

@@ -4,7 +4,7 @@
 use super::agreed::{AgreedContour, AgreedLine};
 use crate::wording::visible_line;
 use frictcomp_physics::contour::{
-    BlockDeviation, BlockDeviations, Deviations, GlitchFigure, PerRun, ProgramContour,
+    BlockDeviation, BlockDeviations, ContourReport, Deviations, GlitchFigure, PerRun,
 };
 
 /// Driven program, and its start.
@@ -22,11 +22,11 @@ pub struct GoldenContour {
 /// The figures of the three runs, the counts of each axis, and for each block that is cut its
 /// largest deviation, with the glitches of its reversals below.
 pub fn agreed_contour(
-    contour: &mut ProgramContour<BlockDeviations>,
+    (contour, blocks): (ContourReport, BlockDeviations),
     subject: &GoldenContour,
 ) -> AgreedContour {
     let mut out = AgreedContour::default();
-    let axes = &contour.options().axes;
+    let axes = &contour.options.axes;
     let start = subject.start.iter();
     let start: Vec<String> = start.map(|(axis, at)| format!("{axis}{at}")).collect();
     out.say(&format!(
@@ -41,24 +41,23 @@ pub fn agreed_contour(
         }
     ));
     out.say("");
-    for obstacle in contour.obstacles() {
+    for obstacle in &contour.obstacles {
         let words = obstacle.without_places();
         out.say(&format!("not judged: {}", visible_line(&words)));
     }
-    push_figures(&mut out, contour.deviations());
+    push_figures(&mut out, &contour.deviations);
     let least = if contour.is_whole() { "" } else { "at least " };
-    for axis in contour.axes() {
+    for axis in &contour.axes {
         out.say(&format!(
             "{} reverses {least}{} times while cutting, {} of them without compensation",
             axis.axis, axis.cutting, axis.uncompensated
         ));
     }
-    let (errors, remarks) = contour.diagnostics();
-    for said in errors.iter().chain(remarks) {
+    for said in contour.diagnostics() {
         out.say(&format!("{}: {}", said.code, visible_line(&said.message)));
     }
     out.say("");
-    let blocks = std::mem::take(contour.sink()).into_blocks();
+    let blocks = blocks.into_blocks();
     let mut file = blocks.first().map(|block| block.file.clone());
     for block in blocks.iter().filter(|block| !block.stretches.is_empty()) {
         if file.as_ref() != Some(&block.file) {

@@ -9,8 +9,8 @@ use super::records::reversal_record;
 use crate::assumptions::not_modelled;
 use crate::wording::{to_json, to_json_line};
 use frictcomp_physics::contour::{
-    ContourLimits, ContourOptions, ContourReversal, ContourSink, ContourSummary, ContourVerdict,
-    Deviations, ListSource, ProgramContour,
+    ContourLimits, ContourOptions, ContourReport, ContourReversal, ContourSummary, ContourVerdict,
+    Deviations, ListSource,
 };
 use frictcomp_physics::motion::{AssumedLimits, Departure};
 
@@ -59,19 +59,19 @@ fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
     axis
 }
 
-fn feed_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
-    let feed = contour.feed();
+fn feed_record(contour: &ContourReport) -> Value {
+    let feed = &contour.feed;
     json!({
         "programmed": feed.programmed_mm_per_min(),
         "reached": feed.reached_mm_per_min(),
         "slow_share": feed.slow_share(),
-        "slow_share_assumed": contour.slow_share_by_assumed(),
+        "slow_share_assumed": contour.slow_share_by_assumed,
     })
 }
 
 /// Returns the treatment of the transitions between feed moves, lengths in µm.
-fn transitions_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
-    let transitions = contour.transitions();
+fn transitions_record(contour: &ContourReport) -> Value {
+    let transitions = &contour.transitions;
     let departure =
         |from: &Departure| json!({ "max": from.um, "max_at": record(from.at.as_deref()) });
     json!({
@@ -93,18 +93,17 @@ fn limits_record(axis: &AssumedLimits) -> Value {
 }
 
 /// The figures of the three runs, the counts of each axis, and their totals.
-fn summary_record(contour: &ProgramContour<ContourRecorder<'_>>, limits: &ContourLimits) -> Value {
-    let deviations = contour.deviations();
-    let due = contour.due();
-    let obstacles = contour.obstacles();
-    let verdict = limits.verdict(contour, &obstacles);
-    let reasons = obstacles.iter().map(ToString::to_string);
-    let axes = contour.axes().iter();
-    let axes = axes.map(|axis| axis_record(axis, contour.options()));
+fn summary_record(contour: &ContourReport, limits: &ContourLimits) -> Value {
+    let deviations = &contour.deviations;
+    let due = &contour.due;
+    let verdict = limits.verdict(contour);
+    let reasons = contour.obstacles.iter().map(ToString::to_string);
+    let axes = contour.axes.iter();
+    let axes = axes.map(|axis| axis_record(axis, &contour.options));
     json!({
         "schema": 1,
         "headline": headline(contour),
-        "machine_time": contour.machine_time_s(),
+        "machine_time": contour.machine_time_s,
         "verdict": verdict.map(ContourVerdict::as_str),
         "not_judged": reasons.collect::<Vec<String>>(),
         "programmed": figures(&deviations.programmed),
@@ -113,22 +112,19 @@ fn summary_record(contour: &ProgramContour<ContourRecorder<'_>>, limits: &Contou
         "due": { "max": due.um, "max_at": record(due.at.as_deref()) },
         "feed": feed_record(contour),
         "transitions": transitions_record(contour),
-        "assumed_limits": contour.assumed_limits().map(limits_record).collect::<Vec<Value>>(),
+        "assumed_limits": contour.assumed_limits.iter().map(limits_record).collect::<Vec<Value>>(),
         "axes": axes.collect::<Vec<Value>>(),
-        "left_out": contour.left_out(),
-        "cut_short": contour.is_cut_short(),
+        "left_out": contour.left_out,
+        "cut_short": contour.is_cut_short,
         "whole": contour.is_whole(),
-        "time_not_of_the_machine": contour.time_not_of_the_machine_s(),
-        "not_modelled": not_modelled(contour.options().axes.iter().map(|axis| &axis.drive)),
-        "rests_on": contour.rests_on(),
+        "time_not_of_the_machine": contour.time_not_of_the_machine_s,
+        "not_modelled": not_modelled(contour.options.axes.iter().map(|axis| &axis.drive)),
+        "rests_on": &contour.rests_on,
     })
 }
 
 /// The figures and counts as one line, below the reversals.
-pub fn render_summary(
-    contour: &ProgramContour<ContourRecorder<'_>>,
-    limits: &ContourLimits,
-) -> String {
+pub fn render_summary(contour: &ContourReport, limits: &ContourLimits) -> String {
     let mut record = summary_record(contour, limits);
     record["record"] = "summary".into();
     to_json_line(&record)
@@ -136,12 +132,12 @@ pub fn render_summary(
 
 /// Everything as one document.
 pub fn render_json(
-    contour: &mut ProgramContour<ContourRecorder<'_>>,
+    contour: &ContourReport,
+    recorder: &ContourRecorder<'_>,
     limits: &ContourLimits,
 ) -> String {
     let mut document = summary_record(contour, limits);
     let names = names(contour);
-    let recorder = contour.sink();
     let reversals = recorder.reversals().iter();
     let reversals = reversals.map(|reversal| reversal_record(reversal, &names));
     document["reversals"] = reversals.collect::<Vec<Value>>().into();
@@ -159,7 +155,7 @@ pub fn render_json(
 }
 
 /// The names of the driven axes.
-fn names<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
-    let axes = contour.options().axes.iter();
+fn names(contour: &ContourReport) -> Vec<String> {
+    let axes = contour.options.axes.iter();
     axes.map(|axis| axis.name.clone()).collect()
 }

@@ -4,17 +4,17 @@ use super::places::ProgramBlock;
 use crate::assumptions::rests_on_text;
 use crate::wording::{Detail, assumed_limits, visible_line};
 use frictcomp_physics::contour::{
-    ContourAxis, ContourLimits, ContourObstacle, ContourOptions, ContourSink, LimitedFigure,
-    ListSource, ProgramContour,
+    ContourAxis, ContourLimits, ContourObstacle, ContourOptions, ContourReport, LimitedFigure,
+    ListSource,
 };
 use frictcomp_physics::motion::{Departure, Transitions};
 
 /// The programmed feed and the reached one, the assumed limits, and lists that do not belong to the
 /// plant: one line each (R11.23, R11.25).
-pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>, detail: Detail) -> Vec<String> {
+pub fn contour_remarks(contour: &ContourReport, detail: Detail) -> Vec<String> {
     let mut lines: Vec<String> = feed(contour).into_iter().collect();
-    lines.extend(transitions(&contour.transitions()));
-    let options = contour.options();
+    lines.extend(transitions(&contour.transitions));
+    let options = &contour.options;
     let axes = options.axes.iter();
     lines.extend(axes.filter_map(|axis| misfit(axis, options)));
     lines.extend(detail.full(conditions(contour)).into_iter().flatten());
@@ -22,14 +22,14 @@ pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>, detail: Deta
 }
 
 /// The assumed limits, and the readings on which the figures rest: one line each.
-pub(super) fn conditions<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
-    let assumed = assumed_limits(contour.assumed_limits()).into_iter();
-    assumed.chain(rests_on_text(contour.rests_on())).collect()
+pub(super) fn conditions(contour: &ContourReport) -> Vec<String> {
+    let assumed = assumed_limits(&contour.assumed_limits).into_iter();
+    assumed.chain(rests_on_text(&contour.rests_on)).collect()
 }
 
 /// "feed: 2000 mm/min programmed, 105 mm/min reached; 98 % of the cutting time is below 80 % of F"
-fn feed<S: ContourSink>(contour: &ProgramContour<S>) -> Option<String> {
-    let feed = contour.feed();
+fn feed(contour: &ContourReport) -> Option<String> {
+    let feed = &contour.feed;
     Some(format!(
         "feed: {:.0} mm/min programmed, {:.0} mm/min reached; {:.0} % of the cutting time is below \
          80 % of F",
@@ -120,15 +120,12 @@ pub(super) fn not_judged(obstacles: &[ContourObstacle]) -> impl Iterator<Item = 
 }
 
 /// Returns why a contour is not judged, one line each.
-pub fn why_not_judged<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
-    not_judged(&contour.obstacles()).collect()
+pub fn why_not_judged(contour: &ContourReport) -> Vec<String> {
+    not_judged(&contour.obstacles).collect()
 }
 
 /// Returns why a contour is not judged, or the limits that it exceeds, one line each; nothing without limits.
-pub fn limit_remarks<S: ContourSink>(
-    contour: &ProgramContour<S>,
-    limits: &ContourLimits,
-) -> Vec<String> {
+pub fn limit_remarks(contour: &ContourReport, limits: &ContourLimits) -> Vec<String> {
     if !limits.any() {
         return Vec::new();
     }

@@ -146,7 +146,7 @@ impl Shown {
     }
 }
 
-/// How a program is handed over.
+/// Way in which a program is handed over.
 #[derive(Clone, Copy, PartialEq)]
 enum Handed {
     Whole,

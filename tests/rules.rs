@@ -150,7 +150,7 @@ struct Document {
     case: Case,
 }
 
-/// What the next result is made of: everything since the heading or the last result.
+/// Parts of the next result: everything since the heading or the last result.
 #[derive(Debug, Clone, Default)]
 struct Case {
     machine: Option<String>,

@@ -30,14 +30,14 @@ crate::words! {
     pub enum ProgramEffect {
         /// The program ends with the selection that it found.
         Keeps = "keeps",
-        /// It ends selected, whatever it found.
+        /// Kind selected at the end, whatever the state found.
         #[serde(rename = "leaves on")]
         LeavesOn = "leaves on",
-        /// It ends deselected, whatever it found.
+        /// Kind deselected at the end, whatever the state found.
         #[serde(rename = "leaves off")]
         LeavesOff = "leaves off",
-        /// It depends on values that only the machine knows, or on the state that it finds: the ways to each selection
-        /// are known (R14.6, R10.10).
+        /// State at the end that depends on values known only to the machine, or on the state found: the ways to each
+        /// selection are known (R14.6, R10.10).
         Depends = "depends",
         /// Neither the state at the end nor its conditions are known offline.
         Unknown = "unknown",
@@ -75,7 +75,7 @@ impl FirstMotion {
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Inherits {
-    /// It does not: the axis does not move, or a command comes first.
+    /// No inheritance: the axis does not move, or a command comes first.
     No,
     /// The first motion before any command of the program.
     Motion(FirstMotion),
@@ -136,7 +136,7 @@ const MAX_NAMED: usize = 4;
 enum Left<'a> {
     StartUp,
     Away,
-    /// It depends on values that only the machine knows.
+    /// States that depend on values known only to the machine.
     Either(&'a PossibleStates),
 }
 
@@ -340,11 +340,11 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Selected {
-        /// It is selected.
+        /// Selected.
         On = "on",
-        /// It is not.
+        /// Deselected.
         Off = "off",
-        /// It is not known offline.
+        /// Not known offline.
         Unknown = "unknown",
     }
 }

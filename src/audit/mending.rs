@@ -53,7 +53,7 @@ pub struct Missed {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WhyMissed {
-    /// No single block takes the program out of the hazards.
+    /// No single block cures the program of its hazards.
     NotCured,
     /// Blocks that do so change the state in which axes move in this program (R10.8).
     ChangesMotion(Arc<str>),
@@ -135,7 +135,7 @@ struct Trial<'a, R> {
     programs: &'a [Affected<'a>],
     /// The runs of the programs without any block.
     before: Vec<ProgramRuns>,
-    /// Those with the accepted blocks, if there are any.
+    /// The runs with the accepted blocks; `None` before the first block is accepted.
     now: Option<Vec<ProgramRuns>>,
     accepted: Mended,
     motions: CuredMotions,
@@ -329,12 +329,11 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Cure {
-        /// There is no hazard.
+        /// No hazard, so no program to mend.
         None = "none",
-        /// Those that leave the axis away from its start-up state; mended by a command before the
-        /// end.
+        /// The programs that leave the axis away from its start-up state; mended by a command before the end.
         Leavers = "leavers",
-        /// Those that inherit it; mended by a command before the first motion.
+        /// The programs that inherit that state; mended by a command before the first motion.
         Inheritors = "inheritors",
     }
 }

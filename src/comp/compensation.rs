@@ -1,5 +1,5 @@
-//! What compensation depends on, the COMP command as data, the compensation state of every axis, and what a command does to it or
-//! why it is refused.
+//! The preconditions of compensation, the COMP command as data, the compensation state of every axis, and the effect of
+//! a command on it or the reason for its refusal.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -359,11 +359,11 @@ impl Compensation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Coupling {
-    /// It does.
+    /// Part of a coupling.
     Active,
-    /// It does or it does not, which only the machine knows.
+    /// Possibly part of a coupling, which only the machine knows.
     Perhaps,
-    /// It does not.
+    /// No part of a coupling.
     None,
 }
 

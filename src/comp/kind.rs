@@ -141,9 +141,9 @@ impl FromIterator<Kind> for KindSet {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Membership {
-    /// It does.
+    /// Member of the set.
     In,
-    /// It does not.
+    /// Not a member of the set.
     Out,
 }
 

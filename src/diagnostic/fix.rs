@@ -13,7 +13,7 @@ crate::words! {
     pub enum Safety {
         /// The machine does the same before and after it.
         Safe = "safe",
-        /// It guesses the intention or changes what the machine does, and has to be reviewed.
+        /// Fix that guesses the intention or changes what the machine does, and has to be reviewed.
         Unsafe = "unsafe",
     }
 }
@@ -22,9 +22,9 @@ crate::words! {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum FixForm {
-    /// It is written as it is.
+    /// Text inserted as written.
     Text,
-    /// It is a block on a line of its own, with a number where its neighbours have numbers.
+    /// Block on a line of its own, with a number where its neighbours have numbers.
     Block,
 }
 

@@ -95,7 +95,7 @@ pub enum Presence {
         /// The line that says so.
         evidence: TorqueEvidence,
     },
-    /// No source gives it, or the sources contradict each other.
+    /// Value that no source gives, or on which the sources contradict each other.
     Unknown {
         /// The reason, in words.
         reason: String,

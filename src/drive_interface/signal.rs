@@ -295,7 +295,7 @@ pub struct Slave {
     pub assigns: bool,
     /// The torque values that it exchanges in every cycle.
     pub mapped: Vec<NetworkObject>,
-    /// What its start-up writes that compensates friction in the device.
+    /// Start-up commands that switch on friction compensation in the device itself.
     pub own_friction: Vec<OwnFriction>,
     /// The path of its element in the file.
     pub path: String,

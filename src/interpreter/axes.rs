@@ -1,5 +1,5 @@
-//! What axis names mean on a path: the axes of the machine, until the program exchanges them (TF5200 programming manual,
-//! 206977419 and its neighbours).
+//! Meaning of axis names on a path: the axes of the machine, until the program exchanges them (TF5200 programming
+//! manual, 206977419 and its neighbours).
 //!
 //! An axis that is given back keeps its compensation: what another channel does with it is reported when the programs of
 //! that channel are checked.
@@ -97,7 +97,7 @@ impl AxisLookup<'_> {
         self.all().filter(is_path).collect()
     }
 
-    /// Those of X, Y and Z that the machine has.
+    /// Returns the axes among X, Y and Z that the machine has.
     pub(crate) fn xyz(self) -> Vec<AxisIndex> {
         let letters = [b'X', b'Y', b'Z'].map(|it| self.letter(it));
         letters.into_iter().flatten().collect()
@@ -180,7 +180,7 @@ pub(crate) struct ChannelAxes {
 /// Meaning of an axis name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum AxisNameMeaning {
-    /// This axis of the machine, whatever its own name is.
+    /// Axis of the machine, possibly under another name.
     Axis(AxisIndex),
     /// An axis that the channel has given back.
     Released(Option<AxisIndex>),
@@ -200,7 +200,7 @@ impl AxisNameMeaning {
 /// Axis that a COMP command switches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Addressed {
-    /// This one.
+    /// Known axis.
     Axis(AxisIndex),
     /// One that the channel does not have; the control refuses it.
     Absent(Option<AxisIndex>),

@@ -250,13 +250,13 @@ impl LastBlock {
     }
 }
 
-/// What comes between an error and the next program.
+/// Action required between an error and the next program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum AfterError {
     /// A reset of the channel.
     #[default]
     Reset,
-    /// That, or a restart of the control (R2.100).
+    /// A reset of the channel, or a restart of the control (R2.100).
     ResetOrRestart,
 }
 
@@ -307,7 +307,7 @@ pub(crate) struct BlockScratch {
     pub(crate) wrote: bool,
 }
 
-/// What the words of a block read.
+/// Values read by the words of a block.
 #[derive(Default, Clone)]
 pub(crate) struct BlockReading {
     pub(crate) stack: RefCell<Vec<Slot>>,
@@ -326,7 +326,7 @@ pub(crate) struct BlockReading {
     pub(crate) flushing: RefCell<Option<VariableName>>,
     /// A `V.I.` variable that was read and that no program of the run declares (R2.102).
     pub(crate) undeclared: RefCell<Option<String>>,
-    /// Why a program may be called that is not known, if one may.
+    /// Reason why an unknown program may be called, if one may.
     pub(crate) unknown_call: Option<Unknown>,
     /// A part of the macro expanded last that limits what may be in the block.
     pub(crate) lone: Option<LonePart>,
@@ -334,12 +334,12 @@ pub(crate) struct BlockReading {
     pub(crate) expansions: Cell<u32>,
 }
 
-/// How a block ends the program, or its way through it.
+/// End of the program, or of a way through it, at a block.
 #[derive(Default, Clone)]
 pub(crate) struct BlockEnding {
     /// The block that ends the program.
     pub(crate) at: Option<OwnEnd>,
-    /// What follows the error by which the block ends the program.
+    /// Action required after the error by which the block ends the program.
     pub(crate) after_error: AfterError,
     /// Messages on the end of the run or of a way through it: a budget, or the end of a file
     /// without M30.
@@ -471,7 +471,7 @@ impl BlockScratch {
 /// The F word of a block.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) enum Feed {
-    /// There is none.
+    /// No F word.
     #[default]
     Absent,
     /// Its value, where it is known.
@@ -487,7 +487,7 @@ pub(crate) enum LookedFor {
     Computed,
 }
 
-/// What the words of a block ask for, and what is done after them.
+/// Actions requested by the words of a block.
 #[derive(Default, Clone)]
 pub(crate) struct BlockActions {
     /// M02, M30.

@@ -27,7 +27,7 @@ use crate::text::Place;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ControlState {
     pub(crate) compensation: Compensation,
-    /// What switched each kind, on each way that leads here.
+    /// The commands that switched each kind, on each way that leads here.
     pub(crate) history: History,
     pub(crate) memory: Memory,
     pub(crate) modal: Modal,
@@ -265,7 +265,7 @@ impl ModalCycles {
         &self.cycles
     }
 
-    /// It may have been switched off.
+    /// Marks the cycles as possibly switched off.
     pub(crate) fn havoc(&mut self) {
         for cycle in &mut self.cycles {
             if let RepeatedCall::Program(found) = cycle.call {
@@ -285,7 +285,7 @@ impl ModalCycles {
         }
     }
 
-    /// Those of another way may be in force instead.
+    /// Merges the cycles of another way, which may be in force instead.
     pub(crate) fn join(&mut self, other: &Self) {
         if self == other {
             return;
@@ -312,9 +312,9 @@ pub(crate) enum SavedItem<T> {
     /// An earlier program may have saved one.
     #[default]
     Perhaps,
-    /// None is there.
+    /// No saved configuration.
     Nothing,
-    /// This one.
+    /// Known configuration.
     Known(T),
 }
 
@@ -352,7 +352,7 @@ pub(crate) struct ChangedFiles {
     any: bool,
     /// The files to which `#MSG SAVE` may write, where the program named one.
     messages: BTreeSet<String>,
-    /// What `#FILE EXIST` looked for last and is not here.
+    /// The file that `#FILE EXIST` looked for last and did not find in the archive.
     #[serde(default)]
     missing: MissingFile,
 }

@@ -120,12 +120,12 @@ impl Couplings {
         self.followers.contains_key(command)
     }
 
-    /// They do not any more.
+    /// Ends the following of axes by a command.
     pub(crate) fn unfollow(&mut self, command: &str) {
         self.followers.remove(command);
     }
 
-    /// No axis follows another one except by a coupling group.
+    /// Ends all following of axes other than by a coupling group.
     pub(crate) fn end_following(&mut self) {
         self.followers.clear();
         self.strays.clear();
@@ -449,7 +449,7 @@ impl ControlState {
         }
     }
 
-    /// No coupling is in force; the definitions stay.
+    /// Releases all couplings; the definitions stay.
     pub(crate) fn release_couplings(&mut self) {
         let changed = self.couplings.release_all();
         self.mark_coupled(changed);

@@ -79,10 +79,10 @@ pub enum NoteKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Notes {
-    /// They are not.
+    /// Notes are not taken.
     #[default]
     None,
-    /// They are, with the places.
+    /// Notes are taken, with their places.
     Taken,
 }
 
@@ -125,7 +125,7 @@ pub struct Executed<'a> {
     pub doubted: &'a [(AxisIndex, KindSet)],
     /// Its axis words that move an axis; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
-    /// How it moves.
+    /// Motion of the block.
     pub(crate) moves: &'a BlockMotion,
     /// Details that are rarely requested.
     pub(crate) aside: &'a Aside,
@@ -163,7 +163,7 @@ pub struct Executed<'a> {
     pub version: u64,
 }
 
-/// What a block moves.
+/// The part of an executed block that concerns motion.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct BlockMove<'a> {
@@ -171,7 +171,7 @@ pub struct BlockMove<'a> {
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
-    /// How it moves.
+    /// Motion of the block.
     pub(crate) moves: &'a BlockMotion,
     /// The answers of the machine that lead here, where the block is executed on some ways only.
     pub branch: Option<&'a [Vec<WayCondition>]>,
@@ -234,7 +234,7 @@ impl Executed<'_> {
         self.moves().motions()
     }
 
-    /// What it moves.
+    /// Returns the part of the block that concerns motion.
     #[inline]
     pub(crate) fn moves(&self) -> BlockMove<'_> {
         BlockMove {
@@ -280,7 +280,7 @@ pub struct Joined<'a> {
 pub struct ProgramEnd {
     /// The block: `M30`, the last one of the file, or the one that an error stops.
     pub place: Place,
-    /// What ends it there.
+    /// Cause of the end.
     pub by: EndedBy,
     /// Whether no jump goes to that block, so that blocks before it in the text come before the end.
     pub is_passed_into: bool,
@@ -292,7 +292,8 @@ pub struct ProgramEnd {
 }
 
 impl ProgramEnd {
-    /// What decides whether the program ends there, in words: `` `V.E.A` ``, a missing jump label.
+    /// Returns the unknown value that decides whether the program ends there, in words: `` `V.E.A` ``, a missing jump
+    /// label.
     pub(crate) fn decided_by(&self) -> Option<String> {
         self.cause.as_ref().map(Unknown::quoted)
     }
@@ -313,7 +314,7 @@ pub(crate) struct StoppedState {
 pub struct Ended<'a> {
     /// Number of executed blocks.
     pub seq: u64,
-    /// Why it ended.
+    /// Cause of the end.
     pub by: EndedBy,
     /// Whether it would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,
@@ -321,7 +322,7 @@ pub struct Ended<'a> {
     pub at: Option<&'a Place>,
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
-    /// What switched each kind, on each way that ends.
+    /// The commands that switched each kind, on each way that ends.
     pub(crate) found: FoundStates<'a>,
     /// The state at the errors on all ways, where the run went on after them.
     pub(crate) stopped: Option<&'a StoppedState>,

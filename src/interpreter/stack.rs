@@ -60,7 +60,7 @@ impl CallFrame {
 /// Whether a cycle keeps its changes to G functions and feed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Retains {
-    /// It does not.
+    /// The cycle keeps none of its changes.
     Nothing,
     /// `#RETAIN CYCLE CHANGES` may have been executed.
     Perhaps,
@@ -222,7 +222,7 @@ impl CallStack {
         Self(self.running().map(alone).into_iter().collect())
     }
 
-    /// All programs are left.
+    /// Leaves all programs.
     pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
@@ -334,7 +334,7 @@ impl ProgramPosition<'_> {
         })
     }
 
-    /// What a jump from the current block crosses.
+    /// Returns the control blocks that a jump from the current block crosses.
     pub(crate) fn jump_across(self, to: EntryIndex) -> JumpAcross {
         let frames = &self.frames;
         match (frames.running(), frames.entry()) {

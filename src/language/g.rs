@@ -47,9 +47,9 @@ pub(crate) struct GFunction {
 /// Execution of a G function in a dry run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum GAction {
-    /// Nothing but the effects in the other columns.
+    /// No effect but those in the other columns.
     PassOver,
-    /// It calls a program (P-CHAN-00187).
+    /// Call of a program (P-CHAN-00187).
     Call,
     /// G04: the axes rest.
     Dwell,
@@ -99,11 +99,11 @@ pub(crate) enum BlockGroup {
 /// Effect of a G function on coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CoordinateEffect {
-    /// None, or that of the other columns.
+    /// No effect, or that in the other columns.
     None,
     /// Positions are those of the program from here on: weights of axes, diameters, the operator's hand wheel.
     Unfollowed,
-    /// Only its group is known.
+    /// Function of which only the group is known.
     NotKnown,
 }
 

@@ -58,13 +58,13 @@ pub(crate) struct HashCommand {
 pub(crate) enum Touches {
     /// Neither flow nor values; its effect on coordinates is that of its chain.
     Nothing,
-    /// It writes the parameters and variables that its brackets name.
+    /// Write to the parameters and variables that its brackets name.
     Values,
-    /// It says which axes the channel has, and under which names.
+    /// Choice of the axes of the channel and of their names.
     Axes,
-    /// It moves axes to places that are not followed.
+    /// Motion of axes to places that are not followed.
     Motion,
-    /// It moves the axes of the plane to places that are not followed.
+    /// Motion of the axes of the plane to places that are not followed.
     Plane,
     /// Friction compensation of the axes that it names, of all where it names none, in a way that no
     /// public page describes (R2.93).
@@ -74,7 +74,7 @@ pub(crate) enum Touches {
 /// Execution of a `#` command in a dry run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum HashAction {
-    /// Nothing but the effects in the other columns.
+    /// No effect but those in the other columns.
     PassOver,
     /// The blocks up to its end are a comment (PM/205979659).
     Comment,
@@ -117,7 +117,7 @@ pub(crate) enum HashAction {
     EnableCoupling,
     /// A coupling group is released (PM/207133579).
     ReleaseCoupling,
-    /// All coupling groups are released (PM/207133579).
+    /// Release of all coupling groups (PM/207133579).
     ReleaseCouplings,
     /// The control may skip the blocks up to its end while it moves backward or simulates.
     SkipBackward,
@@ -154,7 +154,7 @@ pub(crate) enum Exchange {
     Undescribed,
 }
 
-/// What a command does to the saved configurations.
+/// Effect of a command on the saved configurations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum ConfigAction {
     Save,
@@ -162,7 +162,7 @@ pub(crate) enum ConfigAction {
     Clear,
 }
 
-/// What a command does to a file.
+/// Effect of a command on a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum FileAction {
     Rename,
@@ -192,7 +192,7 @@ pub(crate) enum ContouringCommand {
 /// Form in which a profile of the acceleration is selected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum SlopeForm {
-    /// That of the channel list (PM/207190411).
+    /// Profile of the channel list (PM/207190411).
     Channel,
     /// By its name (PM/207190411).
     Named,
@@ -200,10 +200,10 @@ pub(crate) enum SlopeForm {
     Numbered,
 }
 
-/// What may share the block with a `#` command (R2.47).
+/// Content that may share the block with a `#` command (R2.47).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BlockSharing {
-    /// Nothing.
+    /// No other content.
     None,
     /// Words before it (TF5200 Diagnosis, errors 20207, 20450).
     WordsBefore,
@@ -231,14 +231,14 @@ pub(crate) enum HashArguments {
 /// Part of the PLC in a `#` command (R2.99).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Plc {
-    /// None.
+    /// No part.
     Absent,
-    /// It acts by design: a dwell, a wait. Late M functions are acknowledged at `#EXPL`
+    /// Action by design: a dwell, a wait. Late M functions are acknowledged at `#EXPL`
     /// (`tf5200_m_and_h_func/286004619`).
     Acts,
-    /// It acts where the command has the word `WAIT`.
+    /// Action where the command has the word `WAIT`.
     ActsAfterWait,
-    /// It acts where the command has the word `ACK` or `SYN_ACK`.
+    /// Action where the command has the word `ACK` or `SYN_ACK`.
     ActsAfterAcknowledgement,
 }
 

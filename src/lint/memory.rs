@@ -24,7 +24,7 @@ pub(super) struct MovedBefore {
     pub(super) site: Arc<BlockSite>,
     /// The ways on which this or a later motion finds that state.
     on: FoundOn,
-    /// These ways as data; empty if all ways.
+    /// The ways as data; empty if the motion happens on all ways.
     pub(super) ways: Vec<Vec<WayCondition>>,
 }
 
@@ -322,7 +322,7 @@ impl Maker {
 /// Whether a state left away from its start-up state was reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum LeftAwayNotice {
-    /// It was not reported.
+    /// Not reported.
     #[default]
     No,
     /// FC401 or FC407 was reported for a program of this session.

@@ -27,7 +27,7 @@ pub fn known_keys() -> impl Iterator<Item = KnownKey> {
     KEYS.iter().copied().chain(channel)
 }
 
-/// Those that are not in a channel list.
+/// Keys of lists other than channel lists.
 const KEYS: &[KnownKey] = keys! {
     "P-AXIS-00016" "kopf.achs_nr"
     "P-AXIS-00297" "kopf.log_achs_name"
@@ -160,9 +160,9 @@ pub struct ChannelKey {
 /// Use of a key in a dry run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum KeyUse {
-    /// What it decides, and the case of `tests/rules` or the test that shows it.
+    /// Key that is read: its effect, and the case of `tests/rules` or the test that shows it.
     Read(&'static str, &'static str),
-    /// Why nothing that a dry run shows depends on it.
+    /// Key that is not read: the reason why no result of a dry run depends on it.
     Unread(&'static str),
 }
 
@@ -298,7 +298,7 @@ pub(super) fn number_of(pattern: &str) -> &'static str {
 }
 
 impl ChannelKey {
-    /// All of them, in the order of their numbers.
+    /// Returns all keys in the order of their numbers.
     pub fn all() -> &'static [Self] {
         CHANNEL_KEYS
     }

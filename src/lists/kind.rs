@@ -8,15 +8,15 @@ use crate::text::lines_of;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ListKind {
-    /// It names the other lists: `hochlauf.lis`.
+    /// Start-up list, which names the other lists: `hochlauf.lis`.
     Startup,
-    /// It names the axes of a channel.
+    /// Channel list, which names the axes of a channel.
     Channel,
     /// The parameters of one axis.
     Axis,
     /// The compensation values of one axis.
     Value,
-    /// Only the number and name of an axis, as in an axis list or a value list.
+    /// List with only the number and name of an axis, as in an axis list or a value list.
     Head,
 }
 
@@ -25,7 +25,7 @@ struct KindKeys {
     kind: ListKind,
     /// One of them decides the kind.
     deciding: &'static [&'static str],
-    /// Without a deciding key of any kind these tell it.
+    /// Keys that identify the kind if the list has no deciding key of any kind.
     others: &'static [&'static str],
 }
 

@@ -61,7 +61,7 @@ impl FromStr for AxisType {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Origin {
-    /// No list sets it; the documented default applies.
+    /// Documented default; no list sets the parameter.
     Default,
     /// A line of a list or of `frictcomp.toml`.
     File {

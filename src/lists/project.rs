@@ -49,12 +49,12 @@ const NAME_OF_FILE: &str = "__FILENAME__";
 const LIST_ELEMENTS: [(&str, ListKind); 2] =
     [("AchsMds", ListKind::Axis), ("SdaMds", ListKind::Channel)];
 
-/// Why a file gives no lists: what it is, in words that follow its name.
+/// Reason why a file gives no lists: its nature, in words that follow its name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{reason}")]
 #[non_exhaustive]
 pub(crate) struct NoProject {
-    /// What the file is.
+    /// Nature of the file.
     pub(crate) reason: String,
     /// The place at fault.
     pub(crate) span: Span,
@@ -152,7 +152,7 @@ impl Project {
     }
 }
 
-/// What is known of an item while its element is open.
+/// Item whose element is still open.
 #[derive(Debug, Default)]
 struct ItemDraft {
     name: Option<String>,

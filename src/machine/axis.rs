@@ -22,7 +22,7 @@ use crate::text::Place;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Parameterisation {
-    /// No value list belongs to the axis.
+    /// No value list for the axis.
     #[default]
     Missing,
     /// The list has mode 0, off.

@@ -22,7 +22,7 @@ pub enum AxisSet {
     /// The configuration lists them; any other name raises P-ERR-21947.
     #[default]
     Configured,
-    /// Nothing is configured: X Y Z A B C U V W are added as they occur (R2.20).
+    /// No configuration: X Y Z A B C U V W are added as they occur (R2.20).
     AsTheyOccur,
 }
 
@@ -77,10 +77,10 @@ pub struct GantrySlave {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Parameters {
-    /// They are cleared.
+    /// Parameters are cleared.
     #[default]
     Cleared,
-    /// They keep the values that an earlier program wrote.
+    /// Parameters keep the values that an earlier program wrote.
     Kept,
 }
 

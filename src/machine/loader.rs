@@ -320,7 +320,7 @@ fn whereabouts(asked: &Given<String>) -> (Arc<str>, String) {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoList {
-    /// Nothing exists there.
+    /// No file at the path.
     #[error("it is not found")]
     Missing,
     /// Something exists there that cannot be read; the reason.

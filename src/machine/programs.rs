@@ -33,7 +33,7 @@ pub struct ConfiguredPrograms {
 pub struct Keeps {
     /// The compensation of all axes.
     pub compensation: bool,
-    /// All positions.
+    /// Positions of all axes.
     pub positions: bool,
     /// P parameters and variables.
     pub parameters: bool,

@@ -26,7 +26,7 @@ struct Files {
     project: Project,
     /// The files from the project to the one that is read.
     path: Vec<Arc<str>>,
-    /// All files that were read.
+    /// Names of the files that were read.
     read: Vec<Arc<str>>,
     missing: usize,
 }

@@ -186,7 +186,7 @@ pub struct Confirmation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Basis<'a> {
-    /// No control was asked.
+    /// Assumption: no control was asked.
     Assumed,
     /// The configuration selects it, without an answer of this build.
     Selected,

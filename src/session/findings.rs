@@ -361,9 +361,9 @@ const MAX_AT_A_PLACE: usize = 16;
 /// Whether a message is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum DedupVerdict {
-    /// It is new.
+    /// Message that is new.
     Say,
-    /// It was reported at this place before.
+    /// Message that was reported at this place before.
     Repeated,
     /// Its file has reached its limit; the message is only counted.
     TooMany,
@@ -399,7 +399,7 @@ pub(super) struct MessageDedup {
 }
 
 impl MessageDedup {
-    /// No message yet, with a limit of messages for each file.
+    /// Creates an empty filter with a limit of messages for each file.
     pub(super) fn at_most(most: usize) -> Self {
         Self {
             most,

@@ -17,23 +17,23 @@ use crate::machine::{Axis, AxisSet, Machine};
 /// The number of the format that is written.
 pub const STATE_SCHEMA: u32 = 4;
 
-/// Why a saved state cannot be used.
+/// Reason why a saved state cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum StateError {
-    /// It has another schema.
+    /// State with another schema.
     #[error("the state has schema {found}; this version reads schema 1 to {STATE_SCHEMA}")]
     Schema {
         /// The schema that it has.
         found: u32,
     },
-    /// It belongs to another machine.
+    /// State of another machine.
     #[error("the state belongs to another machine: {difference}")]
     OtherMachine {
         /// The difference.
         difference: String,
     },
-    /// It contradicts itself.
+    /// State that contradicts itself.
     #[error("it is damaged ({reason})")]
     Damaged {
         /// The fault, in words.

@@ -31,7 +31,7 @@ pub(super) struct SessionTotals {
     pub(super) unknown: BTreeSet<(AxisIndex, Kind)>,
     /// Whether the machine has axes that nothing describes.
     pub(super) has_undescribed: bool,
-    /// Those of them that programs move or switch, with the program and place of the first message about it (R18.2).
+    /// Undescribed axes that programs move or switch, with the program and place of the first message on each (R18.2).
     pub(super) undescribed: BTreeMap<AxisIndex, Option<(u32, Place)>>,
 }
 
@@ -160,7 +160,7 @@ pub(super) struct FeedMoveCounter {
 }
 
 impl FeedMoveCounter {
-    /// No move yet, of a number of axes.
+    /// Creates a counter without moves for a number of axes.
     pub(super) fn new(axes: usize) -> Self {
         Self {
             counts: vec![FeedMoves::default(); axes],

@@ -35,7 +35,7 @@ pub(crate) struct AllowFault {
 /// Advice on the replacement of a word that is not understood.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Help {
-    /// This word.
+    /// Words of similar spelling.
     Near(Vec<&'static str>),
     /// The whole comment, in this form.
     How(&'static str),

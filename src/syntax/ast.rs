@@ -50,7 +50,7 @@ impl Block {
         }
     }
 
-    /// All its words, from left to right.
+    /// Returns all its words, from left to right.
     pub fn all_words(&self) -> impl Iterator<Item = &Word> {
         let later = self.items.iter().filter_map(|item| match item {
             Item::Word(word) => Some(word),
@@ -133,7 +133,7 @@ pub enum Item {
         keyword: Span,
         /// The command that it opens.
         command: AxisCommand,
-        /// All words and values in the bracket.
+        /// Words and values in the bracket.
         arguments: BracketArguments,
         /// The words of a spindle that are followed.
         spindle: Vec<SpindleWord>,
@@ -206,7 +206,7 @@ pub enum Effect {
     Everything,
     /// Some parameter: it assigns to an unknown place.
     Parameters,
-    /// Nothing that is followed here: it is a word of a spindle.
+    /// No effect that is followed here: a word of a spindle.
     Spindle,
 }
 
@@ -238,7 +238,7 @@ pub struct Hash {
     pub declarations: Vec<Declaration>,
     /// The places that the command writes with values that only the machine knows.
     pub written: Vec<Target>,
-    /// What may share its block.
+    /// Content that may share its block.
     pub sharing: BlockSharing,
     /// Span of its whole text.
     pub span: Span,
@@ -441,7 +441,7 @@ pub enum CallForm {
 /// Form of the repetition of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Repetition {
-    /// Not at all.
+    /// No repetition.
     #[default]
     Once,
     /// `MODAL_MOVE`: after each block with motion.

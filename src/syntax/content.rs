@@ -1,5 +1,5 @@
-//! What a file holds: an NC program (R18.5), none, known by how it begins (R18.6), or one of another control, known by its words
-//! (R2.97).
+//! Content of a file: an NC program (R18.5), none, known by how it begins (R18.6), or one of another control, known by
+//! its words (R2.97).
 //!
 //! Only what no block can begin with counts as no program: text that is merely not understood is reported block by block. Plain
 //! DIN 66025 is the same on every control and shows nothing.
@@ -122,7 +122,7 @@ fn settings(head: &str) -> Option<&'static str> {
     Some(if is_all_toml { "TOML" } else { "an INI file" })
 }
 
-/// How surely a value is one of TOML.
+/// Certainty with which a value is one of TOML.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Told {
     Surely,
@@ -385,7 +385,7 @@ pub(crate) fn foreign(text: &str) -> Option<Foreign> {
 enum DialectEvidence {
     Isg,
     Of(Dialect, String),
-    /// It is valid on every control, or its control is not known.
+    /// Block valid on every control, or of an unknown control.
     Any,
 }
 

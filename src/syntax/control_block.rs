@@ -25,11 +25,11 @@ pub enum ControlBlock {
 /// Part of a statement in its control block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// It opens the block.
+    /// Start of the block.
     Opener,
-    /// It begins another branch of the block.
+    /// Start of another branch of the block.
     Branch,
-    /// It closes the block.
+    /// End of the block.
     Closer,
 }
 

@@ -220,7 +220,7 @@ fn whole(number: u64) -> f64 {
 /// The digits of a number, without its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Digits {
-    /// All of them as one whole number, below 10^15.
+    /// The digits as one whole number, below 10^15.
     mantissa: u64,
     /// Number of digits after the point.
     decimals: usize,

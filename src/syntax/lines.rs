@@ -29,7 +29,7 @@ const MAX_FAULTS: usize = 1000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum FastPath {
-    /// They are; the rest is parsed by the grammar and executed step by step.
+    /// Blocks are parsed by hand where possible; the rest is parsed by the grammar and executed step by step.
     #[default]
     On,
     /// Every block is parsed by the grammar and executed step by step: the reference.

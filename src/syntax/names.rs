@@ -15,9 +15,9 @@ pub(crate) const MAX_MACROS: usize = 16;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum AxisUse {
-    /// It moves the axis, or addresses it.
+    /// Motion or address of the axis.
     Named,
-    /// It switches friction compensation of the axis.
+    /// Switch of friction compensation of the axis.
     Switched,
 }
 
@@ -116,7 +116,7 @@ pub enum Named {
 pub enum NameRole {
     /// The named thing is defined here.
     Definition,
-    /// It is called, or jumped to.
+    /// Call of the name, or jump to it.
     Use,
 }
 

@@ -106,14 +106,14 @@ pub struct LineFault {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Comments {
-    /// It has none.
+    /// No comments.
     Absent,
-    /// It may have some.
+    /// Possibly some comments.
     Possible,
 }
 
 impl Comments {
-    /// Those of a whole block: one begins with `;`, `(` or `#COMMENT`.
+    /// Returns whether a whole block may have comments: one begins with `;`, `(` or `#COMMENT`.
     pub(super) fn of(block: &str) -> Self {
         match memchr::memchr3(b';', b'(', b'#', block.as_bytes()) {
             Some(_) => Self::Possible,
@@ -183,7 +183,7 @@ impl LatestRemarks {
         (self.last > 0 && self.is_heard).then_some(&self.remark)
     }
 
-    /// No block follows any more.
+    /// Ends the text: a remark that no block has followed is lost.
     pub(super) fn end(&mut self) {
         if self.last > 0 && !self.is_heard {
             if self.lost.remarks.len() <= MAX_MESSAGES {

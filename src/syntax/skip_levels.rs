@@ -17,10 +17,10 @@ use std::str::FromStr;
 pub struct SkipLevels(u16);
 
 impl SkipLevels {
-    /// No level.
+    /// Set without levels.
     pub const NONE: Self = Self(0);
 
-    /// All levels.
+    /// Set of all levels.
     pub const ALL: Self = Self(((1 << Self::HIGHEST) - 1) << 1);
 
     /// The highest level.

@@ -28,7 +28,7 @@ pub(crate) enum VariableFamily {
     Axis,
     /// Any other variable of the control: `V.G.`.
     Control,
-    /// No variable.
+    /// Not a variable.
     Other,
 }
 

@@ -13,7 +13,7 @@ const USUAL_STEP: u64 = 10;
 struct LineNumber<'a> {
     /// Text before the digits: blanks and `N`.
     before: &'a str,
-    /// With leading zeros.
+    /// The digits, with leading zeros.
     digits: &'a str,
     value: u64,
 }

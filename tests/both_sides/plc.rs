@@ -12,12 +12,12 @@ use frictcomp_testing::generator::{
 
 use crate::{AXES, count, ran};
 
-/// What the walker knows of a variable.
+/// Knowledge of the walker about a variable.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Known {
     /// The program set it, or waited for it, and the PLC has not acted since.
     Set(usize),
-    /// Only the machine knows it.
+    /// Value known only to the machine.
     Open,
     /// A condition tells its value on this way; without that it is open, or set.
     Told(usize, Option<usize>),

@@ -141,7 +141,7 @@ const ENOUGH: usize = 8;
 /// The thoroughness of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look {
-    /// Only at an eighth of the size, where the onset of budgets shows, too.
+    /// Search at an eighth of the size only, where the onset of budgets shows, too.
     Short,
     /// At the whole size as well.
     Long,

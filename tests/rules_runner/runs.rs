@@ -1,4 +1,4 @@
-//! What programs show.
+//! Results of programs.
 
 use std::fmt::Write as _;
 use std::ops::{ControlFlow, Range};
@@ -9,7 +9,7 @@ use frictcomp::timeline::{Record, Sink, StateView};
 
 use crate::support::{Bench, SourceMode};
 
-/// What a run shows: changes and messages by line, and the state that each program leaves.
+/// Result of a run: changes and messages by line, and the state that each program leaves.
 pub(crate) struct Shown {
     text: String,
     start_up: Compensation,

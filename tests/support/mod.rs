@@ -50,7 +50,7 @@ pub(crate) struct Bench {
     after_error: AfterStop,
 }
 
-/// What follows a program that an error ends.
+/// Action after a program that an error ends.
 pub(crate) enum AfterStop {
     Nothing,
     /// A reset of the channel, and the next program.

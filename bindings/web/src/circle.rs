@@ -16,7 +16,7 @@ use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::json;
 
-/// What is driven.
+/// Settings of a circular test.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct CircleSettings {

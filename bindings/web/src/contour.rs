@@ -26,7 +26,7 @@ use crate::wording::page;
 /// More cycles than that take minutes.
 const MOST_CYCLES: u64 = 20_000_000;
 
-/// What is driven.
+/// Settings of a contour.
 #[derive(Debug, Deserialize)]
 pub(crate) struct ContourSettings {
     program: String,
@@ -43,7 +43,7 @@ pub(crate) struct ContourSettings {
 struct ContourAnswer<'a> {
     #[serde(flatten)]
     drawn: DrawnReport<'a>,
-    /// What stopped the program or the trace, and what the trace simplifies.
+    /// Causes that stopped the program or the trace, and simplifications of the trace.
     notes: Vec<String>,
 }
 

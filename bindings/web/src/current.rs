@@ -31,7 +31,7 @@ const MOST_CYCLES: u64 = 20_000_000;
 #[derive(Serialize)]
 struct CurrentAnswer {
     svg: Option<String>,
-    /// What the picture rests on and what is missing in it.
+    /// Basis of the picture, and what is missing in it.
     notes: Vec<String>,
 }
 
@@ -127,7 +127,7 @@ pub(crate) fn answer(
     Ok(json(&CurrentAnswer { svg, notes }))
 }
 
-/// What the picture rests on and what is missing in it.
+/// Returns the basis of the picture, and what is missing in it.
 fn notes(
     machine: &Machine,
     followed: &[AxisIndex],

@@ -33,7 +33,7 @@ pub(crate) enum Kind {
     Picture,
     /// A program for another control.
     Foreign,
-    /// It was in a folder, and its extension is not that of a program.
+    /// File of a folder whose extension is not that of a program.
     Other,
 }
 
@@ -44,7 +44,7 @@ struct DroppedFile {
     kind: Kind,
 }
 
-/// All dropped files.
+/// The dropped files.
 #[derive(Debug, Default)]
 pub(crate) struct Dropped {
     files: BTreeMap<PathBuf, DroppedFile>,
@@ -126,8 +126,8 @@ impl Dropped {
         }))
     }
 
-    /// How the machine of programs is found: from the nearest `frictcomp.toml` as on the command line, or,
-    /// where none was dropped, from the only start-up list.
+    /// Returns the options for finding the machine of programs: from the nearest `frictcomp.toml` as on the command
+    /// line, or, where none was dropped, from the only start-up list.
     pub(crate) fn options(&mut self, folder: &Path, enable: &[String]) -> MachineOptions {
         let disk = self.disk();
         let mut options = MachineOptions {

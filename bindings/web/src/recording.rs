@@ -49,7 +49,7 @@ struct RecordingAnswer<'a> {
     names: Vec<&'a str>,
     /// Where two axes circle.
     circle: Option<DrawnReport<'a>>,
-    /// Why positions of two axes are no circle.
+    /// Reason why positions of two axes are no circle.
     no_circle: Option<String>,
 }
 

@@ -1,10 +1,10 @@
-//! Why a question has no answer.
+//! Refusals of a question.
 
 use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp_host::HostError;
 use serde::Serialize;
 
-/// Why a question has no answer: a sentence, what to do, and the messages about a configuration.
+/// Reason why a question has no answer: a sentence, what to do, and the messages about a configuration.
 #[derive(Debug, Serialize)]
 pub(crate) struct Refusal {
     pub(crate) message: String,

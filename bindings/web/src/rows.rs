@@ -16,7 +16,7 @@ pub(crate) struct KeptRow {
     pub(crate) line: u32,
     pub(crate) states: u32,
     pub(crate) file: u16,
-    /// How many lines it has.
+    /// Number of lines of the block.
     pub(crate) lines: u8,
     /// The depth of calls, 0 in the main program.
     pub(crate) level: u8,

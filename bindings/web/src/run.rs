@@ -22,7 +22,7 @@ use crate::rows::{FrictionStates, MOST_ROWS};
 use crate::timeline::Timeline;
 use crate::wording::page;
 
-/// How programs run.
+/// Settings of a run.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub(crate) struct RunSettings {
@@ -34,12 +34,12 @@ pub(crate) struct RunSettings {
     pub(crate) max_blocks: Option<u64>,
 }
 
-/// Which blocks are shown.
+/// Blocks that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ShownBlocks {
     All,
-    /// Those with a change or a message.
+    /// Blocks with a change or a message.
     Notable,
 }
 
@@ -77,7 +77,7 @@ pub(crate) struct Overview<'a> {
     /// The verdict; none where nothing is known to be as it should be or not.
     headline: Option<&'a Headline>,
     machine: MachineOverview<'a>,
-    /// How many items each view of the timeline has.
+    /// Number of items of each view of the timeline.
     items: usize,
     notable_items: usize,
 }
@@ -165,7 +165,7 @@ pub(crate) enum TimelineItem<'a> {
     },
 }
 
-/// How a program runs as on the command line, with advice in the words of a host.
+/// Returns a program run as on the command line, with advice in the words of a host.
 fn alone(loaded: &LoadedMachine, settings: &RunSettings, wording: Wording) -> SingleRun {
     let stop = if settings.keep_going {
         StopPolicy::KeepGoing

@@ -20,7 +20,7 @@ use crate::watched::Page;
 /// The maximum number of circles that are tuned at once.
 const MOST_CIRCLES: usize = 8;
 
-/// What is tuned for.
+/// Settings of a tuning.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct TuneSettings {

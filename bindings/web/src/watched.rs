@@ -16,17 +16,17 @@ unsafe extern "C" {
     safe fn told(at: *const u8, length: usize);
 }
 
-/// There is no watcher.
+/// Reports no progress: there is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn progress(_: f64, _: u32) {}
 
-/// There is no watcher.
+/// Returns 0: there is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn due() -> u32 {
     0
 }
 
-/// There is no watcher.
+/// Reports nothing: there is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn told(_: *const u8, _: usize) {}
 

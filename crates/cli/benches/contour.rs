@@ -1,5 +1,5 @@
-//! How long a contour takes: 30 s of machine time in one run, an hour in three runs (R11.7), and
-//! 300 000 lines of 0.1 mm that a contour mode joins (R11.28), each on two axes, with the goals.
+//! Time of a contour: 30 s of machine time in one run, an hour in three runs (R11.7), and 300 000 lines of 0.1 mm that
+//! a contour mode joins (R11.28), each on two axes, with the goals.
 //!
 //! `FRICTCOMP_BENCH_RUNS` sets how often each runs, 3 times unless it is given; the median counts.
 //! `FRICTCOMP_BENCH_SECONDS` sets the machine time of the long program, 3600 unless it is given.
@@ -14,13 +14,13 @@ use std::time::{Duration, Instant};
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
 
-/// What 30 s of machine time may take in one run, in s.
+/// Permitted time for 30 s of machine time in one run, in s.
 const SHORT_GOAL: f64 = 0.08;
 
-/// What an hour of machine time may take in three runs, in s.
+/// Permitted time for an hour of machine time in three runs, in s.
 const LONG_GOAL: f64 = 30.0;
 
-/// What 300 000 short lines may take in three runs, in s.
+/// Permitted time for 300 000 short lines in three runs, in s.
 const LINES_GOAL: f64 = 10.0;
 
 const MACHINE: &str = "\

@@ -1,4 +1,4 @@
-//! How soon an editor gets messages on what was typed (R12.7): `cargo bench --bench lsp`.
+//! Delay of the messages in an editor after typing (R12.7): `cargo bench --bench lsp`.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measures")]
 
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 const URI: &str = "untitled:bench";
 
-/// How often each is measured; the median is shown.
+/// Number of measurements of each kind; the median is shown.
 const ROUNDS: i32 = 15;
 
 struct Client(Connection);

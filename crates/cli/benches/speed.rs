@@ -1,4 +1,4 @@
-//! How fast programs go through, as ratios to a line splitter over the same file in the same run.
+//! Throughput of programs, as ratios to a line splitter over the same file in the same run.
 //!
 //! `cargo bench --bench speed` prints one line a job: the ratio, megabytes (or blocks) a second,
 //! the peak memory of the process where `/usr/bin/time` can tell, the goal, and whether it is met.
@@ -386,7 +386,7 @@ fn parse(path: &Path, fast_path: FastPath) -> Outcome<()> {
     Ok(())
 }
 
-/// This program as one of the yardsticks.
+/// Returns a command that starts this program as one of the yardsticks.
 fn yardstick(word: &str, file: &Path) -> Command {
     let mut command = Command::new(std::env::current_exe().unwrap_or_default());
     command.arg(word).arg(file);
@@ -402,7 +402,7 @@ fn command(job: &Job, file: &Path) -> Command {
     command
 }
 
-/// How long a command takes; what it prints is of no interest, nor what it thinks of the program.
+/// Measures the time of a command; its output is discarded, and its verdict on the program is ignored.
 fn spawn(command: &mut Command) -> Outcome<Duration> {
     let start = Instant::now();
     let status = command

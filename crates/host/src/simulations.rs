@@ -62,7 +62,7 @@ pub fn learn(
 /// The simulations of a tuning, which continues until nothing improves.
 struct Tuning<'a> {
     runs: SimulationRuns<'a>,
-    /// Those made in earlier steps.
+    /// Simulations made in earlier steps.
     done: AtomicUsize,
     /// The approximate total.
     all: usize,

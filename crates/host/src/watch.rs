@@ -216,14 +216,14 @@ pub struct Reached<'a> {
     pub line: u32,
 }
 
-/// How often control flow passes through a program.
+/// Number of passes of control flow through a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Passes {
     /// Once, from its first line to its last.
     #[default]
     Once,
-    /// It jumps back: the number of passes is unknown.
+    /// Unknown number of passes: the program jumps back.
     Repeated,
 }
 

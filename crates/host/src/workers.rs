@@ -111,8 +111,8 @@ fn next<T, R>(queue: &Mutex<Receiver<WorkItem<T, R>>>) -> Option<WorkItem<T, R>>
 /// Memory of a circular test in addition to the program itself, with room to spare.
 const SIMULATION: usize = 24 << 20;
 
-/// What a thread needs: address space for its stack and for its own heap, 128 MiB with glibc.
-/// Without the heap each of its allocations takes a page.
+/// Memory of a thread: address space for its stack and for its own heap, 128 MiB with glibc. Without the heap each of
+/// its allocations takes a page.
 const THREAD: usize = 136 << 20;
 
 /// Whether there is memory for one more thread.

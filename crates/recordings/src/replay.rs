@@ -157,9 +157,9 @@ pub struct Replayed {
     /// Number of combinations of answers to the conditions of the programs that were tried, and of
     /// those that agree with the recording.
     pub ways: [usize; 2],
-    /// Why the dry run does not reach the end of the programs.
+    /// Reason why the dry run does not reach the end of the programs.
     pub stopped: Option<String>,
-    /// Why no answers were tried although there are conditions.
+    /// Reason why no answers were tried although there are conditions.
     pub untried: Option<String>,
     /// The axes that the programs switch and whose states were not recorded.
     pub unrecorded: Vec<String>,

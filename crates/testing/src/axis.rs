@@ -54,7 +54,7 @@ pub struct Coupling {
     pub damping: f64,
 }
 
-/// What an axis did in each cycle of the control.
+/// Record of the motion of an axis in each cycle of the control.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Followed {
     /// Place of the load in mm at the beginning of each cycle.

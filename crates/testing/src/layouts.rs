@@ -31,13 +31,13 @@ pub struct Task {
 pub enum Header {
     /// Every row of attributes.
     Full,
-    /// Only the row `Name` describes channels.
+    /// Only the row `Name`, which describes the channels.
     Names,
     /// Only the row `SymbolName`.
     Symbols,
     /// Rows of attributes, but none about the file.
     WithoutFile,
-    /// Nothing at all.
+    /// No header.
     None,
 }
 

@@ -16,7 +16,7 @@ pub struct Machine {
     pub control: Control,
 }
 
-/// What a machine does in a program.
+/// Record of a machine in a program.
 #[derive(Debug, Clone)]
 pub struct Run {
     /// The commanded values.

@@ -27,8 +27,8 @@ impl Machine {
         left
     }
 
-    /// What the best lists leave that a search from these lists finds: whatever leaves less is kept, in steps that become
-    /// finer.
+    /// Returns the remaining glitches of the best lists that a search from these lists finds: whatever leaves less is
+    /// kept, in steps that become finer.
     pub fn best_um(&self, circles: (&[Program], [f64; 2]), from: [ValueList; 2]) -> [f64; 2] {
         const STEPS: [f64; 4] = [1.0, 0.5, 0.25, 0.12];
         let mut best = from;

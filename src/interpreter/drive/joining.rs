@@ -197,7 +197,7 @@ fn differ_in_words(mine: &ControlState, theirs: &ControlState) -> bool {
     groups.into_iter().any(differs)
 }
 
-/// What differs where ways meet: kinds of compensation, and anything else.
+/// Describes the differences where ways meet: kinds of compensation, and anything else.
 fn outcome_in_words(kinds: &[String], others: &[String]) -> String {
     let switched = format!("{} may be on or off", in_a_row(kinds));
     let is_one = matches!(others, [only] if only.starts_with('`'));

@@ -41,9 +41,9 @@ pub(crate) enum Repeats {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Around {
     Nothing,
-    /// It is executed pass by pass.
+    /// Loop executed pass by pass.
     Known,
-    /// It is joined at its head.
+    /// Loop joined at its head.
     Joined,
 }
 
@@ -159,7 +159,7 @@ impl OtherPaths {
         self.reach_head(here, block, (None, now), &blocks) == Arrival::Covered
     }
 
-    /// How the innermost loop around another one is repeated, in the running program or in those that call it.
+    /// Returns how the innermost loop around another one is repeated, in the running program or in those that call it.
     fn around(&self, here: &Executor, opener: EntryIndex) -> Around {
         let RunState { control, track, .. } = &here.state;
         let mut inner = Some(opener);

@@ -157,7 +157,7 @@ impl Executor {
         self.scratch.clear();
     }
 
-    /// How the run ends before it begins, where faults of the main program keep it from running.
+    /// Returns the end of a run that faults of the main program keep from starting.
     pub(crate) fn end_by_refusal(&self) -> Option<EndedBy> {
         let refused = self.programs.refused();
         let is_refused = !refused.is_empty() && self.options.stop == StopPolicy::FirstError;
@@ -217,7 +217,7 @@ impl Executor {
     }
 }
 
-/// What stops a program.
+/// Cause that stops a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ProgramStop {
     /// Its end.

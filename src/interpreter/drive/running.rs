@@ -31,7 +31,7 @@ enum DueBlock {
     Indexed(usize, EntryIndex),
     /// The next one of the lines of the main program.
     Line,
-    /// None on this way: the run first goes on elsewhere.
+    /// No block on this way: the run first goes on elsewhere.
     Elsewhere,
 }
 

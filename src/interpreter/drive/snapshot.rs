@@ -46,7 +46,7 @@ struct RunFile {
     text: Fingerprint,
 }
 
-/// Why a snapshot cannot be resumed.
+/// Reason why a snapshot cannot be resumed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResumeError {
@@ -68,7 +68,7 @@ pub enum ResumeError {
     /// The machine has other axes.
     #[error("the snapshot belongs to a machine with other axes")]
     OtherMachine,
-    /// It was changed after it was saved, or names something that does not exist.
+    /// A snapshot that was changed after it was saved, or names something that does not exist.
     #[error("the snapshot is damaged: {0}")]
     Damaged(&'static str),
 }

@@ -1,4 +1,4 @@
-//! How a block moves: its axis words and the words of its geometry, the axes that move without a word of their own
+//! Motion of a block: its axis words and the words of its geometry, the axes that move without a word of their own
 //! (R10.7), and the path and velocity that follow from them (R5.1).
 
 use std::cell::Cell;
@@ -44,7 +44,7 @@ pub(crate) struct BlockMotion {
     last_arc: Option<Travel>,
 }
 
-/// What the motion of a block depends on, apart from its words.
+/// State on which the motion of a block depends, apart from its words.
 #[derive(Clone, Copy)]
 pub(crate) struct MotionSetting<'a> {
     pub(crate) axes: AxisLookup<'a>,
@@ -99,7 +99,7 @@ impl BlockMotion {
         self.also.push(moved);
     }
 
-    /// It is not known whether an axis moves.
+    /// Records that an axis possibly moves.
     pub(crate) fn perhaps_move(&mut self, axis: AxisIndex) {
         self.also.push(MovedAxis {
             axis,
@@ -109,7 +109,7 @@ impl BlockMotion {
         });
     }
 
-    /// It is not known whether any of these axes moves.
+    /// Records that each of these axes possibly moves.
     pub(crate) fn perhaps_move_all(&mut self, axes: impl ExactSizeIterator<Item = AxisIndex>) {
         let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
         if self.also.iter().filter(possible).count() < axes.len() {
@@ -267,7 +267,7 @@ impl BlockMotion {
         [self.words.len(), self.also.len()]
     }
 
-    /// What a macro added is shown where the macro is used.
+    /// Moves the spans of everything that a macro added to the use of the macro.
     pub(crate) fn show_at(&mut self, [words, also]: [usize; 2], span: Span) {
         for word in &mut self.words[words..] {
             word.span = span;

@@ -15,10 +15,10 @@ use crate::text::Span;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Motions {
-    /// They do not.
+    /// Blocks do not report their motion.
     #[default]
     None,
-    /// They do, see [`Motion`].
+    /// Blocks report their motion, see [`Motion`].
     Taken,
 }
 
@@ -127,7 +127,7 @@ pub enum PathFeed {
     /// At least one axis moves at this part of its highest velocity: G00, and G194 with its weight
     /// (PM/206602507).
     OfAxes(f64),
-    /// Not known, with the reason.
+    /// Unknown feed, with the reason.
     Unknown(&'static str),
 }
 
@@ -293,7 +293,7 @@ pub struct MovedAxis {
     pub axis: AxisIndex,
     /// The words that move it.
     pub span: Span,
-    /// How it moves.
+    /// Kind of the motion.
     pub kind: MotionKind,
     /// Whether it certainly moves.
     pub certainty: Certainty,

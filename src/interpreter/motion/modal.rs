@@ -21,7 +21,7 @@ use crate::lists::{ChannelSettings, ChannelSwitch, SlopeProfile};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PositionFrame {
-    /// No transformation is active.
+    /// Position in the coordinates of the machine.
     Machine,
     /// An origin that only the machine knows: paths and velocities are those of the machine, places
     /// are those of the program (R11.30).
@@ -625,7 +625,7 @@ impl Modal {
         }
     }
 
-    /// What separates positions from those of the machine.
+    /// Returns the frame of the programmed positions.
     #[inline]
     pub fn frame(&self) -> PositionFrame {
         if self.transformed.is_empty() {
@@ -653,8 +653,8 @@ impl Modal {
     }
 }
 
-/// What the command or function of a name makes of positions (R11.30): an M, T or D function that may move the
-/// origin leaves paths as they are; one whose number is not known may call any program.
+/// Returns the frame that a command or function switches to, by its name (R11.30): an M, T or D function that may move
+/// the origin leaves paths as they are; one whose number is not known may call any program.
 fn frame_of(name: &str) -> PositionFrame {
     if name == CUTTER_RADIUS {
         return PositionFrame::Contour;
@@ -715,7 +715,7 @@ fn without_compensation() -> u32 {
 }
 
 impl Default for GFunctions {
-    /// Those at program start.
+    /// Returns the modal words at program start.
     fn default() -> Self {
         Self {
             motion: 0,

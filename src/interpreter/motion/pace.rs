@@ -27,9 +27,9 @@ pub struct ProgrammedFeed {
 /// known.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Factors {
-    /// With G01, G02, G03.
+    /// Factor of feed motions: G01, G02, G03.
     pub(crate) feed: Option<f64>,
-    /// With G00.
+    /// Factor of rapid motions: G00.
     pub(crate) rapid: Option<f64>,
 }
 
@@ -199,7 +199,7 @@ impl Pace {
         };
     }
 
-    /// Everything may have been changed in any way.
+    /// Makes the spindle speed and the overrides unknown.
     pub(crate) fn havoc(&mut self) {
         self.havoc_spindle();
         self.havoc_overrides();
@@ -276,16 +276,16 @@ pub(crate) fn plain_number(argument: &Argument) -> Option<f64> {
 /// [`crate::interpreter::motion::modal::GFunctions::feeds`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) struct LackingFeeds {
-    /// Those that certainly do.
+    /// The modes that certainly lack a feed.
     certain: u8,
-    /// Those that may.
+    /// The modes that possibly lack a feed.
     possible: u8,
 }
 
 impl LackingFeeds {
     const ALL: u8 = 0b1111;
 
-    /// No feed was programmed.
+    /// Returns the state before the first feed is programmed.
     pub(crate) fn all() -> Self {
         Self {
             certain: Self::ALL,
@@ -345,9 +345,9 @@ pub struct Contouring {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Joining {
-    /// Those that follow a curve already, within a fraction of a µm (R11.22).
+    /// Blocks that follow a curve already, within a fraction of a µm (R11.22).
     Fine,
-    /// All within the tolerance.
+    /// All blocks within the tolerance.
     WithinTolerance,
 }
 

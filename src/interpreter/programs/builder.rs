@@ -23,7 +23,7 @@ const MAX_PARSED: usize = 10_000;
 struct Open {
     kind: ControlBlock,
     opener: EntryIndex,
-    /// All statements of the control block so far.
+    /// Statements of the control block so far.
     parts: Vec<EntryIndex>,
     span: Span,
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.

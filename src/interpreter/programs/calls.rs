@@ -267,7 +267,7 @@ impl FunctionWord {
 
 /// Program configured for a word.
 pub(crate) enum Configured {
-    /// Nothing.
+    /// No program.
     None,
     /// A program.
     Program(String),
@@ -391,13 +391,13 @@ fn is_word(word: &str) -> bool {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoProgram {
-    /// It does not exist (FC320).
+    /// No program of that name (FC320).
     Absent,
-    /// It does not exist, but one with a similar name, which may be meant, does (FC320).
+    /// No program of that name, but one with a similar name that may be meant (FC320).
     Near(String),
-    /// It is in a folder that programs are not called from (FC321).
+    /// A program in a folder that programs are not called from (FC321).
     Outside,
-    /// It exists but cannot be used (FC320); the words that follow its name: `is a folder`.
+    /// A file that exists but cannot be used (FC320), with the words that follow its name: `is a folder`.
     Unusable(String),
 }
 

@@ -108,15 +108,15 @@ impl std::fmt::Display for LabelName {
 /// Control blocks whose borders a jump crosses, where the control may refuse it (R2.103).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum JumpAcross {
-    /// None, or it leaves them completely.
+    /// No border, or only those of blocks that the jump leaves completely.
     Nothing,
-    /// It stays within its loop.
+    /// Jump that stays within its loop.
     WithinLoop,
-    /// It leaves a loop and stays within another one.
+    /// Jump out of a loop that stays within another loop.
     OneOfSeveralLoops,
-    /// It enters a loop.
+    /// Jump into a loop.
     IntoLoop,
-    /// It enters a `$SWITCH`.
+    /// Jump into a `$SWITCH`.
     IntoSwitch,
 }
 
@@ -386,7 +386,7 @@ impl Index {
         opener < entry && entry <= self.links(opener).end
     }
 
-    /// What a jump crosses (R2.103).
+    /// Returns the control blocks that a jump crosses (R2.103).
     pub(crate) fn jump_across(&self, from: EntryIndex, to: EntryIndex) -> JumpAcross {
         let mut loops = self.opened_around(&self.loops, from);
         let mut enters_switch = self

@@ -56,7 +56,7 @@ pub(crate) struct ProgramStore {
 }
 
 impl ProgramStore {
-    /// No file yet.
+    /// Creates a store without files.
     pub(crate) fn new(nesting: u32) -> Self {
         Self {
             nesting,

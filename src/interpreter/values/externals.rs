@@ -61,10 +61,10 @@ impl ExternalNames {
 /// Use of the values that the program set in `V.E.` variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum HeldValues {
-    /// They count.
+    /// The values count.
     #[default]
     Taken,
-    /// They may have changed.
+    /// The values may have changed.
     Doubted,
 }
 
@@ -148,7 +148,7 @@ impl HeldVariable {
         &self.first
     }
 
-    /// What remains of it where a condition tells its value.
+    /// Returns the part that remains where a condition determines the value; `None` if the value is impossible.
     pub(crate) fn with(&self, value: &Value) -> Option<Self> {
         let mut values = self.values.iter();
         let at = match values.find(|(known, _)| known == value) {

@@ -36,7 +36,7 @@ pub enum Unknown {
     /// The reaction of the control to a missing jump label.
     #[serde(rename = "a missing jump label")]
     MissingLabel,
-    /// What `$CONTINUE` does in a `$SWITCH` outside a loop (R2.40).
+    /// Effect of `$CONTINUE` in a `$SWITCH` outside a loop (R2.40).
     #[serde(rename = "`$CONTINUE` in a `$SWITCH`")]
     ContinueInSwitch,
     /// Whether the control refuses a block, by the number of its error where that is public (R2.114).
@@ -53,7 +53,7 @@ pub enum Unknown {
     /// The ways past the budget of ways, which are not followed (R14.4).
     #[serde(rename = "ways that are not followed")]
     Ways,
-    /// What the control would do past the budget of work (R2.60).
+    /// Behaviour of the control past the budget of work (R2.60).
     #[serde(rename = "the budget of work")]
     Work,
     /// The effect of a block search on the commands that it passes (R2.96).
@@ -101,7 +101,7 @@ pub struct UnknownText {
     meaning: TextMeaning,
 }
 
-/// It takes a word, in which a value says its kind, too: a processor waits where it reads a word that was written in parts.
+/// Meaning of an unknown text. It is as wide as a word: reading a word that was written in parts stalls the processor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u64)]
 enum TextMeaning {

@@ -19,7 +19,7 @@ use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 use crate::syntax::{VariableFamily, VariableName};
 
-/// Everything a program can write and read back.
+/// Memory of everything that a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Memory {
     pub(crate) parameters: ParameterValues,
@@ -344,7 +344,7 @@ impl Memory {
             && levels.all(|level| level.names.get(name.array()).is_none())
     }
 
-    /// How a name is used otherwise than the variable allows.
+    /// Returns the misuse in a name that does not fit its variable.
     pub(crate) fn misuse(&self, name: &VariableName) -> Option<Misuse> {
         let array = self.array(name.array());
         match (name.is_element(), array) {
@@ -406,8 +406,7 @@ impl Memory {
         self.lost = Some(cause.clone());
     }
 
-    /// Everything that a program can write may have been written: nothing is known any more.
-    /// Values that only the machine holds are kept.
+    /// Discards the values of everything that a program can write. Values that only the machine holds are kept.
     pub(crate) fn havoc_all(&mut self, cause: &Unknown) {
         self.havoc_parameters(cause);
         self.unknown_names = Some(cause.clone());

@@ -218,7 +218,7 @@ impl NamedVariable {
 }
 
 impl VariableNames {
-    /// All values by name, those of an array element by element.
+    /// Returns all values by name, those of an array element by element.
     pub(crate) fn held(&self) -> BTreeMap<VariableName, Value> {
         let mut held = BTreeMap::new();
         for (array, variable) in self.names.iter() {

@@ -13,7 +13,7 @@ use std::sync::{Arc, LazyLock};
 use serde::ser::SerializeSeq as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// No program can choose names whose ranks make the tree deep.
+/// Seed of the ranks, random so that no program can choose names whose ranks make the tree deep.
 static RANKS: LazyLock<RandomState> = LazyLock::new(RandomState::new);
 
 /// An ordered map; a copy shares everything with its original until one of them changes.
@@ -60,7 +60,7 @@ impl<K, V> PersistentMap<K, V> {
         *self = Self::default();
     }
 
-    /// All entries in the order of their keys.
+    /// Returns all entries in the order of their keys.
     pub(crate) fn iter(&self) -> MapEntries<'_, K, V> {
         let mut entries = MapEntries { open: Vec::new() };
         entries.descend(self.root.as_deref());

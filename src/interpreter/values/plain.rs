@@ -200,7 +200,7 @@ fn popped(node: Node) -> usize {
 /// Writer of a value other than the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(crate) enum Writer {
-    /// Nothing: parameters, `V.P.`, `V.L.`, `V.S.`, and `stable` variables.
+    /// No other writer: parameters, `V.P.`, `V.L.`, `V.S.`, and `stable` variables.
     Nothing,
     /// The machine at any time: `V.E.`, skip levels.
     Machine,
@@ -220,7 +220,7 @@ impl Writer {
     }
 }
 
-/// What a condition is about, in a form independent of its text.
+/// Meaning of a condition, independent of its text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ConditionMeaning {
     pub(crate) subject: ConditionSubject,
@@ -235,7 +235,7 @@ pub(crate) struct ConditionMeaning {
 pub(crate) enum ConditionSubject {
     /// Whether an expression holds.
     Truth,
-    /// Which of some cases an expression is.
+    /// Choice of a case by the value of an expression.
     Cases(Vec<Arc<str>>),
     /// Whether an expression as the remedy class of an error ends the program.
     RemedyClass,

@@ -184,7 +184,7 @@ impl ValueType {
         }
     }
 
-    /// What a variable of the type and of a name has after an assignment.
+    /// Returns the value of a variable of the type and of a name after an assignment.
     pub(crate) fn take(self, name: &str, value: Value) -> TypedValue {
         match (self, value, self.limits()) {
             (Self::Text(most), Value::Text(text), _) => match most {

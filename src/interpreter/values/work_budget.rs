@@ -108,7 +108,7 @@ impl WorkBudget {
         self.repeated
     }
 
-    /// All work so far.
+    /// Returns all work so far.
     pub(crate) fn spent(&self) -> u64 {
         self.spent.get()
     }

@@ -359,7 +359,7 @@ impl History {
         kinds.filter_map(|(key, kind)| Some((*key, kind.states.as_ref()?)))
     }
 
-    /// Those of the ways to a block on which a kind is as the program found it.
+    /// Returns the ways to a block on which a kind is as the program found it.
     pub(crate) fn found(&self, key: AxisKind, reach: &WaySet) -> WaySet {
         let known = self.0.get(&key);
         known.map_or_else(|| reach.clone(), |kind| kind.found_on(reach))
@@ -610,7 +610,7 @@ impl FoundStates<'_> {
         ways.is_always() || !ways.is_never() && ways_of(ways, self.conditions).is_empty()
     }
 
-    /// All ways that lead to the block.
+    /// Returns all ways that lead to the block.
     pub(crate) fn on_all(self) -> FoundOn {
         FoundOn(self.reach.clone())
     }

@@ -27,12 +27,13 @@ pub(crate) struct OtherPaths {
     pub(crate) loop_heads: LoopHeads,
     /// The effects of programs that were called on other ways.
     pub(crate) call_effects: CallEffects,
-    /// How often the program has used up its budget of ways.
+    /// Number of times that the program has used up its budget of ways.
     pub(crate) widened: u64,
     /// Messages on what came before the current block: paths that joined, a block that is not kept.
     #[serde(skip)]
     pub(crate) joined: Vec<Diagnostic>,
-    /// Such messages that are withheld, because they were reported before or nothing differs.
+    /// Messages on what came before the current block that are withheld, because they were reported before or nothing
+    /// differs.
     #[serde(skip)]
     pub(crate) joined_withheld: Vec<Diagnostic>,
 }
@@ -153,10 +154,10 @@ pub(crate) struct LoopHead {
 #[serde(transparent)]
 pub(crate) struct LoopHeads(#[serde(with = "rows")] BTreeMap<HeadPlace, LoopHead>);
 
-/// What a way adds to the head that it reaches.
+/// Contribution of a way to the head that it reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Arrival {
-    /// Nothing: earlier passes have done all that it may do.
+    /// No contribution: earlier passes have done all that it may do.
     Covered,
     /// Something, with which the next pass begins.
     Grown,

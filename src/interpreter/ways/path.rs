@@ -51,7 +51,7 @@ pub(crate) struct RunTrack {
     /// The error that has ended it, where the run goes on as if the failing command were not there (R9.20).
     #[serde(default)]
     pub(crate) failed: Option<Box<FailedAt>>,
-    /// What it is to the way that is followed, where one is (R14.8).
+    /// Relation to the followed way, where one is followed (R14.8).
     pub(crate) shadow: Shadow,
     /// The jump labels at which it continues, where it waits at the first of them and may also be at any other.
     pub(crate) labels: Option<Arc<[EntryIndex]>>,
@@ -84,11 +84,11 @@ pub(crate) struct Marked {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct AssumedValues(#[serde(with = "rows")] BTreeMap<Location, ValueBefore>);
 
-/// What was known of a value before a condition.
+/// Knowledge of a value before a condition.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct ValueBefore {
     value: Option<Value>,
-    /// What the program had set in it, where the PLC had not acted since (R2.99).
+    /// Value set by the program, if the PLC had not acted since (R2.99).
     set: Option<HeldVariable>,
 }
 
@@ -563,7 +563,7 @@ pub(crate) struct Meeting {
     pub(crate) entry: EntryIndex,
 }
 
-/// What a way is to the one that is followed.
+/// Relation of a way to the followed one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Shadow {
     /// Where it is followed again; `None` for the way that is followed.

@@ -44,7 +44,7 @@ impl WaySet {
         Self(vec![Vec::new()])
     }
 
-    /// No way.
+    /// Returns a set without ways.
     pub(crate) fn never() -> Self {
         Self(Vec::new())
     }
@@ -139,7 +139,7 @@ impl WaySet {
         Self(ways.map(|way| way.iter().map(answer).collect()).collect())
     }
 
-    /// Those of the ways that do not contradict others, as they are.
+    /// Returns the ways that do not contradict others, unchanged.
     pub(crate) fn within(&self, others: &Self) -> Self {
         let ways = self.0.iter();
         let agree = |way: &&Way| others.0.iter().any(|other| !contradict(way, other));
@@ -203,9 +203,9 @@ enum Relation {
 struct WayRelations {
     /// The conditions that it names, a bit each; conditions may share one.
     named: u64,
-    /// Those that contain it.
+    /// The ways that contain it.
     contained: u64,
-    /// Those that it can be widened by.
+    /// The ways that it can be widened by.
     adjacent: u64,
 }
 

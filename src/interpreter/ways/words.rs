@@ -77,7 +77,7 @@ pub enum WayCondition {
         /// Whether it ends the program.
         stops: bool,
     },
-    /// What follows an error with the remedy class 7 (R2.100).
+    /// Start after an error with the remedy class 7 (R2.100).
     Restart {
         /// The file of the command.
         file: Arc<str>,

@@ -291,7 +291,7 @@ fn element(
     Some(name.at(subscripts.into_iter().rev().collect()))
 }
 
-/// Only the program's own variables can be declared (TF5200 Diagnosis, error 20908).
+/// Refuses the declaration of anything but the program's own variables (TF5200 Diagnosis, error 20908).
 fn refuse_declaration(declaration: &Declaration, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
     let name = declared_name(declaration, at);
     let family = name.family();

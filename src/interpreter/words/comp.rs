@@ -373,7 +373,7 @@ impl Executor {
             .push(at.diagnostic(fault).with_axis(name.clone()));
     }
 
-    /// What the control says of a command that it refuses whatever came before.
+    /// Returns the message on a command that the control refuses in any state.
     pub(crate) fn refusal_of(
         &self,
         command: &CompCommand,

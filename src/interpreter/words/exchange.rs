@@ -51,7 +51,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Without a group that of the channel list comes into force (PM/207133579).
+    /// Enables a coupling group: the named one, or without a name that of the channel list (PM/207133579).
     pub(crate) fn enable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let mut group = self.group_of(hash, at);
         if group.is_empty() {
@@ -70,7 +70,7 @@ impl Executor {
         self.state.control.enable_coupling(&group, &self.machine);
     }
 
-    /// Without a group the last one that was enabled is released.
+    /// Releases a coupling group: the named one, or without a name the last one enabled.
     pub(crate) fn disable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let group = self.group_of(hash, at);
         self.state.control.disable_coupling(&group);

@@ -1,5 +1,5 @@
-//! What becomes unknown at once (R2.50, R2.70), and states of which only the machine knows which a kind has, as separate ways
-//! (R14.1): those that a program leaves that only the machine has, and those that a program finds (R10.1).
+//! Simultaneous loss of what is known (R2.50, R2.70), and states known only to the machine, as separate ways (R14.1):
+//! those left by a program that only the machine has, and those found by a program (R10.1).
 
 use std::sync::Arc;
 
@@ -31,8 +31,8 @@ impl Executor {
         }
     }
 
-    /// Everything that a program could change becomes unknown: every kind of every axis, positions and
-    /// modal words, parameters and variables (R2.52).
+    /// Makes everything unknown that a program can change: every kind of every axis, positions and modal words,
+    /// parameters and variables (R2.52).
     pub(crate) fn havoc_all(&mut self, cause: &Unknown) {
         self.havoc_memory(cause);
         self.state.control.memory.havoc_macros(cause, |_, _| false);
@@ -50,7 +50,7 @@ impl Executor {
         calls.get_or_insert_with(|| cause.clone());
     }
 
-    /// It is not known whether any axis moves.
+    /// Records that every axis possibly moves.
     pub(crate) fn perhaps_move_all(&mut self) {
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         self.scratch.moves.perhaps_move_all(axes);

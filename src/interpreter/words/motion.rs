@@ -88,7 +88,7 @@ impl Executor {
         self.state.control.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
     }
 
-    /// How the block moves, and what that depends on.
+    /// Returns the motion of the block and the state it depends on.
     fn moves(&mut self) -> (&mut BlockMotion, MotionSetting<'_>) {
         let control = &self.state.control;
         let axes = AxisLookup {

@@ -32,7 +32,7 @@ use crate::text::{Place, Span};
 
 /// Where the jump of a condition goes.
 enum ConditionalJump {
-    /// There is no jump, or it is reported before the program begins.
+    /// No jump, or one that is reported before the program begins.
     Nowhere,
     /// Its label does not exist.
     Missing(LabelName, Span),

@@ -58,7 +58,7 @@ enum WideEffect {
     Refusal,
 }
 
-/// What blocks could do, by their text.
+/// Possible effects of blocks, judged by their text.
 #[derive(Default)]
 struct PossibleEffects {
     wide: BTreeSet<WideEffect>,

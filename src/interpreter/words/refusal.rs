@@ -1,6 +1,6 @@
-//! What the control refuses, and the ways that end with it: `#ERROR` (R2.100; PM/207457163), blocks that it may refuse (R2.114),
-//! and errors, each with the state that it leaves (R14.5, R18.10). Unknown values that decide are reported with their origins
-//! (R2.95).
+//! Refusals of the control, and the ways that end with them: `#ERROR` (R2.100; PM/207457163), blocks that it may refuse
+//! (R2.114), and errors, each with the state that it leaves (R14.5, R18.10). Unknown values that decide are reported
+//! with their origins (R2.95).
 
 use std::sync::Arc;
 
@@ -30,19 +30,19 @@ use crate::text::Span;
 /// The remedy class of a system error, after which the control is restarted, or reset (tf5200, 15557035659).
 const SYSTEM_ERROR: f64 = 7.0;
 
-/// What is known of the remedy class.
+/// Knowledge of a remedy class.
 enum RemedyClass {
     Known(f64),
-    /// It is left out, and no default is documented.
+    /// Class left out, for which no default is documented.
     LeftOut,
-    /// Only the machine knows the value that decides.
+    /// Class that depends on a value known only to the machine.
     Unknown(Expression, Doubt),
 }
 
 /// The blocks to which it applies whether an error ends the program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum StopScope {
-    /// This block; each other one asks anew.
+    /// Only this block; each other one is decided anew.
     Block,
     /// This block and all later ones.
     Rest,
@@ -487,7 +487,7 @@ impl Executor {
         }
     }
 
-    /// Only after a reset does the next program run (R1.28).
+    /// Resets the control after an error, without which the next program does not run (R1.28).
     pub(crate) fn reset_after_stop(&mut self) {
         let start_up = self.machine.compensation();
         let compensation = &self.state.control.compensation;
@@ -532,7 +532,7 @@ impl Executor {
     }
 }
 
-/// What comes between an error and the next program.
+/// Action required between an error and the next program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum NextStart {
     Reset,

@@ -1,4 +1,4 @@
-//! What is said about a command at its place: FC402, FC405 and FC408.
+//! Messages on a command at its place: FC402, FC405 and FC408.
 
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};

@@ -204,7 +204,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// Nothing follows a call in its block (TF5200 Diagnosis, error 21542).
+    /// Refuses whatever follows a call in its block (TF5200 Diagnosis, error 21542).
     fn refuse_after_call(&mut self) {
         let mut items = self.block.items.iter();
         let Some(Item::Call(call)) = items.find(|item| matches!(item, Item::Call(_))) else {

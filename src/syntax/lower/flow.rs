@@ -36,7 +36,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// Only a skip mark may be before `#IF` and its parts (R2.73).
+    /// Refuses anything but a skip mark before `#IF` and its parts (R2.73).
     fn refuse_before_hash(&mut self, word: &str, span: Span) {
         let first = self.block.items.first();
         let label = first.filter(|item| matches!(item, Item::Label(_)));

@@ -8,7 +8,7 @@ const COMP_EVERY: u32 = 1000;
 /// One block in so many is damaged in a [`Shape::Damaged`] program.
 const DAMAGED_EVERY: u32 = 100;
 
-/// What a program looks like.
+/// Form of a generated program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
     /// Plain motion of X, Y and Z, with a COMP command every 1000 blocks.

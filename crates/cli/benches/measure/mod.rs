@@ -4,7 +4,7 @@
 
 use std::time::{Duration, Instant};
 
-/// How often each piece of work is done.
+/// Repetitions of each piece of work.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bench {
     pub(crate) runs: u32,

@@ -60,7 +60,7 @@ impl FailOnWord {
     }
 }
 
-/// What gives exit status 1 (R18.1).
+/// Messages that give exit status 1 (R18.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct FailOn {
     least: Option<Severity>,

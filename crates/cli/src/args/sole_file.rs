@@ -13,7 +13,7 @@ pub(crate) struct Meant {
     report: Option<PathBuf>,
 }
 
-/// How the command was started.
+/// Way in which the command was started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Invocation {
     /// By a shell or another program.

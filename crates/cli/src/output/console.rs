@@ -70,7 +70,7 @@ pub(crate) struct DataTarget {
 /// Whether all output was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Printed {
-    /// All of it was written.
+    /// All output was read.
     Read,
     /// The pipe was closed.
     Unread,

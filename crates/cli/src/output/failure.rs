@@ -1,4 +1,4 @@
-//! Why the tool could not do its work, or a part of it; the other parts are done nevertheless (R9.77).
+//! Failures of the tool in its work or in a part of it; the other parts are done nevertheless (R9.77).
 
 use std::io;
 use std::path::Path;

@@ -5,7 +5,7 @@ use crate::workspace::{files, root};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Command, Stdio};
 
-/// No program of the tests needs more blocks; some never end.
+/// Budget of blocks: enough for every program of the tests that ends.
 const BUDGET: [&str; 2] = ["--max-blocks", "2000"];
 
 fn tool() -> Command {

@@ -91,7 +91,7 @@ impl Typed {
         typed
     }
 
-    /// What the tool or git prints: stdout, stderr, and `? 1` for an exit status other than 0.
+    /// Returns the output of the tool or git: stdout, stderr, and `? 1` for an exit status other than 0.
     fn printed(&self, folder: &Path, program: fn(&Path, &[&str]) -> Command) -> String {
         let arguments: Vec<&str> = self.words[1..].iter().map(String::as_str).collect();
         let output = starting(|| {
@@ -156,7 +156,8 @@ pub(crate) fn git(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// What a command shows: the tool, git, or one of the few that a case needs to prepare and to look at its files.
+/// Runs a command line and returns its output: the tool, git, or one of the few commands that prepare and show the
+/// files of a case.
 fn play(line: &str, folder: &Path) -> String {
     let typed = Typed::new(line);
     let [name, files @ ..] = &typed.words[..] else {

@@ -80,7 +80,7 @@ fn prepare(folder: &Path) {
     .unwrap();
 }
 
-/// No output is obeyed by a terminal or a runner.
+/// Checks that a terminal or a runner obeys no part of an output.
 fn is_harmless(output: &Output, arguments: &[&str]) {
     for bytes in [&output.stdout, &output.stderr] {
         let text = std::str::from_utf8(bytes).unwrap();

@@ -241,7 +241,7 @@ fn recorded_circles_give_the_next_list() {
     refused::changed_after_a_round(&bench);
 }
 
-/// Only its recordings judge the second round, and the better list is handed over.
+/// Checks that the second round is judged by its own recordings only, and that the better list is handed over.
 fn second_round(bench: &Bench, first: &Value) {
     bench.drive(2);
     let second = bench.record();

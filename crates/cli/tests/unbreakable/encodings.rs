@@ -22,7 +22,7 @@ const LEADS: [(&str, usize); 7] = [
     ("(e\u{301}\u{1f980}) ", 6),
 ];
 
-/// How a text reaches the tool.
+/// Way in which a text reaches the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Way {
     /// A file, line by line.

@@ -18,7 +18,7 @@ const RUN: [&str; 4] = ["run", "--state", "s.json", "a.nc"];
 /// The exit status of a killed run: none, but on Windows the one that its killer sets.
 const KILLED: Option<i32> = if cfg!(windows) { Some(1) } else { None };
 
-/// What happened to the runs so far.
+/// Counts of the runs so far.
 #[derive(Default)]
 struct Tally {
     started: AtomicU64,

@@ -1,4 +1,4 @@
-//! What stops a run: breakpoints at lines, changes of a state, values that are not known.
+//! Causes that stop a run: breakpoints at lines, changes of a state, values that are not known.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ struct Breakpoint {
 /// Effect of the breakpoints on a line when a run reaches it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct BreakpointsMet {
-    /// Why the run stops, in words; `None` if it does not stop.
+    /// Reason for the stop in words; `None` if the run does not stop.
     pub(super) stop: Option<String>,
     /// Texts of log points.
     pub(super) logged: Vec<String>,

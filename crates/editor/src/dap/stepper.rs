@@ -56,10 +56,10 @@ pub(super) enum RunTarget {
     Breakpoint,
 }
 
-/// Why the run has stopped.
+/// Reason why the run has stopped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Halt {
-    /// It has reached its goal.
+    /// Goal of the run reached.
     Arrived,
     /// The line has a breakpoint; the description of the stop.
     Breakpoint(String),
@@ -80,7 +80,7 @@ pub(super) enum Halt {
 struct Trail {
     /// The last executed block of each call depth.
     sites: Vec<BlockOfCall>,
-    /// Why the program ended.
+    /// Cause of the end of the program.
     ended: Option<EndedBy>,
 }
 

@@ -136,7 +136,7 @@ fn short(text: &str) -> String {
     words.chars().take(39).chain(['\u{2026}']).collect()
 }
 
-/// All changes of a text that are safe to make without a review.
+/// Returns the code action that makes all changes of a text that are safe without a review.
 fn fix_all(view: &RequestView, document: &OpenDocument) -> Option<CodeAction> {
     let fixes = safe_fixes(view, document);
     if fixes.is_empty() {

@@ -39,7 +39,7 @@ pub(super) struct Analysis {
     pub(super) version: i32,
     /// Messages about the text and all that it uses.
     pub(super) said: Vec<Diagnostic>,
-    /// Why it could not be checked.
+    /// Reason why the text could not be checked.
     pub(super) failure: Option<Failure>,
     /// The files that were read for it.
     pub(super) reads: Vec<PathBuf>,
@@ -49,7 +49,7 @@ pub(super) struct Analysis {
     pub(super) run: Option<ProgramRun>,
 }
 
-/// Why a text could not be checked.
+/// Reason why a text could not be checked.
 #[derive(Debug)]
 pub(super) struct Failure {
     /// The failure.

@@ -9,12 +9,12 @@ use super::worker::Cancel;
 /// between the changes of one.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Why a text has to be checked.
+/// Reason why a text has to be checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outdated {
-    /// It is new.
+    /// New text.
     Now,
-    /// It was changed, and may be again at once.
+    /// Changed text, which may change again at once.
     ByTyping,
     /// A file that it uses was changed.
     ByOthers,

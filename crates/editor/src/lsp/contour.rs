@@ -62,7 +62,7 @@ pub(super) struct Contour {
     worst: Vec<Worst>,
     /// The verdict, then the figures in sentences and tables.
     report: Value,
-    /// What the contour is based on, and what it lacks.
+    /// Remarks on the basis of the contour, and on what it lacks.
     remarks: Vec<String>,
 }
 

@@ -41,7 +41,7 @@ pub(super) struct BlockStates {
     pub(super) times: u64,
     /// The axes.
     pub(super) axes: Vec<AxisStates>,
-    /// All of it in one short line: `X active, Y inactive → active`.
+    /// States of all axes in one short line: `X active, Y inactive → active`.
     pub(super) text: String,
 }
 

@@ -207,7 +207,7 @@ impl Documents {
         self.open.get(&uri.0)
     }
 
-    /// All open texts.
+    /// Returns all open texts.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Arc<OpenDocument>> {
         self.open.iter().map(|(_, document)| document)
     }

@@ -18,7 +18,7 @@ pub(super) struct RoutedRequest {
     pub(super) handler: Handler,
     /// Its parameters.
     pub(super) params: Value,
-    /// All that is known at the moment of the request.
+    /// State of the server at the moment of the request.
     pub(super) view: RequestView,
 }
 

@@ -1,13 +1,13 @@
-//! Why a question has no answer.
+//! Refusals of a question.
 
 use lsp_server::{ErrorCode, RequestId, Response};
 
 use frictcomp_host::HostError;
 
-/// Why a question has no answer.
+/// Reason why a question has no answer.
 #[derive(Debug)]
 pub(super) enum Refusal {
-    /// It cannot be understood.
+    /// Parameters that cannot be understood.
     Params(String),
     /// The answer cannot be found.
     Failed(String),

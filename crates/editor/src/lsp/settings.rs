@@ -13,13 +13,13 @@ pub(super) enum Navigation {
     /// Features that ISG's extension lacks; all of them if the client says that it is absent.
     #[default]
     Auto,
-    /// They are.
+    /// Navigation is offered.
     On,
-    /// They are not.
+    /// Navigation is not offered.
     Off,
 }
 
-/// What drives the contour of a program: the keys below `contour` (R12.17).
+/// Settings for the contour of a program: the keys below `contour` (R12.17).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ContourSettings {
     /// `contour.plant`: the drives, a preset or a file.
@@ -57,7 +57,7 @@ pub(super) struct Settings {
     pub(super) pages: Option<String>,
     /// `languages`: further languages of the editor whose texts are programs, whatever they are called.
     pub(super) languages: Vec<String>,
-    /// What drives a contour.
+    /// Settings for the contour of a program.
     pub(super) contour: ContourSettings,
 }
 

@@ -72,7 +72,7 @@ impl StateSet {
 /// A number for a set of states.
 type SetIndex = u32;
 
-/// No further pass.
+/// Mark for no further pass.
 const NONE: u32 = u32::MAX;
 
 /// Passes through a block with the same states.

@@ -87,7 +87,7 @@ impl Users {
         self.readers.get(path).into_iter().flatten()
     }
 
-    /// All texts that were checked.
+    /// Returns all texts that were checked.
     pub(super) fn all(&self) -> impl Iterator<Item = &String> {
         self.noted.keys()
     }

@@ -70,7 +70,7 @@ pub struct MissingCall {
     pub name: String,
     /// The line of the call, from 1.
     pub line: u32,
-    /// Why it was not found.
+    /// Reason why it was not found.
     pub why: NoProgram,
 }
 

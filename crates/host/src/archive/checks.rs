@@ -33,7 +33,7 @@ pub struct CheckOptions {
     pub run: Options,
     /// The words of a front end for advice.
     pub wording: Option<Wording>,
-    /// What is done with programs that others call.
+    /// Treatment of programs that others call.
     pub called: CalledPrograms,
     /// Number of parallel runs.
     pub workers: NonZeroUsize,
@@ -41,13 +41,13 @@ pub struct CheckOptions {
     pub disk: Disk,
 }
 
-/// What is done with programs that others call.
+/// Treatment of programs that others call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CalledPrograms {
-    /// They are checked in their callers, if they hold no program end and a caller executes them to their end.
+    /// Programs are checked in their callers, if they hold no program end and a caller executes them to their end.
     InCallers,
-    /// They are checked by themselves, too.
+    /// Programs are checked by themselves, too.
     Alone,
 }
 
@@ -177,7 +177,7 @@ impl<'a> ProgramsOnMachines<'a> {
     }
 }
 
-/// What a check takes from the records of a program.
+/// Collector of the records of a program that a check needs.
 #[derive(Default)]
 struct CheckSink {
     findings: Findings,

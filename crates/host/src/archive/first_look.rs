@@ -1,5 +1,4 @@
-//! What a folder shows about the machine of its programs, before it has a configuration
-//! (R9.73).
+//! Evidence in a folder on the machine of its programs, before it has a configuration (R9.73).
 
 use std::path::{Path, PathBuf};
 

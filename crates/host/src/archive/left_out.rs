@@ -1,4 +1,4 @@
-//! What folders hold besides the programs that are taken (R18.5).
+//! Contents of folders besides the programs that are taken (R18.5).
 
 use std::collections::{BTreeMap, HashSet};
 use std::ffi::{OsStr, OsString};
@@ -21,27 +21,27 @@ const FIRST_BYTES: u64 = 64 * 1024;
 const MAX_BYTES: u64 = 1 << 20;
 
 words! {
-    /// Why a file of a folder is not taken as a program.
+    /// Reason why a file of a folder is not taken as a program.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     #[non_exhaustive]
     pub enum WhyLeftOut {
         /// An ignore file names a folder above it.
         IgnoredFolder = "ignored folder",
-        /// It lies in a hidden folder.
+        /// File in a hidden folder.
         HiddenFolder = "hidden folder",
-        /// It lies in a folder to which a link leads.
+        /// File in a folder to which a link leads.
         LinkedFolder = "linked folder",
         /// An ignore file names it.
         Ignored = "ignored",
-        /// It is hidden.
+        /// Hidden file.
         Hidden = "hidden",
-        /// It is a link.
+        /// Link.
         Link = "link",
-        /// It reads as a program, but has no extension of one.
+        /// File that reads as a program, but has no extension of one.
         Extension = "extension",
         /// A pattern of the user names it.
         Excluded = "excluded",
-        /// It does not read as a program.
+        /// File that does not read as a program.
         NoProgram = "no program",
     }
 }

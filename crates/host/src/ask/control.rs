@@ -24,7 +24,7 @@ use frictcomp_recordings::trace::ChannelSelection;
 /// The usual distance that an axis may move, in mm or degrees.
 pub const TRAVEL: f64 = 10.0;
 
-/// Why a control cannot be asked: one sentence in lower case.
+/// Reason why a control cannot be asked: one sentence in lower case.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum AskError {

@@ -35,7 +35,7 @@ pub(super) struct Script {
     /// The programs; if there are two, `between` is what to do in between.
     parts: Vec<String>,
     between: &'static str,
-    /// How to read the answer.
+    /// Instructions for reading the answer.
     read: String,
 }
 

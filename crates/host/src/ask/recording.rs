@@ -40,7 +40,7 @@ struct AskedChannels {
     /// Whether it was recorded after its scaling for the drive.
     is_scaled: bool,
     state: Option<ChannelIndex>,
-    /// Why they cannot be those of the axis.
+    /// Reason why the channels cannot be those of the axis.
     doubt: Option<String>,
 }
 

@@ -27,13 +27,13 @@ const TOLERANCE: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Compared {
-    /// No answer belongs to it.
+    /// Case without an answer.
     Unanswered,
     /// Every answer is as expected.
     Held,
-    /// It is open, and the control follows this reading.
+    /// Open case in which the control follows this reading.
     Reading(Alternative),
-    /// It is open, and the answers fit both readings or an answer is missing.
+    /// Open case whose answers fit both readings, or of which an answer is missing.
     Undecided,
     /// Answers differ.
     Failed(Vec<Mismatch>),

@@ -14,14 +14,14 @@ use frictcomp::comp::{Kind, State};
 use frictcomp::readings::{Alternative, Question};
 use frictcomp::text::shown_path;
 
-/// Why a case cannot be run.
+/// Reason why a case cannot be run.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}: {message}", shown_path(.file))]
 #[non_exhaustive]
 pub struct CaseError {
     /// The file of the case.
     pub file: PathBuf,
-    /// What is wrong, in words.
+    /// Fault in words.
     pub message: String,
 }
 

@@ -36,7 +36,7 @@ enum Kind {
     System(SharedMap<PathBuf, Arc<String>>),
     /// The disk of the system, with some of its files as they were in a revision.
     Revision(Arc<RevisedFiles>),
-    /// Only texts in memory.
+    /// Texts in memory only.
     Memory(Arc<MemoryDisk>),
 }
 

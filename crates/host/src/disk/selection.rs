@@ -27,10 +27,10 @@ const MARKS: [&str; 2] = ["CACHEDIR.TAG", "pyvenv.cfg"];
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum IgnoreFiles {
-    /// What they name is not taken.
+    /// Files and folders that they name are not taken.
     #[default]
     Obeyed,
-    /// They have no effect.
+    /// Ignore files have no effect.
     PassedOver,
 }
 
@@ -105,7 +105,7 @@ pub(crate) struct EntryFilter {
     folder: PathBuf,
     root: PathBuf,
     patterns: Vec<Gitignore>,
-    /// What the patterns left out, and whether it is a folder.
+    /// Entries that the patterns left out, each with whether it is a folder.
     excluded: Mutex<Vec<(PathBuf, bool)>>,
 }
 

@@ -13,7 +13,7 @@ pub enum OutsidePolicy {
     /// Called programs are refused, the text of lists is not shown.
     #[default]
     Kept,
-    /// They are treated like any other file.
+    /// Files outside are treated like any other file.
     Allowed,
 }
 

@@ -59,7 +59,7 @@ pub enum UnusedAxes {
     /// A mistake in writing.
     #[default]
     Refused,
-    /// They have no effect.
+    /// Unused axes have no effect.
     PassedOver,
 }
 

@@ -37,11 +37,11 @@ pub enum MachineOwner {
 /// Distance of a version from the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Nearness {
-    /// It lies anywhere, like the copies that `git difftool` makes.
+    /// Version anywhere, like the copies that `git difftool` makes.
     OutsidePolicy,
-    /// It lies below the current folder.
+    /// Version below the current folder.
     Here,
-    /// It lies below a configuration.
+    /// Version below a configuration.
     Configured,
 }
 

@@ -27,9 +27,9 @@ pub enum ConfigurationChoice {
     /// The nearest `frictcomp.toml` from the folder of the program upwards.
     #[default]
     Nearest,
-    /// This file.
+    /// The given file.
     File(PathBuf),
-    /// None, whatever files exist.
+    /// No configuration, whatever files exist.
     Isolated,
 }
 

@@ -60,9 +60,9 @@ pub(crate) struct AtomicFile {
 enum FileStage {
     /// More data may follow. The file is locked, so that other runs know that it is being written.
     Open(NamedTempFile),
-    /// It is on the disk. Many files may wait for each other; most of them stay locked.
+    /// File written to the disk under a temporary name. Many files may wait for each other; most of them stay locked.
     Synced(TempPath, Option<Held>),
-    /// It has taken its place.
+    /// File in its final place.
     Done,
 }
 

@@ -1,5 +1,5 @@
-//! Why Windows alone refuses a file: another program has it open, so that it cannot be replaced, or its
-//! name belongs to a device.
+//! Reasons why only Windows refuses a file: another program has it open, so that it cannot be replaced, or its name
+//! belongs to a device.
 
 use std::io;
 use std::path::Path;

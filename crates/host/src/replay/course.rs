@@ -29,7 +29,7 @@ pub(super) struct Course {
     pub(super) axes: Vec<AxisCourse>,
     /// The conditions that only the machine can decide.
     pub(super) conditions: BTreeSet<Condition>,
-    /// Why it does not reach the end of the programs.
+    /// Reason why the run does not reach the end of the programs.
     pub(super) stopped: Option<String>,
     /// The file of the last step.
     file: Option<Arc<str>>,

@@ -40,7 +40,7 @@ pub struct ContourSetup {
     pub naming: Naming,
 }
 
-/// Why a program has no contour.
+/// Reason why a program has no contour.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NoDrivenContour {

@@ -21,16 +21,16 @@ pub struct Side {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Comparison {
-    /// Without friction compensation.
+    /// Result without friction compensation.
     pub off: Side,
-    /// With friction compensation.
+    /// Result with friction compensation.
     pub on: Side,
     /// Cycles of the speed loop in which a force was limited, over all runs.
     pub saturated_cycles: u64,
 }
 
 impl CircularTest {
-    /// All four runs, one after the other.
+    /// Makes all four runs, one after the other.
     ///
     /// # Errors
     /// Those of [`run`](Self::run).

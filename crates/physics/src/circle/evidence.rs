@@ -48,7 +48,7 @@ pub struct CircleEvidence {
     pub second: Option<OtherShape>,
     /// The largest swing of X and of Y in µm, if the axis sticks and slips.
     pub stick_slip_um: [Option<f64>; 2],
-    /// What slow peaks leave beyond their reversals.
+    /// Remainders of slow peaks beyond their reversals.
     #[serde(skip)]
     pub(super) tails: Tails,
 }
@@ -125,7 +125,7 @@ impl CircleEvidence {
 /// A path in steps of some length.
 type PathSteps = fn(&RadialProfile, Direction, usize, Mask) -> Option<AngleSeries>;
 
-/// What counts as a residual.
+/// Limits above which a remainder counts as a residual.
 #[derive(Debug, Clone, Copy)]
 struct RestLimits {
     noise_um: f64,

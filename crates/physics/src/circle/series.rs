@@ -30,7 +30,7 @@ const MOST_MASKED_DEG: f64 = 75.0;
 const BLOCK_S: f64 = 0.05;
 const BLOCK_DEG: f64 = 2.0;
 
-/// What is left out of a path.
+/// Parts left out of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mask {
     Reversals,

@@ -211,7 +211,7 @@ impl Shapes {
         series.iter().map(less).collect()
     }
 
-    /// What was fitted in addition.
+    /// Returns the terms fitted in addition.
     pub(super) fn added(&self) -> Additions {
         self.basis.added
     }

@@ -32,7 +32,7 @@ pub enum PairedSwitch {
         /// The switch of the new one, perhaps on another line.
         new: Switch,
     },
-    /// Only one version switches.
+    /// A switch in one version only.
     One(Which, Switch),
 }
 

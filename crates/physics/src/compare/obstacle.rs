@@ -17,7 +17,7 @@ pub struct Obstacle {
     pub reason: Reason,
 }
 
-/// Why a version cannot be compared as a whole.
+/// Reason why a version cannot be compared as a whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reason {

@@ -29,7 +29,7 @@ impl Sink for MovingAxes {
     }
 }
 
-/// Why a contour cannot be made.
+/// Reason why a contour cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoContour {

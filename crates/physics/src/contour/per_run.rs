@@ -8,9 +8,9 @@ use serde::Serialize;
 pub struct PerRun<T> {
     /// As the program switches it.
     pub programmed: T,
-    /// All of it on.
+    /// Value with all compensation on.
     pub all_on: T,
-    /// All of it off.
+    /// Value with all compensation off.
     pub all_off: T,
 }
 

@@ -17,7 +17,7 @@ const ALONG: f64 = 0.99;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum GlitchFigure {
-    /// None: a stop, a corner or the next reversal of the axis is too close.
+    /// No glitch: a stop, a corner or the next reversal of the axis is too close.
     Missing,
     /// The axis moves along the path: nothing of it is normal to the path, and the glitch is 0.
     AlongPath,

@@ -17,11 +17,11 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum ContourVerdict {
-        /// It keeps the limits.
+        /// Contour that keeps the limits.
         Within = "within",
-        /// It exceeds a limit.
+        /// Contour that exceeds a limit.
         Above = "above",
-        /// It is not known as a whole, or not as on the machine.
+        /// Contour that is not known as a whole, or not as on the machine.
         NotJudged = "not judged",
     }
 }

@@ -23,14 +23,14 @@ const MAX_CYCLES: f64 = 40_000_000.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Resampling {
-    /// They are refused.
+    /// Such rows are refused.
     #[default]
     Refused,
     /// Cycles are made from the rows, with straight lines between them.
     Done,
 }
 
-/// Why the rows of a trace are not CNC cycles.
+/// Reason why the rows of a trace are not CNC cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CyclesError {

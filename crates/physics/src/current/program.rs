@@ -81,7 +81,7 @@ pub enum FollowError {
     /// An axis on which compensation is assumed.
     #[error("the friction values of axis `{0}` are not known, only assumed to exist")]
     Assumed(String),
-    /// All axes of a machine without value lists.
+    /// A machine without a value list for any axis.
     #[error("no axis has an accepted compensation value list, so there is no current")]
     NoList,
 }

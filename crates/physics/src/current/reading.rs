@@ -9,7 +9,7 @@ use frictcomp::diagnostic::did_you_mean;
 use frictcomp::lists::FrictionList;
 use frictcomp::readings::{Alternative, Question, QuestionSet, Readings};
 
-/// How the documents are read where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is the assumption
+/// Interpretation of the documents where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is the assumption
 /// unless the user selects otherwise.
 ///
 /// It is written in reports, and can be given, as text:
@@ -43,7 +43,7 @@ pub enum Standstill {
     /// The direction of the last motion is remembered and the value held.
     #[default]
     Hold,
-    /// Nothing is added.
+    /// No current is added.
     Zero,
 }
 

@@ -14,9 +14,9 @@ const SHARP: f64 = 0.1;
 /// The transition from one piece of the path to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Junction {
-    /// Only the bounds change.
+    /// A smooth transition, at which only the bounds of the motion change.
     Smooth,
-    /// Nothing changes, but the program sets a velocity in it.
+    /// A smooth transition with a path velocity set by the program.
     Paced {
         /// The highest path velocity in it.
         velocity: f64,

@@ -24,7 +24,7 @@ use frictcomp::timeline::Row;
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum ToolRadii {
-    /// None is known: the programmed contour is followed.
+    /// Unknown radii: the programmed contour is followed.
     #[default]
     Unknown,
     /// One for every tool.
@@ -138,12 +138,12 @@ fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
 /// Whether the path is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Running {
-    /// It has not begun, or broke off.
+    /// Path that has not begun, or broke off.
     No,
     Yes,
 }
 
-/// Why a motion cannot be followed.
+/// Reason why a motion cannot be followed.
 enum PlanObstacle {
     /// The positions of the axes before it are not known.
     Start,
@@ -322,7 +322,7 @@ impl TrajectoryPlanner {
         Some(ToolOffset::of(travel.tool?, self.plane(row)?, radius?))
     }
 
-    /// What separates the path that is followed from that of the machine.
+    /// Returns the difference between the followed path and that of the machine.
     fn frame(&self, row: &Row<'_>, travel: &Travel) -> PositionFrame {
         match row.modal.frame() {
             PositionFrame::Contour if self.beside(row, travel).is_some() => PositionFrame::Machine,

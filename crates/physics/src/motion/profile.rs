@@ -27,7 +27,7 @@ pub(super) struct Bounds {
 /// equally, and on a symmetrical change of velocity they take the same distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum RampForm {
-    /// With a constant jerk.
+    /// Ramp with a constant jerk.
     #[default]
     Linear,
     /// Like the square of a sine.

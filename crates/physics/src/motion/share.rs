@@ -6,7 +6,7 @@ use super::profile::{Bounds, RampForm};
 /// Share of the limits for a piece of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Share {
-    /// All of them.
+    /// The whole limits.
     Whole,
     /// The share next to a kink at one of its ends.
     BesideKink,

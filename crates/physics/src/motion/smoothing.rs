@@ -50,7 +50,7 @@ struct Vertex {
 /// Bend of the path at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bend {
-    /// Not more than the decimals of the program.
+    /// A bend no larger than the decimals of the program explain.
     Fine,
     /// More than that.
     Coarse,

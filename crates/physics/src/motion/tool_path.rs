@@ -44,9 +44,9 @@ impl ToolOffset {
     }
 }
 
-/// What depends on the next block.
+/// Part of the path that depends on the next block.
 enum Held {
-    /// Nothing: the tool is on the programmed path.
+    /// No such part: the tool is on the programmed path.
     Nothing,
     /// The block that leads to the contour.
     Approach(HeldBlock),
@@ -62,7 +62,7 @@ struct HeldBlock {
     beside: ToolOffset,
 }
 
-/// How the path beside a corner goes on.
+/// Form of the path beside a corner.
 #[derive(Debug, Clone, Copy)]
 enum CornerBeside {
     /// One ends where the other starts.

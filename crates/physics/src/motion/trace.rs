@@ -39,7 +39,7 @@ frictcomp::words! {
         Rapid = "rapid",
         /// At a feed, G01, G02, G03.
         Feed = "feed",
-        /// They rest for a time, G04.
+        /// Rest of the axes for a time, G04.
         Dwell = "dwell",
     }
 }

@@ -21,8 +21,8 @@ pub struct StictionParameters {
 }
 
 impl Default for StictionParameters {
-    /// No compensation: MP1511 is 0. The limit is the largest whole number within its guideline,
-    /// cycle and grating period are those of the worked case.
+    /// Returns parameters without compensation: MP1511 is 0. The limit is the largest whole number within its
+    /// guideline, cycle and grating period are those of the worked case.
     fn default() -> Self {
         Self {
             mp1511_us: 0.0,

@@ -99,7 +99,7 @@ const TABLE: [QuantityFacts; 13] = [
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum UnitError {
-    /// It does not begin with a number.
+    /// A text that does not begin with a number.
     #[error("`{0}` does not begin with a number")]
     NoNumber(String),
     /// The unit is not one of those of the quantity.

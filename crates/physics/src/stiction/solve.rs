@@ -51,11 +51,11 @@ pub struct Solution {
     pub guidelines: Vec<Guideline>,
 }
 
-/// Why nothing can be concluded.
+/// Reason why nothing can be concluded.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StictionError {
-    /// Nothing was given.
+    /// No quantity was given.
     #[error("no quantity is given")]
     Nothing,
     /// No formula has all its quantities but one.

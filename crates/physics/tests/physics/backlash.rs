@@ -95,7 +95,7 @@ fn axes_that_do_not_match_make_no_glitch() {
     }
 }
 
-/// No backlash, at any radius and feed: the grid of a test.
+/// Checks on the grid of a test that no backlash is reported, at any radius and feed.
 fn shows_none(plant: &Plant, radii: &[f64], feeds: &[f64]) {
     for (&radius, &feed) in radii.iter().flat_map(|r| feeds.iter().map(move |f| (r, f))) {
         let test = test(plant.clone(), radius, feed);

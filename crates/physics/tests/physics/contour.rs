@@ -344,8 +344,8 @@ fn pocket() -> Shape {
     shape
 }
 
-/// With the steps of the rules, only the motion in time and the measuring differ: reversals are
-/// elsewhere in the CNC cycle, which affects what the compensation leaves.
+/// Number of steps and tolerance with the steps of the rules: only the motion in time and the measuring differ, so
+/// reversals are elsewhere in the CNC cycle, which affects what the compensation leaves.
 const SAME_STEPS: (u32, Tolerance) = (2, Tolerance(0.01, 0.25));
 
 /// Thirty times smaller steps show how much those of 62.5 µs matter.

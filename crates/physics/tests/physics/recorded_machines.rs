@@ -118,8 +118,8 @@ fn the_turns_in_the_middle_count() {
     assert!(worst > 0.0);
 }
 
-/// What is known of an axis before its circles are evaluated: mass, gain of the position loop, reset time and the force
-/// of a drive unit, and the friction that constant speeds show.
+/// Returns the parameters known of an axis before its circles are evaluated: mass, gain of the position loop, reset
+/// time and the force of a drive unit, and the friction that constant speeds show.
 fn known(axis: &Axis) -> DriveParameters {
     let mut drive = Preset::Mid.plant().x;
     drive.mass_kg = axis.mass_kg;

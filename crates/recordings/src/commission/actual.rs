@@ -10,7 +10,7 @@ use frictcomp_physics::linear::solve_linear;
 /// The time in s over which noise is averaged to find what friction leaves.
 const AVERAGED_S: f64 = 0.02;
 
-/// What is left of a copy is at most this multiple of its averaged noise …
+/// Largest remainder of a copy, as a multiple of its averaged noise …
 const OF_NOISE: f64 = 1.5;
 
 /// … or this, in mm: the resolution of commanded positions.
@@ -19,7 +19,7 @@ const RESOLUTION_MM: f64 = 5e-5;
 /// Millimetres in 0.1 µm.
 const MM: f64 = 1e-4;
 
-/// How an actual position follows the commanded one.
+/// Relation of an actual position to the commanded one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FollowedPosition {

@@ -1,4 +1,4 @@
-//! What is known of a commissioning, and what is missing.
+//! Results of a commissioning, and what is missing.
 
 use serde::{Deserialize, Serialize};
 
@@ -54,7 +54,7 @@ pub struct InputFile {
     pub sha256: String,
 }
 
-/// All that is known of a commissioning.
+/// Report on all results of a commissioning.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ResultsReport {

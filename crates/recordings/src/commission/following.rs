@@ -35,7 +35,7 @@ const KNOTS_S: [f64; 11] = [
 /// The part of the travel by which a following error may exceed what its loops explain.
 const UNEXPLAINED: f64 = 0.01;
 
-/// Why a following error shows nothing.
+/// Reason why a following error cannot be evaluated.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotFollowed {
@@ -282,7 +282,8 @@ impl<'a> CommandedMotion<'a> {
         high - low
     }
 
-    /// What the loops may answer to: a constant, the direction at [`DIRECTION`], the velocity, past accelerations.
+    /// Returns the inputs to which the loops may respond: a constant, the direction at [`DIRECTION`], the velocity,
+    /// past accelerations.
     fn causes(&self, at: usize) -> Vec<f64> {
         let velocity = self.velocities[at];
         let direction = if velocity.abs() < STANDSTILL {

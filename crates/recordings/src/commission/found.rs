@@ -319,11 +319,11 @@ pub struct CirclesFound {
     pub glitches: Vec<DirectionGlitches>,
     /// The largest of them, in µm.
     pub worst_um: f64,
-    /// What it shows about the compensation, besides the path.
+    /// Evidence on the compensation, besides the path.
     pub compensation: CompensationShown,
     /// The time in s over which the positions are averages, by the distances from the centre, if they are.
     pub averaged_s: Option<f64>,
-    /// How the actual position of each axis follows the commanded one, where that was recorded.
+    /// Relation of the actual position of each axis to the commanded one, where that was recorded.
     pub followed: Box<[Option<FollowedPosition>; 2]>,
     /// The figures of ISO 230-4.
     pub iso: IsoFigures,
@@ -481,7 +481,7 @@ impl DirectionGlitches {
 pub struct IsoFigures {
     /// Circular deviation G of the counter-clockwise path about the centre of the minimum zone.
     pub g_ccw: Option<f64>,
-    /// That of the clockwise path.
+    /// Figure of the clockwise path.
     pub g_cw: Option<f64>,
     /// Bidirectional circular deviation G(b).
     pub g_b: Option<f64>,

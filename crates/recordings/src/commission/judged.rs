@@ -1,4 +1,4 @@
-//! What the recorded feeds of a round say against its lists (R16.9, R16.12, R16.15).
+//! Objections of the recorded feeds of a round to its lists (R16.9, R16.12, R16.15).
 
 use frictcomp_physics::circle::GlitchOrder;
 
@@ -143,7 +143,7 @@ mod tests {
         glitch
     }
 
-    /// What speaks against a list that leaves a glitch in place of another one, at each of four feeds.
+    /// Returns the objections to a list that leaves one glitch in place of another, at each of four feeds.
     fn against(off: MeasuredGlitch, on: MeasuredGlitch) -> Vec<String> {
         let feeds = [500.0, 1000.0, 2000.0, 5000.0];
         let place = PlaceCompared {

@@ -61,7 +61,7 @@ pub enum LearnError {
     Coarse {
         /// Name of the file.
         file: String,
-        /// How far apart they are, and what to record, in words.
+        /// Distance between the recordings, and what to record, in words.
         coarse: String,
     },
     /// A feed that was recorded once, or more than twice.

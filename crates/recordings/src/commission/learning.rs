@@ -109,11 +109,11 @@ pub enum NextStep {
         /// The lists of X and Y.
         lists: [String; 2],
     },
-    /// No further gain is possible.
+    /// The end: no further gain is possible.
     Done,
 }
 
-/// All that is known of a learning process.
+/// Report on a learning process.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct LearnReport {

@@ -44,7 +44,7 @@ pub struct PlantFound {
     pub axes: Vec<PlantAxis>,
     /// The feeds in mm/min that it was fitted to.
     pub fitted_feeds: Vec<f64>,
-    /// Those that neither the fit nor the tuning has seen.
+    /// Recorded feeds that neither the fit nor the tuning has seen.
     pub held_out: Vec<f64>,
     /// The glitch of each axis at each recorded feed.
     #[serde(rename = "predicted_glitches")]
@@ -72,7 +72,7 @@ pub struct PlantAxis {
     pub delay: Extent,
     /// Damping of the contact in N·s/m.
     pub damping: Extent,
-    /// What the load lags behind the motor after a reversal, in m.
+    /// Travel in m by which the load lags behind the motor after a reversal.
     pub lost: Extent,
     /// The share of the list of the last round that explains its circles.
     pub share_on: Option<Extent>,
@@ -275,7 +275,7 @@ impl PlantFound {
         self.axes.iter().all(|it| it.contact.is_determined())
     }
 
-    /// All recorded feeds in mm/min, slowest first.
+    /// Returns all recorded feeds in mm/min, slowest first.
     pub fn feeds(&self) -> Vec<f64> {
         let mut feeds = [&self.fitted_feeds[..], &self.held_out].concat();
         feeds.sort_by(f64::total_cmp);

@@ -95,7 +95,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// What it shows about the compensation; constant speeds show nothing.
+    /// Returns the evidence on the compensation; constant speeds give none.
     pub fn compensation(&self) -> Option<&CompensationShown> {
         match self {
             Self::Circles(found) => Some(&found.compensation),
@@ -104,7 +104,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// How the actual position of an axis, by its place in the plan, follows the commanded one.
+    /// Returns the relation of the actual position of an axis, by its place in the plan, to the commanded one.
     pub(super) fn followed(&self, axis: usize) -> Option<FollowedPosition> {
         match self {
             Self::Circles(found) => found.followed[axis],
@@ -137,7 +137,7 @@ impl RecordingOutcome {
         glitches.fold(0.0, |most, (_, it)| most.max(it.um))
     }
 
-    /// What it shows about the compensation, to add to it.
+    /// Returns the evidence on the compensation, to add to it.
     pub fn compensation_mut(&mut self) -> Option<&mut CompensationShown> {
         match self {
             Self::Circles(found) => Some(&mut found.compensation),

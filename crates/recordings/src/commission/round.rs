@@ -29,7 +29,7 @@ pub struct Round {
     pub recorded: Vec<BeforeAfter>,
     /// Reasons why the lists are not accepted; `None` before a feed is recorded off and on.
     pub against: Option<Vec<String>>,
-    /// What nothing shows, so that the lists are not accepted either (R16.13).
+    /// Requirements for which evidence is missing, so that the lists are not accepted either (R16.13).
     pub not_shown: Vec<String>,
 }
 

@@ -30,9 +30,9 @@ pub struct StrokesFound {
     pub unit: String,
     /// The reversals at each feed, slowest first.
     pub reversals: Vec<FeedReversals>,
-    /// What they show about the compensation, besides the following error.
+    /// Evidence on the compensation, besides the following error.
     pub compensation: CompensationShown,
-    /// How the actual position follows the commanded one, where both were recorded.
+    /// Relation of the actual position to the commanded one, where both were recorded.
     pub followed: Option<FollowedPosition>,
     /// Remarks.
     pub notes: Vec<String>,

@@ -8,7 +8,7 @@ use super::plan::Plan;
 use super::plant_found::PlantAxis;
 use crate::identify::{AxisRecording, Predictor, Timing, TorqueKind, median, verify_followed};
 
-/// What a recording shows about the compensation of its axes, besides the path.
+/// Evidence of a recording on the compensation of its axes, besides the path.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CompensationShown {
@@ -26,11 +26,11 @@ pub struct ShareOfList {
     pub axis: String,
     /// The SHA-256 of the list.
     pub list: String,
-    /// What its torque shows; `None` where it is not known to be the actual one.
+    /// Evidence of its torque; `None` where it is not known to be the actual one.
     pub torque: Option<TorqueOfList>,
 }
 
-/// What a recorded torque shows about a list.
+/// Evidence of a recorded torque on a list.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TorqueOfList {
@@ -41,14 +41,14 @@ pub struct TorqueOfList {
     pub friction: f64,
 }
 
-/// What recordings of an axis say about a state of its compensation.
+/// Statement of the recordings of an axis on a state of its compensation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum SwitchedAs {
-    /// They show it.
+    /// Recordings in that state.
     Shown,
-    /// They show another state, in words.
+    /// Recordings in another state, in words.
     Otherwise(String),
-    /// They show nothing, with what would.
+    /// Recordings without evidence, with what would give some.
     NotShown(String),
 }
 
@@ -89,9 +89,9 @@ pub(super) struct StagesOfAxis<'a> {
     pub axis: &'a str,
     /// The SHA-256 of its list.
     pub list: &'a str,
-    /// What the recordings of stage 1 show.
+    /// Evidence of the recordings of stage 1.
     pub off: &'a [&'a CompensationShown],
-    /// What those of the round show.
+    /// Evidence of the recordings of the round.
     pub on: &'a [&'a CompensationShown],
     /// Where friction shows in them.
     pub shows: Shows,
@@ -99,7 +99,7 @@ pub(super) struct StagesOfAxis<'a> {
     pub plant: Option<&'a PlantAxis>,
 }
 
-/// What a recorded torque shows about a list; `None` where it is not known to be the actual one.
+/// Returns the evidence of a recorded torque on a list; `None` where it is not known to be the actual one.
 pub fn torque_of_list(
     recording: &AxisRecording,
     kind: Option<TorqueKind>,
@@ -236,7 +236,7 @@ impl StagesOfAxis<'_> {
         own.filter_map(|it| it.torque)
     }
 
-    /// What the torque of recordings leaves open, and what to record, after what else would show it.
+    /// Returns in words what the torque of recordings leaves open, and what to record, after other sources of evidence.
     fn what_would_show(&self, other: &str, recordings: &[&CompensationShown]) -> String {
         let or_a_plant = match self.shows {
             Shows::Contour => ", or name a plant to be fitted",
@@ -303,7 +303,8 @@ mod tests {
 
     const LIST: &str = "0123";
 
-    /// What a recording shows with a share of the list in its torque, and a friction as a part of the list.
+    /// Returns the evidence of a recording with a share of the list in its torque, and a friction as a part of the
+    /// list.
     fn shown(share: Option<[f64; 2]>, friction: f64) -> CompensationShown {
         CompensationShown {
             switched: Vec::new(),

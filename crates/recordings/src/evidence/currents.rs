@@ -67,7 +67,7 @@ struct Judgement<'a> {
     open: Vec<Question>,
 }
 
-/// How clearly the recording deviates from a combination.
+/// Margin by which the recording deviates from a combination.
 struct Margin {
     rival: Explained,
     /// Samples in which it differs from the best one.
@@ -251,7 +251,7 @@ impl<'a> Judgement<'a> {
         )
     }
 
-    /// Why the recording does not distinguish a reading from another.
+    /// Returns the reason why the recording does not distinguish a reading from another.
     fn not_told(&self, question: Question, margin: &Margin) -> String {
         if let Some(reason) = not_moved(question, self.list, &self.motion) {
             return reason;

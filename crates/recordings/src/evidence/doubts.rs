@@ -1,4 +1,4 @@
-//! Why a recording cannot decide a question.
+//! Reasons why a recording cannot decide a question.
 
 use super::recorded::{CycleMotion, EvidenceRecording};
 use frictcomp::diagnostic::ReadableNumber;
@@ -6,7 +6,7 @@ use frictcomp::lists::FrictionList;
 use frictcomp::readings::Question;
 use frictcomp_physics::current::{CommandedRow, Switched};
 
-/// Why the readings of a question give the same current with a value list, whatever the motion.
+/// Returns the reason why the readings of a question give the same current with a value list, whatever the motion.
 pub(super) fn no_difference(question: Question, list: &FrictionList) -> Option<String> {
     let first = list.table.first();
     let is_silent = list.scaling_factor == 0 || list.table.iter().all(|it| it.output == 0.0);
@@ -37,7 +37,7 @@ pub(super) fn no_difference(question: Question, list: &FrictionList) -> Option<S
     Some(reason.to_owned())
 }
 
-/// Why no sample counts.
+/// Returns the reason why no sample counts.
 pub(super) fn unseen(recorded: &EvidenceRecording, motion: &CycleMotion) -> &'static str {
     let mut rows = motion.rows.iter();
     let state = recorded.state.as_ref();

@@ -39,7 +39,7 @@ impl Default for IdentifyOptions {
     }
 }
 
-/// Why nothing was identified.
+/// Reason why nothing was identified.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IdentifyError {

@@ -28,7 +28,7 @@ const DOUBTS: [Code; 8] = [
     Code::Fc526,
 ];
 
-/// What makes a recording of any motion doubtful (R6.21).
+/// Returns the findings that make a recording of any motion doubtful (R6.21).
 ///
 /// # Errors
 /// The recording cannot show any friction.

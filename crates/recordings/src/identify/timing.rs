@@ -50,7 +50,7 @@ pub struct ActingShare {
 #[serde(rename_all = "kebab-case", tag = "state")]
 #[non_exhaustive]
 pub enum Timing {
-    /// No following error was recorded, or fewer than two reversals.
+    /// No evidence: no following error was recorded, or fewer than two reversals.
     Open,
     /// The list did not act, or its current is not in the torque.
     Off(ActingShare),

@@ -46,7 +46,7 @@ impl Track {
     }
 }
 
-/// Why a track cannot be used.
+/// Reason why a track cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TrackError {

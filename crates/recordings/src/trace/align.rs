@@ -25,7 +25,7 @@ pub struct Aligned {
     pub remarks: Vec<String>,
 }
 
-/// Why channels cannot be brought together.
+/// Reason why channels cannot be brought together.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotAligned {
@@ -162,7 +162,7 @@ impl TraceRecording {
         )
     }
 
-    /// What is said about groups of channels that were not recorded over the same time (R6.27).
+    /// Returns the remark on groups of channels that were not recorded over the same time (R6.27).
     fn unequal_spans(&self, tracks: &[TimedChannel<'_>]) -> Option<String> {
         /// The greatest difference of the ends of channels that were recorded together, in steps.
         const TOGETHER: f64 = 3.0;
@@ -270,7 +270,7 @@ struct TimedChannel<'a> {
     channel: ChannelIndex,
     clock: Option<usize>,
     has_holes: bool,
-    /// Those of the recording if none is left out.
+    /// Times of the samples; those of the recording if none is left out.
     times_s: Cow<'a, [f64]>,
     values: Vec<f64>,
     step_s: f64,

@@ -109,7 +109,7 @@ impl<'a> Iterator for Cells<'a> {
 pub(super) enum CellValue {
     /// A number.
     Number(f64),
-    /// Nothing, or a computer's word for a missing number.
+    /// No value, or a computer's word for a missing number.
     Missing,
     /// Something else.
     Other,
@@ -118,7 +118,7 @@ pub(super) enum CellValue {
 /// Decimal marks found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Decimals {
-    /// None yet.
+    /// No decimal mark yet.
     #[default]
     Unseen,
     /// Points.

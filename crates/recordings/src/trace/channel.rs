@@ -71,11 +71,11 @@ pub struct ScopeDrawing {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Contains {
-    /// They are in the samples.
+    /// Factor and offset are in the samples.
     Scale,
     /// The samples are those of the variable.
     Raw,
-    /// Nothing in the file shows it.
+    /// No evidence in the file.
     Open,
 }
 

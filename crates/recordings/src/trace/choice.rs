@@ -27,7 +27,7 @@ pub enum TimeSource {
 }
 
 impl Choice {
-    /// All channels that are there, with the times of one of them where the layout has none.
+    /// Chooses all channels that are there, with the times of one of them where the layout has none.
     pub fn all(channels: &[Channel], time: Option<Pick>) -> Self {
         Self {
             values: (0..channels.len()).map(ChannelIndex).collect(),

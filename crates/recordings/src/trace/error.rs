@@ -1,11 +1,11 @@
-//! Why a recorded trace cannot be read, or a channel cannot be found.
+//! Failures in reading a recorded trace or in finding a channel.
 
 use std::fmt::Write as _;
 
 use super::unit::ChannelQuantity;
 use thiserror::Error;
 
-/// Why a trace cannot be read: one sentence in lower case, with its line if there is one.
+/// Reason why a trace cannot be read: one sentence in lower case, with its line if there is one.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TraceProblem {
@@ -146,7 +146,7 @@ impl TraceProblem {
     }
 }
 
-/// Why a channel was not found.
+/// Reason why a channel was not found.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SelectError {
@@ -165,7 +165,7 @@ pub enum SelectError {
     Several {
         /// Requested item.
         wanted: String,
-        /// Those that fit.
+        /// Channels that fit.
         found: Vec<String>,
     },
     /// A unit that Scope scales, so that the samples are in another one.

@@ -10,7 +10,7 @@ const OFF_GRID: f64 = 0.01;
 /// Times are decimals of a second with at most so many digits.
 const DECIMALS: f64 = 1e9;
 
-/// What the head of a trace says about its samples.
+/// Statements in the head of a trace about its samples.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StatedSamples {
     /// The time between two samples in s.
@@ -116,7 +116,7 @@ fn decimal(time: f64) -> f64 {
     (time * DECIMALS).round() / DECIMALS
 }
 
-/// What is said about signals that do not stand in every record.
+/// Returns the remarks on signals that do not stand in every record.
 pub(super) fn remarks<'a>(
     signals: impl Iterator<Item = (&'a str, &'a HeldSignal)>,
     (records, grid): (usize, &Grid),

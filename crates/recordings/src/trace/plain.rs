@@ -231,7 +231,7 @@ fn cells_of(row: &[u8], separator: Separator) -> Vec<String> {
 
 /// The marks of comments.
 trait Marked {
-    /// Without `#` or `%` at its start, with which some programs mark the names.
+    /// Trims `#` or `%` at the start, with which some programs mark the names.
     fn trim_start_matches_marks(&self) -> &[u8];
 }
 

@@ -46,7 +46,7 @@ pub struct Pick {
     pub channel: ChannelIndex,
     /// Its unit.
     pub unit: Unit,
-    /// No unit is named: that of the CNC is assumed.
+    /// Whether the unit is assumed to be that of the CNC, because none is named.
     pub is_unit_assumed: bool,
 }
 
@@ -178,7 +178,7 @@ impl ChannelSelection {
         Ok(())
     }
 
-    /// What a recording lacks that has a quantity of other axes than that of the user.
+    /// Returns an error if the recording has the quantity only for other axes than that of the user.
     fn of_other_axes(
         &self,
         quantity: ChannelQuantity,

@@ -70,9 +70,9 @@ struct Case {
 /// Permitted error of the offset, in N.
 const OFFSET: f64 = 2.0;
 
-/// No estimate of the offset from the samples of R6.10 is better than its Cramér–Rao bound, whose
-/// 95th percentile is 2.24 N for coloured noise and 1.78 N for white noise of 5 %. The median of the
-/// pairs comes within a fifth of it, of which forty recordings alone explain 15 %.
+/// Permitted 95th percentile of the error of the offset in N: 1.2 times the Cramér–Rao bound from the samples of R6.10,
+/// which is 2.24 N for coloured noise and 1.78 N for white noise of 5 %. The median of the pairs comes within a fifth
+/// of it, of which forty recordings alone explain 15 %.
 const COLOURED: f64 = 1.2 * 2.24;
 const LOUD: f64 = 1.2 * 1.78;
 

@@ -290,11 +290,11 @@ proptest! {
     }
 }
 
-/// Which values a SINUMERIK trace writes.
+/// Values that a SINUMERIK trace writes.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Whole,
-    /// Only what changed; records in which nothing did are left out.
+    /// Only changed values; records in which nothing changed are left out.
     Changes,
 }
 

@@ -13,11 +13,11 @@ use frictcomp_recordings::identify::TraceFinding;
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Standing {
-    /// It is.
+    /// A result that is as it should be.
     Good,
-    /// It is not.
+    /// A result that is not as it should be.
     Bad,
-    /// It depends on what is not known.
+    /// A result that depends on what is not known.
     #[default]
     Open,
     /// The result is a measurement or a simulation that judges nothing.

@@ -21,7 +21,7 @@ pub(crate) enum Tone {
     Away,
     /// As this state.
     State(State),
-    /// Nothing to look at.
+    /// Text that needs no attention.
     Quiet,
 }
 
@@ -30,7 +30,7 @@ pub(crate) enum Tone {
 pub(crate) enum PhrasePiece {
     Plain(String),
     Code(String),
-    /// It leads to a line, in a page that shows this line.
+    /// Text that leads to a line, in a page that shows this line.
     Leading(String, ProgramLine),
 }
 

@@ -19,7 +19,7 @@ pub enum Length {
     /// Their beginnings; the rest is counted.
     #[default]
     Folded,
-    /// All of them.
+    /// All rows and entries.
     Whole,
 }
 

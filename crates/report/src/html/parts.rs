@@ -17,7 +17,7 @@ pub(super) struct HtmlTable<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Headings {
     Shown,
-    /// Only for screen readers.
+    /// Headings for screen readers only.
     Heard,
 }
 
@@ -29,7 +29,7 @@ const MOST_COLUMNS: usize = 7;
 pub(super) enum Caption<'a> {
     /// Above the table.
     Shown(&'a str),
-    /// Only for screen readers: the heading above the table has the same text.
+    /// Caption for screen readers only: the heading above the table has the same text.
     Heard(&'a str),
 }
 

@@ -25,7 +25,7 @@ pub struct TuneReport {
     pub model: &'static str,
     /// The reading of the documents, in words.
     pub reading: String,
-    /// What its simulation leaves out.
+    /// Properties of a machine that the simulation leaves out.
     pub not_modelled: Vec<&'static str>,
     /// The result.
     pub tuned: Tuned,
@@ -265,7 +265,7 @@ struct PlantRecord<'a> {
     reading: &'a str,
     not_modelled: &'a [&'static str],
     trials: usize,
-    /// Those of X.
+    /// The parameters of X.
     parameters: Option<TunedParameters>,
     axes: AxisRecords,
     tuned_for: Accelerations,

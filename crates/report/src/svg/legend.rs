@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::canvas::{Anchor, Area, Canvas, MARGIN, WIDTH, curve_class, widest_text};
 use super::shape::BarShape;
 
-/// What a name of the legend belongs to.
+/// Graphic element that a name of the legend belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LegendSample {
     /// The line of the series with this number.

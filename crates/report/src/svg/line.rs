@@ -11,7 +11,7 @@ use super::reduce::reduce;
 use super::scale::{ChartAxis, Ends, Scale, SecondUnit};
 use super::ticks::{TickSide, draw_ticks, draw_x_axis};
 
-/// How a series is drawn.
+/// Way in which a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Drawn {
@@ -43,7 +43,7 @@ pub struct Series {
     pub name: String,
     /// Pairs of x and y in the order of drawing. One that is not finite interrupts the curve.
     pub points: Vec<[f64; 2]>,
-    /// How it is drawn.
+    /// Way in which it is drawn.
     pub drawn: Drawn,
 }
 
@@ -93,7 +93,7 @@ pub struct XMark {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum CurveLooks {
-    /// Those of quantities, none of which stands for a state.
+    /// Looks of quantities, none of which stands for a state.
     #[default]
     Quantities,
     /// The first curve is with compensation, the second without.

@@ -41,16 +41,16 @@ const COMPENSATED: usize = 0;
 const UNCOMPENSATED: usize = 1;
 const LEFT_OUT: usize = 4;
 
-/// How a stretch of the path is drawn.
+/// Way in which a stretch of the path is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Stroke {
-    /// With the deviation, compensated.
+    /// Stretch drawn with the deviation, compensated.
     #[default]
     Compensated,
-    /// With the deviation, not compensated.
+    /// Stretch drawn with the deviation, not compensated.
     Uncompensated,
-    /// Not judged: a rapid motion.
+    /// Stretch that is not judged: a rapid motion.
     Unjudged,
     /// Left out: its course on the machine is not known.
     LeftOut,
@@ -63,7 +63,7 @@ pub struct PlanePoint {
     pub place: [f64; 2],
     /// The actual place relative to it, in mm.
     pub error: [f64; 2],
-    /// How the stretch that ends here is drawn.
+    /// Way in which the stretch that ends here is drawn.
     pub stroke: Stroke,
 }
 

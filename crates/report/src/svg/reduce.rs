@@ -5,7 +5,7 @@
 #[derive(Debug, Clone, Default)]
 pub struct Curve {
     groups: Vec<Neighbours>,
-    /// How often groups have been joined in pairs: each holds 2 to that power of points.
+    /// Number of times that groups have been joined in pairs: each holds 2 to that power of points.
     joined: u32,
     /// Number of points in the last group.
     filled: u64,

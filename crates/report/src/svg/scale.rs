@@ -87,9 +87,9 @@ impl ChartAxis {
 /// Whether the ends of a scale are round numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ends {
-    /// They are, so that the first and the last tick are at the ends.
+    /// Round numbers, so that the first and the last tick are at the ends.
     Round,
-    /// They are the least and the greatest value.
+    /// The least and the greatest value.
     Exact,
 }
 

@@ -10,7 +10,7 @@ use frictcomp::comp::State;
 pub enum BandState {
     /// One state all along.
     One(State),
-    /// It changes too often to be drawn.
+    /// State that changes too often to be drawn.
     Changing,
 }
 
@@ -46,10 +46,10 @@ impl BandState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum StartUpRelation {
-    /// It is that state, or unknown.
+    /// The start-up state, or an unknown one.
     #[default]
     StartUp,
-    /// It is another one, which outlives the program.
+    /// Another state, which outlives the program.
     Away,
 }
 
@@ -68,7 +68,7 @@ impl StartUpRelation {
 /// The height of a bar in a row.
 pub(super) const BAR: f64 = 18.0;
 
-/// What a bar looks like.
+/// Appearance of a bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct BarShape {
     pub(super) state: BandState,

@@ -47,7 +47,7 @@ pub enum Positions {
     /// A column `X_pos` for each axis, in mm or degrees, empty where the position is not known, and
     /// a column `frame` that says whether positions are those of the `machine` or as `programmed`.
     Shown,
-    /// No such column.
+    /// No such columns.
     #[default]
     Hidden,
 }

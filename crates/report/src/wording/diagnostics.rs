@@ -21,10 +21,10 @@ const AGREED_WIDTH: usize = 80;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Paint {
-    /// It does not.
+    /// Output without colours.
     #[default]
     Plain,
-    /// It carries ANSI sequences.
+    /// Output with ANSI sequences.
     Styled,
 }
 

@@ -1,6 +1,6 @@
 //! Profiles: what the programs of a test consist of.
 
-/// What programs consist of, how often and how deep.
+/// Composition of generated programs: the frequency of each construct, and the depth.
 #[derive(Debug, Clone, Copy)]
 pub struct Profile {
     /// The names of the axes.
@@ -129,7 +129,7 @@ pub enum Ask {
     One,
     /// A machine variable is not 0.
     NotZero,
-    /// It is not true that a machine variable is 1.
+    /// Negation of a comparison of a machine variable with 1.
     NotOne,
     /// Two machine variables are 1.
     Both,

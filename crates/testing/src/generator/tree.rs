@@ -33,14 +33,14 @@ pub struct Statement {
     pub line: u32,
     /// Its lines that have a skip mark.
     pub marks: SkipMarks,
-    /// What it states.
+    /// Form of the statement.
     pub form: Form,
 }
 
 /// The lines of a statement that have a skip mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SkipMarks {
-    /// None.
+    /// No line.
     None,
     /// The first one.
     First,
@@ -50,7 +50,7 @@ pub enum SkipMarks {
     Both,
 }
 
-/// What a statement states.
+/// Form of a statement.
 #[derive(Debug, Clone)]
 pub enum Form {
     /// COMP commands and motions.
@@ -110,7 +110,7 @@ pub struct CompBlock {
     pub commands: Vec<CompSwitch>,
     /// The axes that it moves, by their positions.
     pub moves: Vec<usize>,
-    /// How they move.
+    /// Pace of the motions.
     pub pace: Pace,
     /// The code of a message that a comment allows.
     pub allows: Option<&'static str>,
@@ -130,7 +130,7 @@ pub struct CompSwitch {
 /// The pace of a motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Pace {
-    /// That of the blocks before.
+    /// Pace of the blocks before.
     #[default]
     Modal,
     /// `G00`.

@@ -37,7 +37,7 @@ pub enum SubprogramPlace {
 pub enum TextEnd {
     /// The end of the line.
     Line,
-    /// Nothing: the last line has no end.
+    /// No line end after the last line.
     Cut,
     /// An empty line.
     Blank,

@@ -35,7 +35,7 @@ struct BaselineKey {
     code: String,
     severity: String,
     axis: Option<String>,
-    /// With the kind, the state and the ways, without lines and the number of occurrences.
+    /// Text of the message with the kind, the state and the ways, without lines and the number of occurrences.
     message: String,
     /// The text of its block.
     block: String,
@@ -77,12 +77,12 @@ pub(crate) struct Baseline {
 /// Purpose of a baseline.
 #[derive(Default)]
 enum Purpose {
-    /// No baseline: everything is listed.
+    /// No baseline: all findings are listed.
     #[default]
     None,
     /// Known findings are left out.
     Compare,
-    /// Everything is written to the file.
+    /// Creation of a baseline with all findings.
     Write(OutputFile),
 }
 

@@ -178,7 +178,7 @@ pub(crate) fn of_lists_off() -> Vec<Fault> {
     ]
 }
 
-/// What spoils circles off as well as on.
+/// Returns the faults that spoil circles with compensation off as well as on.
 fn of_circles(of: fn(&'static str, &'static [&'static str]) -> Fault) -> Vec<Fault> {
     vec![
         Fault {

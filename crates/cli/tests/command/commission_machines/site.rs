@@ -33,7 +33,7 @@ const AXES: [&str; 2] = ["X", "Y"];
 /// Where the first program begins, in mm.
 pub(crate) const START: [f64; 2] = [50.0, 0.0];
 
-/// What is on in a program.
+/// Stage of a program: compensation off, or on with the lists of a round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stage {
     Off,
@@ -227,7 +227,7 @@ impl Site {
         ValueList::parse(&std::fs::read_to_string(self.path().join(path)).expect("a list"))
     }
 
-    /// What a machine does in the text of a program.
+    /// Drives a machine through the text of a program.
     pub(crate) fn drive(machine: &Machine, text: &str, lists: [Option<&ValueList>; 2]) -> Run {
         machine.run(&Program::parse(text, AXES, START), START, lists)
     }
@@ -369,7 +369,7 @@ impl Columns {
     }
 }
 
-/// What a command said, in one line.
+/// Copies a folder with everything below it.
 fn copy_folder(from: &Path, to: &Path) {
     for entry in std::fs::read_dir(from).expect("a folder") {
         let entry = entry.expect("an entry");

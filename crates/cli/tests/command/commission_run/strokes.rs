@@ -58,7 +58,7 @@ fn plan(folder: &Path, axis: &str, more: &[&str]) {
     succeeded(folder, &[&arguments[..], more].concat());
 }
 
-/// What is recorded of a machine in a program of the axis, with a list that the program switches.
+/// Returns the recording of a machine in a program of the axis, with a list that the program switches.
 fn driven(folder: &Path, axis: &str, (program, list): (&str, Option<&str>)) -> Recorded {
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("a file");
     let start = [0.0; 2];
@@ -101,10 +101,10 @@ fn text(recorded: &Recorded) -> String {
     text
 }
 
-/// What makes of a recording that of another machine.
+/// A change that turns a recording into that of another machine.
 type Change = fn(&mut Recorded);
 
-/// How the strokes of another machine differ, and the words that name it.
+/// Changes that make strokes those of another machine, with the words that report them.
 const OF_ANOTHER_MACHINE: [(Change, &str); 2] = [
     (
         // Its loops answer 12 ms later.

@@ -9,10 +9,10 @@ use std::sync::LazyLock;
 
 use crate::folder::{Bench, one_line};
 
-/// How many kinds of faults a command meets.
+/// Kinds of faults that a command meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Range {
-    /// All.
+    /// All kinds.
     Whole,
     /// A disk that is full from one call on, for commands that take long.
     FullDisk,
@@ -84,7 +84,7 @@ static SHIM: LazyLock<Option<(tempfile::TempDir, PathBuf)>> = LazyLock::new(|| {
     }
 });
 
-/// All files below a folder, by their names in it.
+/// The files below a folder, by their names in it.
 type Files = BTreeMap<String, Vec<u8>>;
 
 fn files(folder: &Path) -> Files {

@@ -1,4 +1,4 @@
-//! Which programs of the project call which (R17.2).
+//! Call hierarchy of the programs of a project (R17.2).
 
 use serde_json::{Value, json};
 

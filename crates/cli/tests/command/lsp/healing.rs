@@ -133,7 +133,7 @@ impl Editor {
         }
     }
 
-    /// All that is shown about the open texts, once they are checked.
+    /// Returns everything that is shown about the open texts, once they are checked.
     fn shown(&mut self) -> BTreeMap<String, Value> {
         let uris: Vec<String> = self.open.keys().cloned().collect();
         for uri in &uris {

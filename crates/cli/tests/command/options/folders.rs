@@ -1,4 +1,4 @@
-//! Which files of folders are taken, and what is said about the others.
+//! Selection of the files of folders, and the remarks on the files left out.
 
 use std::fs;
 

@@ -26,7 +26,7 @@ pub(crate) struct Fitting<'a> {
     pub(crate) watch: &'a Watch,
 }
 
-/// Why no plant was found.
+/// Reason why no plant was found.
 pub(super) enum NoPlant {
     /// The recordings or the lists do not yield one; everything else continues.
     Lacking(String),

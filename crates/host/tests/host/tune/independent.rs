@@ -1,5 +1,5 @@
-//! What tuned lists leave on circles that are simulated without the crate: the additive current of chapter 4 and
-//! the loops and the bristle of chapter 5.2, at 61 feeds and eight places of the reversal in the CNC cycle (R5.37).
+//! Residual glitches of tuned lists on circles that are simulated without the crate: the additive current of chapter 4
+//! and the loops and the bristle of chapter 5.2, at 61 feeds and eight places of the reversal in the CNC cycle (R5.37).
 
 use std::f64::consts::PI;
 

@@ -63,7 +63,7 @@ pub struct FittedDrive {
     pub damping: Extent,
     /// Time constant of the current loop, which includes delays of the loop, in s.
     pub delay_s: Extent,
-    /// What the load lags behind the motor after a reversal, in m: backlash, or a drive train that winds up.
+    /// Travel in m by which the load lags behind the motor after a reversal: backlash, or a drive train that winds up.
     pub lost_m: Extent,
     /// The shares of the lists that were on, where that was asked.
     pub shares: Option<SharesOn>,

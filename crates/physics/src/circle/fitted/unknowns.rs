@@ -20,7 +20,8 @@ pub(super) const DELAY: usize = 3;
 pub(super) const DAMPING: usize = 4;
 pub(super) const SHARE_ON: usize = 5;
 pub(super) const SHARE_OFF: usize = 6;
-/// What the load lags behind the motor after a reversal: backlash, or a drive train that winds up.
+/// Index of the travel by which the load lags behind the motor after a reversal: backlash, or a drive train that winds
+/// up.
 pub(super) const LOST: usize = 7;
 
 /// Standard deviation of each unknown before a circle is evaluated; that of the friction is what

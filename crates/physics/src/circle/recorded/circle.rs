@@ -217,7 +217,7 @@ fn centred(mut points: Vec<[f64; 2]>) -> Result<Vec<[f64; 2]>, RecordedError> {
     Ok(points)
 }
 
-/// Why no direction has a full turn.
+/// Returns the reason why no direction has a full turn.
 fn refusal(fit: &FittedCircle, points: &[[f64; 2]], runs: &[PathRun]) -> RecordedError {
     let longest = runs
         .iter()

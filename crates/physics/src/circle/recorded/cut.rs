@@ -49,7 +49,7 @@ pub(super) struct PathRun {
     begin: f64,
 }
 
-/// Everything on the circle that does not leave it and does not turn round, in the order of time.
+/// Returns the runs on the circle, in the order of time: the parts that do not leave it and do not turn round.
 pub(super) fn runs(fit: &FittedCircle, trace: &RecordedTrace) -> Vec<PathRun> {
     let points = &trace.points_mm;
     let mut runs = Vec::new();

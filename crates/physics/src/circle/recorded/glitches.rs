@@ -41,8 +41,8 @@ pub struct MeasuredGlitch {
 pub enum GlitchOrder {
     /// The first is larger, by more than three errors.
     Larger,
-    /// It is larger by more than three errors of the noise, but by less than turns of one circle differ; or only than
-    /// the median of turns that differ.
+    /// The first is larger by more than three errors of the noise, but by less than turns of one circle differ; or only
+    /// than the median of turns that differ.
     TurnsDiffer,
     /// Both are alike within three errors.
     Alike,

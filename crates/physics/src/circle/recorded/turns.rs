@@ -38,7 +38,7 @@ pub struct WorseTurn {
     /// The glitch there, as means over 8 ms.
     #[serde(rename = "height")]
     pub height_um: f64,
-    /// That of the evaluated turn.
+    /// Glitch of the evaluated turn.
     #[serde(rename = "evaluated")]
     pub evaluated_um: f64,
 }

@@ -68,19 +68,19 @@ pub struct RemainingGlitch {
     /// The acceleration v²/R at the reversal in mm/s².
     #[serde(rename = "acceleration")]
     pub acceleration_mm_per_s2: f64,
-    /// Without compensation.
+    /// Glitch without compensation.
     #[serde(rename = "glitch_off")]
     pub glitch_off_um: f64,
-    /// With it, at the worst of four places of the reversal within its CNC cycle.
+    /// Glitch with compensation, at the worst of four places of the reversal within its CNC cycle.
     #[serde(rename = "glitch_on")]
     pub glitch_on_um: f64,
-    /// With it, and a contact half as stiff.
+    /// Glitch with compensation, and a contact half as stiff.
     #[serde(rename = "glitch_stiffness_half")]
     pub glitch_half_stiff_um: f64,
-    /// With it, and a contact twice as stiff.
+    /// Glitch with compensation, and a contact twice as stiff.
     #[serde(rename = "glitch_stiffness_double")]
     pub glitch_double_stiff_um: f64,
-    /// With it, and friction that differs by ±10 % between the directions.
+    /// Glitch with compensation, and friction that differs by ±10 % between the directions.
     #[serde(rename = "glitch_uneven10")]
     pub glitch_uneven_um: f64,
 }

@@ -78,11 +78,11 @@ const FAST_MM_PER_S: f64 = 0.03;
 /// Significance of a reversal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Role {
-    /// It counts with its height.
+    /// Reversal that counts with its height.
     Counted,
-    /// It counts more where the plant itself is left with more than a robust list may cost.
+    /// Reversal that counts more if the glitch on the plant itself exceeds what a robust list may cost.
     Limited(f64),
-    /// It lies beyond the range.
+    /// Reversal beyond the range.
     Beyond(Reserve),
 }
 
@@ -475,7 +475,7 @@ impl<'a> Descent<'a> {
         Ok(numbers.map(shape).collect())
     }
 
-    /// How the curves at each reversal change with each output.
+    /// Returns the linear change of the curves at each reversal with each output.
     fn linear(&self, best: &DrivenShape, probes: &[DrivenShape]) -> Vec<LinearCurve> {
         let curve = |(number, reversal): (usize, &JudgedReversal)| {
             let weight = best.weights[number];

@@ -22,7 +22,7 @@ pub(super) struct Search<S: Space> {
     space: S,
     tried: BTreeSet<S::Candidate>,
     best: Option<(f64, S::Candidate)>,
-    /// All candidates that may be as good as the best.
+    /// Candidates that may be as good as the best.
     good: Vec<(Heights, S::Candidate)>,
     stage: SearchStage,
     rounds: usize,

@@ -61,13 +61,13 @@ pub enum Shaping {
 /// The friction of a driven circle, and whether it has compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Variant {
-    /// Without compensation.
+    /// No compensation.
     Off,
     /// With compensation.
     On,
     /// With compensation, and 20 % less friction.
     Minus20,
-    /// With it, and 20 % more friction.
+    /// With compensation, and 20 % more friction.
     Plus20,
 }
 

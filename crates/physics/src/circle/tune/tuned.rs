@@ -29,16 +29,16 @@ pub struct FeedResult {
     /// The acceleration v²/R at a reversal, on which the glitch depends.
     #[serde(rename = "acceleration")]
     pub acceleration_mm_per_s2: f64,
-    /// Without compensation.
+    /// Glitch without compensation.
     #[serde(rename = "glitch_off")]
     pub glitch_off_um: f64,
-    /// With compensation.
+    /// Glitch with compensation.
     #[serde(rename = "glitch_on")]
     pub glitch_on_um: f64,
-    /// With compensation, and 20 % less friction of the machine than in the list.
+    /// Glitch with compensation, and 20 % less friction of the machine than in the list.
     #[serde(rename = "glitch_friction_minus20")]
     pub glitch_friction_minus20_um: f64,
-    /// With it, and 20 % more friction.
+    /// Glitch with compensation, and 20 % more friction of the machine than in the list.
     #[serde(rename = "glitch_friction_plus20")]
     pub glitch_friction_plus20_um: f64,
 }

@@ -81,7 +81,8 @@ impl ContourSink for Found {
 }
 
 impl Found {
-    /// Nothing yet; the first cycles of a line show the residue of the previous line and are not kept.
+    /// Creates an empty result after a wait: the first cycles of a line show the residue of the previous line and are
+    /// not kept.
     pub(crate) fn settled() -> Self {
         Self {
             settling_s: SETTLING_S,

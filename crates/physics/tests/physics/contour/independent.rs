@@ -268,7 +268,7 @@ impl Motion {
         self.commands.iter().enumerate().map(cycle).collect()
     }
 
-    /// How long the line of a cycle has lasted, up to the relevant limit.
+    /// Returns the time that the line of a cycle has lasted, up to the relevant limit.
     fn seconds_in_line(&self, at: usize) -> f64 {
         let line = self.commands[at].line;
         let before = self.commands[..at].iter().rev().take(10);
@@ -305,7 +305,7 @@ pub(crate) struct Simulated {
     pub(crate) reversals: Vec<Reversal>,
 }
 
-/// Which axes are compensated.
+/// Axes that are compensated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Compensation {
     Programmed,

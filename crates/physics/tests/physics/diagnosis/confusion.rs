@@ -1,6 +1,6 @@
-//! What is said about 22 faults of machines, each without noise, with 0.3 and with 1 µm (R5.34, R5.35): a
-//! slow peak of friction is one cause, and another shape is never told as backlash or position loops. The table
-//! is in docs/circular-test.md; `UPDATE_DOCS=1` writes it again.
+//! Diagnoses of 22 faults of machines, each without noise, with 0.3 and with 1 µm (R5.34, R5.35): a slow peak of
+//! friction is one cause, and another shape is never told as backlash or position loops. The table is in
+//! docs/circular-test.md; `UPDATE_DOCS=1` writes it again.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -64,7 +64,7 @@ impl Moment {
         (self.direction.sign() * self.angle - at).rem_euclid(PI)
     }
 
-    /// What friction of an axis leaves of its path, radially: a lag that decays after its reversal.
+    /// Returns the radial deviation that friction of an axis causes: a lag that decays after its reversal.
     fn friction(&self, axis: PlaneAxis, (height, decay_ms): (f64, f64)) -> f64 {
         let since = self.since(axis);
         height * (-since / self.omega() / (decay_ms / 1000.0)).exp() * since.cos()

@@ -12,9 +12,8 @@ const PERIOD: f64 = 10.0;
 /// A sample as a row of the regression: the parameters that it depends on, with their weights.
 type Row = Vec<(usize, f64)>;
 
-/// No unbiased estimate of the offset has a smaller 95th percentile than this, in N, even if it
-/// knows the period of the ripple and the colour of the noise: friction at each speed, the
-/// offset, and both parts of the ripple are unknown.
+/// Returns the Cramér–Rao bound of the offset in N: no unbiased estimate has a smaller 95th percentile, even if it
+/// knows the period of the ripple and the colour of the noise.
 pub(crate) fn offset_bound(bench: &Bench) -> f64 {
     let (speeds, commanded) = (bench.speeds.len(), bench.commanded());
     let (offset, parameters) = (speeds, speeds + 3);

@@ -316,21 +316,21 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     #[non_exhaustive]
     pub enum Word {
-        /// It moves the axis as it finds it, and leaves it away from its start-up state.
+        /// Motion of the axis as it is found, and an end away from its start-up state.
         Both = "both",
-        /// It leaves the axis away from its start-up state.
+        /// End with the axis away from its start-up state.
         Leaves = "leaves",
-        /// It does so on some ways.
+        /// Such an effect on some ways.
         Depends = "depends",
-        /// It is not known offline.
+        /// Effect not known offline.
         Unknown = "unknown",
-        /// It moves the axis in the state that it finds.
+        /// Motion of the axis in the state that is found.
         Inherits = "inherits",
-        /// It may move the axis in the state that it finds.
+        /// Possible motion of the axis in the state that is found.
         Perhaps = "perhaps",
-        /// It leaves the axis in its start-up state, and does not move it before that.
+        /// End with the axis in its start-up state, and no motion of it before that.
         StartUp = "start-up",
-        /// It neither takes the axis away from its start-up state nor moves it before it is set.
+        /// No effect: the axis is neither taken away from its start-up state nor moved before it is set.
         Keeps = "keeps",
     }
 }

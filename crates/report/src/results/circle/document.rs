@@ -183,7 +183,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
     ))
 }
 
-/// Why the report has no glitches, and what would give some (R5.22).
+/// Returns the reason why the report has no glitches, and what would give some (R5.22).
 pub(super) fn no_glitches(report: &CircleReport) -> Option<String> {
     let limit = report.too_fast()?;
     let radius = limit.radius_mm.map_or(String::new(), |radius| {
@@ -358,7 +358,7 @@ fn left_out(circle: &RecordedCircle) -> String {
     )
 }
 
-/// What the other turns leave, in words (R5.26).
+/// Describes the glitches of the other turns (R5.26).
 fn other_turns(turns: WholeTurns) -> String {
     match turns.worse {
         Some(worse) => format!("  not every turn is like the evaluated one: {worse}"),

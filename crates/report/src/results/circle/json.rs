@@ -51,10 +51,10 @@ struct ConditionsRecord<'a> {
     data: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     saturated_cycles: Option<u64>,
-    /// What the simulation leaves out.
+    /// Properties of a machine that the simulation leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_modelled: Option<Vec<&'static str>>,
-    /// Why there are no glitches.
+    /// Reason why there are no glitches.
     #[serde(skip_serializing_if = "Option::is_none")]
     glitches_up_to: Option<TooFast>,
     /// Turns of a recording that leave more than the evaluated ones.

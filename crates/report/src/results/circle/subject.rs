@@ -19,7 +19,7 @@ pub(super) const TREATMENT: &str = "every point of the path for G, F and the gli
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ListOrigin {
-    /// It is the friction curve of the plant.
+    /// Friction curve of the plant.
     Plant,
     /// A file of the user for both axes.
     File(String),
@@ -46,7 +46,7 @@ pub struct CircleReport {
     pub subject: Subject,
     /// The paths without and with compensation, or the recorded ones.
     pub sides: Vec<NamedSide>,
-    /// What was assumed to read recorded ones.
+    /// Assumptions made in reading recorded paths.
     pub findings: Vec<TraceFinding>,
 }
 
@@ -167,8 +167,8 @@ impl CircleReport {
         verdict.with_fault(&self.findings)
     }
 
-    /// How far a recorded circle is from the commanded radius, in words, where that is more than any deviation of a
-    /// machine.
+    /// Returns in words the distance of a recorded circle from the commanded radius, where that is more than any
+    /// deviation of a machine.
     fn other_radius(&self) -> Option<String> {
         /// A thousandth of the radius.
         const PART: f64 = 0.001;

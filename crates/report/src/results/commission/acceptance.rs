@@ -1,4 +1,4 @@
-//! What the acceptance of a commissioning needs beyond its results (R16.5).
+//! Requirements for the acceptance of a commissioning beyond its results (R16.5).
 
 use std::fmt::Write as _;
 

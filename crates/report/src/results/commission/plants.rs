@@ -173,7 +173,7 @@ fn push_plant(out: &mut Document<'_>, verdict: &PlantVerdict) {
     }
 }
 
-/// What was off, or the beginning of the SHA-256 of the list that was on, as in the file names.
+/// Returns `off`, or the beginning of the SHA-256 of the list that was on, as in the file names.
 fn list_on(compared: &ComparedGlitch) -> &str {
     let list = compared.recorded.list.as_deref();
     list.map_or("off", |sum| sum.get(..8).unwrap_or(sum))

@@ -58,7 +58,7 @@ fn headline(report: &ResultsReport) -> Headline {
     Headline::new(standing, format!("{text}{rejected}{missing}"))
 }
 
-/// What an acceptance does not cover.
+/// Returns the limitation of an acceptance, in words.
 fn limit(round: &Round) -> &'static str {
     match round.shows {
         Shows::FollowingError => ", and no contour",

@@ -134,7 +134,7 @@ pub fn render_summary(
     to_json_line(&record)
 }
 
-/// Everything as one document.
+/// Renders the whole contour as one document.
 pub fn render_json(
     contour: &mut ProgramContour<ContourRecorder<'_>>,
     limits: &ContourLimits,

@@ -18,9 +18,9 @@ const MOST_SWITCHES: usize = 100;
 
 /// Destination of the reversals.
 enum ReversalSink<'a> {
-    /// Only the worst are kept.
+    /// Only the worst reversals are kept.
     Worst,
-    /// All are kept, and the largest deviation of each block.
+    /// All reversals are kept, and the largest deviation of each block.
     Kept,
     /// Each is written as a line of JSON.
     Ndjson(&'a mut (dyn Write + Send)),
@@ -90,7 +90,7 @@ impl<'a> ContourRecorder<'a> {
         }
     }
 
-    /// All reversals, if they are kept.
+    /// Returns all reversals, if they are kept.
     pub fn reversals(&self) -> &[ContourReversal] {
         &self.all
     }

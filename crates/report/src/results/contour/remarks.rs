@@ -113,7 +113,7 @@ pub(super) fn compensation(axis: &ContourAxis) -> String {
     }
 }
 
-/// Why a contour is not judged: one line each.
+/// Returns the reasons why a contour is not judged: one line each.
 pub(super) fn not_judged(obstacles: &[ContourObstacle]) -> impl Iterator<Item = String> {
     let lines = obstacles.iter();
     lines.map(|obstacle| format!("not judged: {obstacle}"))

@@ -58,7 +58,7 @@ impl IdentifyReport {
         Headline::new(Standing::Plain, text).with_fault(self.findings())
     }
 
-    /// What is shown, and of which axis.
+    /// Returns a title with the name of the axis, if it has one.
     pub(crate) fn titled(&self, what: &str) -> String {
         match &self.axis {
             Some(axis) => format!("{what} of axis {axis}"),

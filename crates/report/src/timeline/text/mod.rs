@@ -49,7 +49,7 @@ pub struct TextOptions {
     pub messages: MessageExtent,
 }
 
-/// What is shown of a message.
+/// Extent to which a message is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum MessageExtent {
@@ -117,7 +117,7 @@ pub struct Text<W> {
 /// The possible states that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Saying {
-    /// Those that were not printed before.
+    /// States that were not printed before.
     New,
     All,
 }

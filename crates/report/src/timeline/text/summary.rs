@@ -121,7 +121,7 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
 enum Files {
     /// As the user named it.
     Path,
-    /// Without its folders.
+    /// File name without its folders.
     Name,
 }
 

@@ -71,7 +71,7 @@ impl FirstMotion {
     }
 }
 
-/// Whether a program moves an axis in the state that it finds (R10.1).
+/// Inheritance of a state: a motion of an axis in the state that a program finds (R10.1).
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Inherits {
@@ -271,7 +271,7 @@ impl Scope {
         &self.subjects
     }
 
-    /// Whether anything says that the axis of a subject is configured for it (R18.2).
+    /// Returns whether anything says that the axis of a subject is configured for it (R18.2).
     pub(super) fn is_described(&self, at: usize) -> bool {
         self.undescribed.iter().all(|(_, open)| *open != at)
     }
@@ -328,7 +328,7 @@ impl Scope {
         self.found(|it| is_away && it == at).state(axis, kind)
     }
 
-    /// Whether a subject is selected at the start of the control.
+    /// Returns whether a subject is selected at the start of the control.
     pub(super) fn is_on_at_start_up(&self, subject: AuditedKind) -> bool {
         self.start_up.selected(subject.axis).contains(subject.kind)
     }

@@ -14,7 +14,7 @@ use super::runs::ProgramRuns;
 use crate::interpreter::{EndedBy, Interpreter, Observer};
 use crate::text::Numbering;
 
-/// Whether a block may change the state in which an axis moves.
+/// Motions whose state of compensation a block may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum CuredMotions {
@@ -281,8 +281,8 @@ impl<R> Trial<'_, R> {
         blocks
     }
 
-    /// Whether every motion keeps its state when started in the start-up state, and from another state changes at most
-    /// to the start-up state.
+    /// Returns whether every motion keeps its state when started in the start-up state, and from another state changes
+    /// at most to the start-up state.
     fn keeps_motions(&self, program: usize, after: &ProgramRuns) -> bool {
         let before = &self.before[program];
         let scope = self.programs[program].auditor.scope();
@@ -302,7 +302,7 @@ impl<R> Trial<'_, R> {
         })
     }
 
-    /// Whether a program now leaves, or may leave, an axis away from its start-up state.
+    /// Returns whether a program now leaves, or may leave, an axis away from its start-up state.
     fn brings_a_hazard(&self, program: usize, after: &ProgramRuns) -> bool {
         let auditor = self.programs[program].auditor;
         let worse = |axis: &AxisAudit| axis.leaves_away() || axis.is_unknown();
@@ -311,7 +311,7 @@ impl<R> Trial<'_, R> {
         pairs.any(|(before, after)| worse(&after) && !worse(before))
     }
 
-    /// Whether a program no longer takes part in the hazards.
+    /// Returns whether a program no longer takes part in the hazards.
     fn is_cured(&self, program: usize, runs: &ProgramRuns, mending: Mending) -> bool {
         let audit = &self.programs[program].auditor.axes(runs)[mending.at];
         match mending.cure {

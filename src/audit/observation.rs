@@ -38,7 +38,7 @@ pub(super) struct Moved {
 pub(super) struct Observed {
     /// The origin of its state at the end; before it, the last doubt about it.
     pub(super) last: Option<SelectionOrigin>,
-    /// Whether a command of the program named it.
+    /// Whether a command of the program named the subject.
     pub(super) commanded: bool,
     /// The first motion in the state that the program found: the first certain one, else the first possible one.
     pub(super) inherited: Option<Moved>,
@@ -82,7 +82,7 @@ impl FoundSide {
 pub(super) struct Observation {
     /// The observed side of a run that finds states open.
     side: Option<FoundSide>,
-    /// Whether the sides of a run that finds states open show what runs from their states would.
+    /// Whether the sides of a run that finds states open show the results of runs from their states.
     pub(super) is_of_sides: bool,
     pub(super) observed: Vec<Observed>,
     /// The reason for its end; `None` if the end was not observed.
@@ -600,8 +600,7 @@ impl SelectionAtMotions {
         self.rest = step.wrapping_mul(0x0100_0000_01b3).max(1);
     }
 
-    /// Whether every motion of another run has the same selection as in this one, or the wanted
-    /// one.
+    /// Returns whether every motion of another run has the same selection as in this one, or the wanted one.
     pub(super) fn only_become(&self, after: &Self, wanted: Selected) -> bool {
         if self == after {
             return true;

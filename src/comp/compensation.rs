@@ -44,7 +44,7 @@ impl AxisState {
         })
     }
 
-    /// Whether the axis is configured for kinds is open.
+    /// Leaves open whether the axis is configured for kinds.
     fn rewrite(&mut self, kinds: KindSet) {
         self.unselected = self.unselected.without(kinds);
         self.configured = self.configured.union(kinds);
@@ -118,7 +118,7 @@ impl Compensation {
         compensation
     }
 
-    /// Whether this is a state of these axes.
+    /// Returns whether this is a state of these axes.
     pub(crate) fn fits(&self, axes: impl IntoIterator<Item = AxisSetup>) -> bool {
         let setups = axes.into_iter().map(|axis| (axis.name, axis.is_spindle));
         let own = self
@@ -141,7 +141,7 @@ impl Compensation {
         self.axes.len()
     }
 
-    /// Whether the machine has no axes.
+    /// Returns whether the machine has no axes.
     pub fn is_empty(&self) -> bool {
         self.axes.is_empty()
     }
@@ -337,7 +337,7 @@ impl Compensation {
         differ.intersection(mine.configured)
     }
 
-    /// Whether the value list of a kind counts as accepted.
+    /// Returns whether the value list of a kind counts as accepted.
     pub(crate) fn is_parameterised(&self, axis: AxisIndex, kind: Kind) -> bool {
         self.axes[axis.get()].parameterised.contains(kind)
     }
@@ -349,13 +349,13 @@ impl Compensation {
         state.unknown.remove(kind);
     }
 
-    /// Whether an axis is configured for a kind.
+    /// Returns whether an axis is configured for a kind.
     pub fn is_configured(&self, axis: AxisIndex, kind: Kind) -> bool {
         self.axes[axis.get()].configured.contains(kind)
     }
 }
 
-/// Whether an axis takes part in a coupling.
+/// Part of an axis in a coupling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Coupling {
@@ -422,7 +422,7 @@ impl AxisIndex {
 pub struct AxisSetup {
     /// The name in NC programs, case-sensitive.
     pub name: String,
-    /// Whether it is a spindle; spindles have no COMP.
+    /// Whether the axis is a spindle; spindles have no COMP.
     pub is_spindle: bool,
     /// The kinds that the axis parameters configure.
     pub configured: KindSet,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::text::{Numbering, Place, SourceFile, Span};
 
 crate::words! {
-    /// Whether a fix may be applied without review.
+    /// Safety of a fix: the need for a review before it is applied.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
@@ -40,7 +40,7 @@ pub struct Fix<P = Place> {
     pub place: P,
     /// Replacement, with lines separated by `\n`.
     pub text: String,
-    /// Whether it may be applied without review.
+    /// Need for a review before it is applied.
     pub safety: Safety,
     /// Form of the replacement.
     pub form: FixForm,

@@ -83,12 +83,12 @@ impl Diagnostic {
         self.severity = self.severity.min(severity);
     }
 
-    /// Whether it is less severe than its code says, so that no setting raises it.
+    /// Returns whether it is less severe than its code says, so that no setting raises it.
     pub(crate) fn is_lowered(&self) -> bool {
         self.severity < self.code.severity()
     }
 
-    /// Whether it is more severe than its code says, so that no setting lowers or silences it.
+    /// Returns whether it is more severe than its code says, so that no setting lowers or silences it.
     pub fn is_raised(&self) -> bool {
         self.severity > self.code.severity()
     }
@@ -269,7 +269,7 @@ impl Collected {
         }
     }
 
-    /// Whether there are no messages.
+    /// Returns whether there are no messages.
     pub fn is_empty(&self) -> bool {
         self.said.is_empty()
     }
@@ -306,7 +306,7 @@ impl ReachedFrom {
         self.count
     }
 
-    /// Whether no other program reaches the place.
+    /// Returns whether no other program reaches the place.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }

@@ -134,8 +134,8 @@ pub struct DriveReport {
 }
 
 impl DriveReport {
-    /// Whether the torque would reach the drive and the control has none to send: no accepted value list, or a factor
-    /// of 0.
+    /// Returns whether the torque would reach the drive and the control has none to send: no accepted value list, or a
+    /// factor of 0.
     pub fn is_idle(&self) -> bool {
         let sends = self.largest_torque.is_some_and(|largest| largest > 0.0);
         self.configured && matches!(self.additive_torque, Presence::Present { .. }) && !sends

@@ -162,7 +162,7 @@ impl AxisLookup<'_> {
         self.any(argument.span.of(text)).or_else(by_number)
     }
 
-    /// Whether a name is that of the main spindle (P-CHAN-00053).
+    /// Returns whether a name is that of the main spindle (P-CHAN-00053).
     pub(crate) fn is_main_spindle(self, name: &str) -> bool {
         let main = &self.machine.channel.main_spindle;
         name == "S" || main.iter().any(|main| main == name)
@@ -209,13 +209,13 @@ pub(crate) enum Addressed {
 }
 
 impl ChannelAxes {
-    /// Whether every name means the axis of the machine.
+    /// Returns whether every name means the axis of the machine.
     #[inline]
     pub(crate) fn are_own(&self) -> bool {
         self.names.is_empty() && !self.doubtful
     }
 
-    /// Whether the meaning of every name is unknown.
+    /// Returns whether the meaning of every name is unknown.
     pub(crate) fn is_doubtful(&self) -> bool {
         self.doubtful
     }
@@ -234,7 +234,7 @@ impl ChannelAxes {
         self.meaning(name).or_else(own)
     }
 
-    /// Whether the program has changed what a name means.
+    /// Returns whether the program has changed what a name means.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.names.contains_key(name)
     }
@@ -283,13 +283,13 @@ impl ChannelAxes {
         count
     }
 
-    /// Whether the channel gave an axis away and does not have it under any name.
+    /// Returns whether the channel gave an axis away and does not have it under any name.
     pub(crate) fn has_released(&self, axis: AxisIndex) -> bool {
         let released = AxisNameMeaning::Released(Some(axis));
         self.names.values().any(|meaning| *meaning == released)
     }
 
-    /// Whether all axes that it names are below a number.
+    /// Returns whether all axes that it names are below a number.
     pub(crate) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {
             AxisNameMeaning::Axis(axis) | AxisNameMeaning::Released(Some(axis)) => {

@@ -111,7 +111,7 @@ impl ShownBlockLines {
 }
 
 impl LineSpan {
-    /// Whether the text between two offsets is shown with these lines.
+    /// Returns whether the text between two offsets is shown with these lines.
     fn show(&self, start: usize, end: usize) -> bool {
         let is_within = self.from <= start && start <= self.to && end <= self.to;
         let touches_all = || {
@@ -226,7 +226,7 @@ impl BlockContext<'_> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct OwnEnd {
     pub(crate) place: Place,
-    /// Whether no jump goes to it.
+    /// Whether no jump goes to the block.
     pub(crate) is_passed_into: bool,
 }
 
@@ -299,7 +299,7 @@ pub(crate) struct BlockScratch {
     pub(crate) actions: BlockActions,
     pub(crate) ending: BlockEnding,
     pub(crate) messages: BlockMessages,
-    /// Whether it has only coordinates, a feed and G functions of groups so far, each a plain number.
+    /// Whether the block has only coordinates, a feed and G functions of groups so far, each a plain number.
     pub(crate) has_plain_words: bool,
     /// Whether an axis occurred for the first time.
     pub(crate) new_axes: bool,
@@ -344,9 +344,9 @@ pub(crate) struct BlockEnding {
     /// Messages on the end of the run or of a way through it: a budget, or the end of a file
     /// without M30.
     pub(crate) over: Vec<Diagnostic>,
-    /// Whether another way does what this one would do from here on.
+    /// Whether the way ends here because another way does the same from here on.
     pub(crate) covered: bool,
-    /// Whether that is a loop that never ends.
+    /// Whether the way ends here in a loop that never ends.
     pub(crate) endless: bool,
     /// Whether calls are nested too deeply for the run to continue (R9.91).
     pub(crate) too_deep: bool,
@@ -365,7 +365,7 @@ pub(crate) struct BlockMessages {
 }
 
 impl BlockReading {
-    /// Whether a variable was read whose reading the control may refuse.
+    /// Returns whether a variable was read whose reading the control may refuse.
     #[inline]
     pub(crate) fn may_be_refused(&mut self) -> bool {
         self.flushing.get_mut().is_some() || self.undeclared.get_mut().is_some()
@@ -426,7 +426,8 @@ impl BlockScratch {
         self.wrote = false;
     }
 
-    /// Whether the words of the block ask for nothing but a motion, and nothing is said on it or left to be done after it.
+    /// Returns whether the words of the block ask for nothing but a motion, and nothing is said on it or left to be
+    /// done after it.
     #[inline]
     pub(crate) fn is_done(&self) -> bool {
         (self.has_plain_words || self.asks_for_nothing())
@@ -439,7 +440,7 @@ impl BlockScratch {
             && !self.read.plc_acts
     }
 
-    /// Whether the words of the block ask for nothing but a motion, as plain ones do.
+    /// Returns whether the words of the block ask for nothing but a motion, as plain ones do.
     pub(crate) fn asks_for_nothing(&self) -> bool {
         let (actions, read) = (&self.actions, &self.read);
         actions.goes_on()
@@ -455,7 +456,7 @@ impl BlockScratch {
             && self.is_quiet()
     }
 
-    /// Whether the block switches nothing, and nothing is said on it.
+    /// Returns whether the block switches nothing, and nothing is said on it.
     pub(crate) fn is_quiet(&self) -> bool {
         self.outcomes.is_empty()
             && self.changes.is_empty()
@@ -592,7 +593,7 @@ impl BlockActions {
         found.is_ok()
     }
 
-    /// Whether the block itself leads only to the next one.
+    /// Returns whether the block itself leads only to the next one.
     pub(crate) fn goes_on(&self) -> bool {
         self.end.is_none() && !self.returns && self.step.is_none()
     }
@@ -605,7 +606,7 @@ pub(crate) fn one(diagnostic: Diagnostic) -> Collected {
     notes
 }
 
-/// Whether a diagnostic stops the control.
+/// Returns whether a diagnostic stops the control.
 pub(crate) fn stops(diagnostic: &Diagnostic) -> bool {
     diagnostic.code.severity() == Severity::Error
 }
@@ -619,7 +620,7 @@ pub(crate) fn ended_by(said: &[Diagnostic]) -> EndedBy {
     }
 }
 
-/// Whether a fault is about a word that the user declares harmless.
+/// Returns whether a fault is about a word that the user declares harmless.
 pub(crate) fn is_harmless(words: &HarmlessWords, fault: &Fault, text: &str) -> bool {
     fault.code == Code::Fc210 && words.has_command(fault.span.of(text))
 }
@@ -691,7 +692,7 @@ impl LonePart {
         }
     }
 
-    /// Whether the control may or may not execute what shares the block with it.
+    /// Returns whether the control may or may not execute what shares the block with it.
     pub(crate) fn leaves_rest_open(self) -> bool {
         self != Self::Call
     }
@@ -720,7 +721,7 @@ fn is_part(item: &Item) -> bool {
     !matches!(item, Item::Label(_) | Item::BadCommand(_))
 }
 
-/// Whether the code ends in a comment: a word after it would not be read.
+/// Returns whether the code ends in a comment: a word after it would not be read.
 fn ends_in_comment(code: &str) -> bool {
     code.contains([';', '(']) && !code_of(&format!("{code} X")).ends_with('X')
 }

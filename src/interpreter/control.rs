@@ -47,7 +47,7 @@ pub(crate) struct ControlState {
     pub(crate) saved: SavedConfig,
     /// Files that programs changed.
     pub(crate) files: ChangedFiles,
-    /// Whether the control may skip blocks while it moves backward (`#OPTIONAL EXECUTION`).
+    /// Optional section around the block, which the control may skip while it moves backward (`#OPTIONAL EXECUTION`).
     pub(crate) optional: OptionalSection,
     /// G functions and positions before a contour description, inside it.
     pub(crate) described: Option<Box<Description>>,
@@ -254,7 +254,7 @@ impl ModalCycles {
         }
     }
 
-    /// Whether no cycle is in force.
+    /// Returns whether no cycle is in force.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.cycles.is_empty()
@@ -377,7 +377,7 @@ impl ChangedFiles {
         }
     }
 
-    /// Whether a program is not that of the archive.
+    /// Returns whether a program is not that of the archive.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.any || !self.names.is_empty() && self.names.contains(&base_name(name))
     }
@@ -402,7 +402,7 @@ impl ChangedFiles {
         self.missing = MissingFile::Nothing;
     }
 
-    /// Whether the program asked whether a file that is not here exists.
+    /// Returns whether the program asked whether a file that is not here exists.
     pub(crate) fn is_guarded(&self, name: &str) -> bool {
         match &self.missing {
             MissingFile::Nothing => false,

@@ -29,9 +29,9 @@ pub(crate) struct Couplings {
     turns: u64,
     /// Every axis that a group ever named.
     named: BTreeSet<AxisIndex>,
-    /// Whether groups may be defined that are not known.
+    /// Whether unknown groups may be defined.
     vague: bool,
-    /// Whether such groups may be in force.
+    /// Whether unknown groups may be in force.
     doubted: bool,
     /// Number of groups of the channel parameters in force, whose axes are unknown.
     unknown: u32,
@@ -51,7 +51,7 @@ struct CoupledAxes {
     axes: Vec<AxisIndex>,
     /// The turn at which it was enabled, while it is in force.
     enabled: Option<u64>,
-    /// Whether the channel parameters define it, so that its axes are unknown.
+    /// Whether the channel parameters define the group, so that its axes are unknown.
     unknown: bool,
 }
 
@@ -67,7 +67,7 @@ impl CoupledAxes {
 }
 
 impl PartialEq for Couplings {
-    /// Whether the blocks that follow find the same couplings.
+    /// Returns whether the blocks that follow find the same couplings.
     fn eq(&self, other: &Self) -> bool {
         let groups = |couplings: &Self| {
             let groups = couplings.groups.iter();
@@ -83,7 +83,7 @@ impl PartialEq for Couplings {
 }
 
 impl Couplings {
-    /// Whether an axis may move because another one does.
+    /// Returns whether an axis may move because another one does.
     #[inline]
     pub(crate) fn carry(&self) -> bool {
         self.doubted
@@ -115,7 +115,7 @@ impl Couplings {
         self.followers.insert(command, pairs);
     }
 
-    /// Whether axes follow others by a command.
+    /// Returns whether axes follow others by a command.
     pub(crate) fn is_following(&self, command: &str) -> bool {
         self.followers.contains_key(command)
     }
@@ -138,7 +138,7 @@ impl Couplings {
         self.strays.extend(followers.chain(axes.iter().copied()));
     }
 
-    /// Whether a group is in force, or may be.
+    /// Returns whether a group is in force, or may be.
     pub(crate) fn is_any(&self) -> bool {
         self.doubted || !self.enabled.is_empty()
     }
@@ -151,7 +151,7 @@ impl Couplings {
         (!self.is_doubted()).then(|| axes.copied().collect())
     }
 
-    /// Whether axes may be coupled by a group whose axes are unknown.
+    /// Returns whether axes may be coupled by a group whose axes are unknown.
     fn is_doubted(&self) -> bool {
         self.doubted || self.unknown > 0
     }
@@ -183,7 +183,7 @@ impl Couplings {
         }
     }
 
-    /// Whether a group is in force, or may be; one without a known number may be any.
+    /// Returns whether a group is in force, or may be; one without a known number may be any.
     pub(crate) fn of_group(&self, group: &str) -> Coupling {
         let is_known = !group.is_empty() && group.bytes().all(|it| it.is_ascii_digit());
         let known = self.groups.get(group);
@@ -278,7 +278,7 @@ impl Couplings {
         self.havoc()
     }
 
-    /// Whether all axes that it names are below a number.
+    /// Returns whether all axes that it names are below a number.
     pub(crate) fn fits(&self, axes: usize) -> bool {
         let members = self.groups.values().flat_map(|group| &group.axes);
         let pairs = self.followers.values().flatten();

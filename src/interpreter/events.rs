@@ -75,7 +75,7 @@ pub enum NoteKind {
     Opaque,
 }
 
-/// Whether notes are taken.
+/// Recording of notes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Notes {
@@ -107,7 +107,7 @@ pub struct Executed<'a> {
     pub line: u32,
     /// The source lines joined by `\n`, without trailing blanks.
     pub text: &'a str,
-    /// Whether the text has comments.
+    /// Comments of the text.
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
@@ -167,7 +167,7 @@ pub struct Executed<'a> {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct BlockMove<'a> {
-    /// Whether the text has comments.
+    /// Comments of the text.
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
@@ -193,7 +193,7 @@ impl<'a> BlockMove<'a> {
         words.chain(self.moves.also_moved().iter().copied())
     }
 
-    /// Whether it moves an axis other than in rapid motion; `None` where it does not.
+    /// Returns whether the axis moves certainly or possibly other than in rapid motion; `None` if it does not.
     pub(crate) fn pace(&self, axis: AxisIndex) -> Option<Certainty> {
         let kind = self.word_kind();
         let words = self.moves.words().iter().filter(|it| it.axis == axis);
@@ -316,7 +316,7 @@ pub struct Ended<'a> {
     pub seq: u64,
     /// Cause of the end.
     pub by: EndedBy,
-    /// Whether it would run until a reset ends it: its state repeats (R2.84).
+    /// Whether the program would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,
     /// The block that ends it, for example `M30`, where it is written in a program.
     pub at: Option<&'a Place>,

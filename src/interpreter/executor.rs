@@ -144,7 +144,7 @@ impl Executor {
         }
     }
 
-    /// Whether a variable outlives programs, and only they write it.
+    /// Returns whether a variable outlives programs, and only they write it.
     pub(crate) fn only_programs_write(&self, name: &VariableName) -> bool {
         name.family() == VariableFamily::Shared || self.externals.is_own(name)
     }
@@ -182,7 +182,7 @@ impl Executor {
         self.options.skip.or(self.machine.skip)
     }
 
-    /// Whether a block is known not to be executed.
+    /// Returns whether a block is known not to be executed.
     pub(crate) fn is_skipped(&self, block: &Block) -> bool {
         let skips = |level| self.skip_levels().is_some_and(|levels| levels.has(level));
         block.skip.is_some_and(skips)
@@ -212,7 +212,7 @@ impl Executor {
         self.options.limits.work.saturating_add(granted)
     }
 
-    /// Whether even reading what the ways could change takes too much work.
+    /// Returns whether even reading what the ways could change takes too much work.
     #[inline]
     pub(crate) fn is_past_all_ways(&self) -> bool {
         self.state.work.ways() > self.options.limits.ways
@@ -226,7 +226,7 @@ impl Executor {
         self.options.limits.ways.saturating_add(granted)
     }
 
-    /// Whether the budget of work is used up.
+    /// Returns whether the budget of work is used up.
     pub(crate) fn is_exhausted(&self) -> bool {
         self.state.work.level() > self.work_bound() || self.is_past_all_ways()
     }
@@ -252,7 +252,7 @@ impl Executor {
 }
 
 impl RunState {
-    /// Whether the current way executes the blocks with a skip mark around this one.
+    /// Returns whether the current way executes the blocks with a skip mark around this one.
     fn is_on_marked_way(&self) -> bool {
         let frames = &self.control.frames;
         let here = frames.running().zip(self.track.marked);
@@ -290,7 +290,7 @@ pub(crate) struct RunState {
     pub(crate) once: BTreeSet<String>,
     /// The axes that occurred.
     pub(crate) occurred: Vec<bool>,
-    /// Whether a loop is compared with an earlier pass, so that what is read matters.
+    /// Whether a loop is compared with an earlier pass, so that reads matter.
     pub(crate) watching: bool,
     pub(crate) reads: RefCell<Reads>,
     /// The last executed block of the main program.
@@ -363,7 +363,7 @@ impl RunState {
         }
     }
 
-    /// Whether a word that is reported once occurs for the first time in the program.
+    /// Returns whether a word that is reported once occurs for the first time in the program.
     pub(crate) fn is_new_word(&mut self, word: &str) -> bool {
         let words = &mut self.once;
         words.len() < MAX_ONCE && words.insert(word.to_owned())
@@ -405,8 +405,8 @@ impl MentionedUnknowns {
         self.roots.get(cause).map(|root| &root.place)
     }
 
-    /// Whether a message names anything that no message about the same value in another block has named.
-    /// A message that a loop repeats at its own place is counted, not withheld (R2.85).
+    /// Returns whether a message names anything that no message about the same value in another block has named. A
+    /// message that a loop repeats at its own place is counted, not withheld (R2.85).
     pub(crate) fn is_new(
         &mut self,
         cause: &Unknown,

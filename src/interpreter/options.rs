@@ -45,11 +45,11 @@ pub struct Options {
     pub skip: Option<SkipLevels>,
     /// Budgets.
     pub limits: Limits,
-    /// Whether plain blocks are parsed by hand, and what only moves or computes is executed without looking for more.
+    /// Use of the fast path for plain blocks: they are parsed by hand, and executed step by step only where necessary.
     pub fast_path: FastPath,
-    /// Whether notes are taken.
+    /// Recording of notes.
     pub notes: Notes,
-    /// Whether blocks report their motion.
+    /// Reports of motion by blocks.
     pub motions: Motions,
     /// Treatment of a condition that depends on a value that only the machine knows.
     pub branches: Branches,
@@ -58,12 +58,12 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether events are raised on one way only, and the others are its shadows (R14.8).
+    /// Returns whether events are raised on one way only, and the others are its shadows (R14.8).
     pub(crate) fn follows_one_way(&self) -> bool {
         self.branches == Branches::OneFollowed || self.takes_motions()
     }
 
-    /// Whether blocks report their motion.
+    /// Returns whether blocks report their motion.
     pub(crate) fn takes_motions(&self) -> bool {
         self.motions == Motions::Taken
     }

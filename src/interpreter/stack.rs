@@ -57,7 +57,7 @@ impl CallFrame {
     }
 }
 
-/// Whether a cycle keeps its changes to G functions and feed.
+/// Changes to G functions and feed that outlive a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Retains {
     /// The cycle keeps none of its changes.
@@ -140,7 +140,7 @@ impl CallStack {
         self.0.first()
     }
 
-    /// Whether a subprogram is being executed.
+    /// Returns whether a subprogram is being executed.
     pub(crate) fn is_running(&self, program: ProgramId) -> bool {
         self.iter().any(|frame| {
             frame.level > 0 && (frame.unit, frame.section) == (program.unit, program.section)
@@ -168,7 +168,7 @@ impl CallStack {
         self.running()?.next.checked_sub(1)
     }
 
-    /// Whether a block of the running program comes before the next one.
+    /// Returns whether a block of the running program comes before the next one.
     pub(crate) fn is_passed(&self, target: EntryIndex) -> bool {
         self.running().is_some_and(|frame| target < frame.next)
     }
@@ -188,7 +188,7 @@ impl CallStack {
         self.0.len()
     }
 
-    /// Whether no program runs.
+    /// Returns whether no program runs.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -325,7 +325,7 @@ impl ProgramPosition<'_> {
         })
     }
 
-    /// Whether an `$IF` of the running file has no `$ENDIF`.
+    /// Returns whether an `$IF` of the running file has no `$ENDIF`.
     pub(crate) fn is_unclosed(self, opener: EntryIndex) -> bool {
         let frame = self.frames.running();
         frame.is_some_and(|frame| {
@@ -343,8 +343,8 @@ impl ProgramPosition<'_> {
         }
     }
 
-    /// Whether a jump of the running program may go to the block: it names the number or the label of the block, or
-    /// computes its target.
+    /// Returns whether a jump of the running program may go to the block: it names the number or the label of the
+    /// block, or computes its target.
     pub(crate) fn may_be_jumped_to(self, at: &BlockContext<'_>) -> bool {
         let Some(frame) = self.frames.running() else {
             return true;
@@ -362,7 +362,7 @@ impl ProgramPosition<'_> {
         names.any(|name| name.is_none_or(|name| targets.may_be(&name)))
     }
 
-    /// Whether the file that runs is a main program: one that ends with M02 or M30.
+    /// Returns whether the file that runs is a main program: one that ends with M02 or M30.
     pub(crate) fn runs_main_program(self) -> bool {
         let Some(frame) = self.frames.iter().next() else {
             return true;
@@ -372,8 +372,8 @@ impl ProgramPosition<'_> {
         index.entries.is_empty() || is_main_program(index.text_from(frame.section, start))
     }
 
-    /// Whether the running program has M30 or M02 after its last executed block; `None` if its lines are read one
-    /// after another.
+    /// Returns whether the running program has M30 or M02 after its last executed block; `None` if its lines are read
+    /// one after another.
     pub(crate) fn holds_end_after(self) -> Option<bool> {
         let frame = self.frames.running()?;
         let index = self.programs.index(frame.unit);
@@ -386,7 +386,7 @@ impl ProgramPosition<'_> {
         self.frames.running().map_or(0, |it| it.next)
     }
 
-    /// Whether a part belongs to the program being executed.
+    /// Returns whether a part belongs to the program being executed.
     pub(crate) fn is_here(self, wanted: &WantedCall) -> bool {
         let own_name = || {
             let found = self.frames.program()?;

@@ -158,7 +158,7 @@ impl AxisCommand {
         }
     }
 
-    /// Whether a keyword opens a command of an axis: one of the rows, or an M or H function.
+    /// Returns whether a keyword opens a command of an axis: one of the rows, or an M or H function.
     pub(crate) fn is_known(keyword: &str) -> bool {
         let number = keyword.strip_prefix(['M', 'H', 'm', 'h']);
         let is_numbered = number.is_some_and(|it| it.starts_with(|it: char| it.is_ascii_digit()));
@@ -172,13 +172,13 @@ impl AxisCommand {
     }
 }
 
-/// Whether a word is an M or H function.
+/// Returns whether a word is an M or H function.
 fn is_function(word: &str) -> bool {
     let number = word.strip_prefix(['M', 'H', 'm', 'h']);
     number.is_some_and(|it| !it.is_empty() && it.bytes().all(|it| it.is_ascii_digit()))
 }
 
-/// Whether a character separates the words of a bracket.
+/// Returns whether a character separates the words of a bracket.
 fn is_between(letter: char) -> bool {
     !(letter.is_ascii_alphanumeric() || letter == '_')
 }

@@ -336,13 +336,13 @@ impl GFunction {
         FUNCTIONS.get(place.checked_sub(1)?)
     }
 
-    /// Whether a function is an interpolation at the path feed: G01, G02, G03.
+    /// Returns whether a function is an interpolation at the path feed: G01, G02, G03.
     #[inline]
     pub(crate) const fn is_feed_move(number: u32) -> bool {
         matches!(number, 1..=3)
     }
 
-    /// Whether a function is a circular interpolation: G02, G03.
+    /// Returns whether a function is a circular interpolation: G02, G03.
     #[inline]
     pub(crate) const fn is_arc(number: u32) -> bool {
         matches!(number, 2 | 3)
@@ -368,8 +368,8 @@ impl GFunction {
         rows.flat_map(|row| row.first..=row.last)
     }
 
-    /// Whether an axis word in its block is a number, so that an axis cannot only be named: the groups, block ends,
-    /// G04 and G92.
+    /// Returns whether an axis word in its block is a number, so that an axis cannot only be named: the groups, block
+    /// ends, G04 and G92.
     pub(crate) fn takes_numbers(&self) -> bool {
         self.group.is_some()
             || matches!(self.action, GAction::Dwell | GAction::SetReference)
@@ -379,18 +379,18 @@ impl GFunction {
             )
     }
 
-    /// Whether it takes effect in a dry run, so that it cannot be declared harmless: those of the groups, mirroring and
-    /// G92 (R2.45).
+    /// Returns whether it takes effect in a dry run, so that it cannot be declared harmless: those of the groups,
+    /// mirroring and G92 (R2.45).
     pub(crate) fn is_followed(&self) -> bool {
         self.group.is_some() || matches!(self.action, GAction::Mirror | GAction::SetReference)
     }
 
-    /// Whether its motion ends where a probe triggers.
+    /// Returns whether its motion ends where a probe triggers.
     pub(crate) fn is_measuring(&self) -> bool {
         self.axis_words == AxisWords::Measuring
     }
 
-    /// Whether it is an implicit call.
+    /// Returns whether it is an implicit call.
     pub(crate) fn is_call(&self) -> bool {
         self.action == GAction::Call
     }

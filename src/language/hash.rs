@@ -667,12 +667,12 @@ impl HashWords {
         })
     }
 
-    /// Whether it has a further word.
+    /// Returns whether it has a further word.
     pub(crate) fn has(self, word: FurtherWord) -> bool {
         self.further.0 & 1 << word as u64 != 0
     }
 
-    /// Whether its words are only those of its row.
+    /// Returns whether its words are only those of its row.
     pub(crate) fn is_plain(self) -> bool {
         self.further == FurtherWords::default()
     }
@@ -691,7 +691,7 @@ impl HashWords {
         self.command
     }
 
-    /// Whether it switches off.
+    /// Returns whether it switches off.
     pub(crate) fn is_off(self) -> bool {
         let words = [FurtherWord::Off, FurtherWord::Del, FurtherWord::Out];
         words.into_iter().any(|word| self.has(word))
@@ -708,7 +708,7 @@ impl HashWords {
         (!only_parameters).then_some((what, Holds::On))
     }
 
-    /// Whether the PLC acts by design in it.
+    /// Returns whether the PLC acts by design in it.
     pub(crate) fn lets_plc_act(self) -> bool {
         match self.plc {
             Plc::Absent => false,
@@ -764,7 +764,7 @@ impl HashCommand {
         self.known_as.unwrap_or(self.words)
     }
 
-    /// Whether a dry run follows what is in its brackets.
+    /// Returns whether a dry run follows what is in its brackets.
     pub(crate) fn reads_brackets(&self) -> bool {
         self.arguments == HashArguments::Brackets
             && (self.action != HashAction::PassOver
@@ -787,7 +787,7 @@ impl<'de> Deserialize<'de> for &'static HashCommand {
     }
 }
 
-/// Whether a name is that of a known command.
+/// Returns whether a name is that of a known command.
 pub(crate) fn is_command(name: &str) -> bool {
     HashCommand::of(name).is_some()
 }

@@ -144,7 +144,7 @@ impl Simplification {
 pub struct Simplifications(u32);
 
 impl Simplifications {
-    /// Whether the set is empty.
+    /// Returns whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -155,7 +155,7 @@ impl Simplifications {
         all.filter(move |it| self.0 & 1 << *it as u32 != 0)
     }
 
-    /// Whether one of them is in the set.
+    /// Returns whether one of them is in the set.
     pub fn contains(self, one: Simplification) -> bool {
         self.0 & Self::from(one).0 != 0
     }
@@ -224,7 +224,7 @@ crate::words! {
     }
 }
 
-/// Whether something happens on every way that a program may take.
+/// Certainty of an event over the ways that a program may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Certainty {
@@ -282,7 +282,7 @@ pub(crate) enum AxisWords {
 }
 
 impl AxisWords {
-    /// Whether the words move their axes.
+    /// Returns whether the words move their axes.
     pub(crate) fn move_axes(self) -> bool {
         !matches!(self, Self::Reference | Self::Other)
     }

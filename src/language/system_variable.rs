@@ -30,7 +30,7 @@ const OF_CHANNEL: &[&str] = &[
     "SATZ_NR",
 ];
 
-/// Whether a program may only read the variable, whose name has its family in upper case.
+/// Returns whether a program may only read the variable, whose name has its family in upper case.
 pub(crate) fn is_read_only(name: &str) -> bool {
     let is_in = |prefix: &str, rows: &[&str]| {
         let rest = name.strip_prefix(prefix);

@@ -45,7 +45,7 @@ pub struct ChannelSettings {
     pub feed_mm_per_min: Option<f64>,
     /// Whether the lists of the channel were read and give no such feed.
     pub lacks_feed: bool,
-    /// Whether the lists of the channel were read, so that what they do not name is not there.
+    /// Whether the lists of the channel were read, so that anything they do not name does not exist.
     pub is_whole: bool,
     /// The G functions in force at the start of a program, P-CHAN-00063, if they differ from the control's defaults.
     pub functions: Vec<u32>,
@@ -113,7 +113,7 @@ impl ChannelSwitch {
 }
 
 impl ChannelSettings {
-    /// Whether a switch is on.
+    /// Returns whether a switch is on.
     pub fn has(&self, switch: ChannelSwitch) -> bool {
         self.switches.contains(&switch)
     }

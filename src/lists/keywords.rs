@@ -100,7 +100,7 @@ const KEYS: &[KnownKey] = keys! {
     "P-STUP-00036" "achs_kw_log_ax_nr[]"
 };
 
-/// Whether a key, with its indices left empty, is one of them.
+/// Returns whether a key, with its indices left empty, is one of them.
 pub(super) fn is_known(pattern: &str) -> bool {
     known_keys().any(|key| key.pattern == pattern)
 }

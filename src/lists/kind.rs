@@ -104,7 +104,7 @@ impl KindKeys {
             .expect("there is a row for each kind")
     }
 
-    /// Whether a key belongs to the kind.
+    /// Returns whether a key belongs to the kind.
     fn has(&self, entry: &Entry) -> bool {
         begins(entry, self.deciding) || begins(entry, self.others)
     }
@@ -132,7 +132,7 @@ impl ListKind {
         most(list, |row| row.deciding).or_else(|| most(list, |row| row.others))
     }
 
-    /// Whether a text has a line that begins with a deciding key, or with the head of a list, and a value.
+    /// Returns whether a text has a line that begins with a deciding key, or with the head of a list, and a value.
     pub(crate) fn is_likely(text: &str) -> bool {
         let is_entry = |line: &str| {
             let line = line.trim_start();
@@ -150,7 +150,7 @@ impl ListKind {
         lines_of(text).any(is_entry)
     }
 
-    /// Whether a list can serve as one of this kind: one of its keys identifies this kind, or none identifies
+    /// Returns whether a list can serve as one of this kind: one of its keys identifies this kind, or none identifies
     /// another one. A start-up list, with which everything begins, needs a key of its own.
     pub fn admits(self, list: &Entries) -> bool {
         list.all().any(|entry| KindKeys::of(self).has(entry))

@@ -77,7 +77,7 @@ impl Entries {
         }
     }
 
-    /// Whether keys lost their underscores, which has been reported.
+    /// Returns whether keys lost their underscores, which has been reported.
     pub(crate) fn lost_underscores(&self) -> bool {
         self.lost > 0
     }

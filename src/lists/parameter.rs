@@ -82,7 +82,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// Whether the user assumes it.
+    /// Returns whether the user assumes it.
     pub fn is_assumed(&self) -> bool {
         matches!(self, Self::Assumed | Self::Enabled { .. })
     }

@@ -110,7 +110,7 @@ pub(crate) struct Project {
     pub(crate) odd: Vec<(&'static str, Given<String>)>,
 }
 
-/// Whether a text is XML, as TwinCAT projects are (R3.42).
+/// Returns whether a text is XML, as TwinCAT projects are (R3.42).
 pub fn is_xml(text: &str) -> bool {
     text.trim_start().starts_with('<')
 }

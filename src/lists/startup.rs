@@ -36,7 +36,7 @@ pub(crate) struct AxisPlacement {
 }
 
 impl AxisPlacement {
-    /// Whether the axis is in the channel with a number, from 1.
+    /// Returns whether the axis is in the channel with a number, from 1.
     pub(crate) fn is_in(&self, number: u32) -> bool {
         self.channel
             .as_ref()
@@ -286,7 +286,7 @@ impl ChannelList {
 }
 
 impl ChannelAxis {
-    /// Whether it is an axis: number 0 is an empty slot.
+    /// Returns whether it is an axis: number 0 is an empty slot.
     fn is_there(&self) -> bool {
         self.number.as_ref().is_none_or(|number| number.value != 0)
     }
@@ -482,7 +482,7 @@ impl ChannelPrograms {
         })
     }
 
-    /// Whether a T word also has the effect of a D word.
+    /// Returns whether a T word also has the effect of a D word.
     pub fn data_with_tool(&self) -> bool {
         self.data_with_tool
             .as_ref()

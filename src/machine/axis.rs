@@ -18,7 +18,7 @@ use crate::lists::{
 };
 use crate::text::Place;
 
-/// Whether an axis has a friction value list that the control would accept.
+/// Existence of a friction value list for an axis that the control would accept.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Parameterisation {
@@ -152,13 +152,14 @@ impl Axis {
         )
     }
 
-    /// Whether it is a spindle.
+    /// Returns whether it is a spindle.
     pub fn is_spindle(&self) -> bool {
         self.axis_type == AxisType::Spindle
     }
 
-    /// Whether a list that was read, or the user, says what P-AXIS-00522 is. Otherwise the documented default takes its
-    /// place, and what a command to the axis does is not known (R1.37, R18.2). A spindle has no friction compensation.
+    /// Returns whether a list that was read, or the user, says what P-AXIS-00522 is. Otherwise the documented default
+    /// takes its place, and what a command to the axis does is not known (R1.37, R18.2). A spindle has no friction
+    /// compensation.
     pub fn is_described(&self) -> bool {
         self.is_spindle()
             || self.frict_comp_origin != Origin::Default
@@ -355,7 +356,8 @@ pub(super) struct AxisDraft {
     pub(super) enabled: Option<Given<bool>>,
     /// Whether the axis has an axis list of the control.
     pub(super) is_listed: bool,
-    /// Whether a start-up list leads to the axis, and every axis list that it names was read: no other one says more.
+    /// Whether a start-up list leads to the axis, and every axis list that it names was read, so that no other list
+    /// adds anything.
     pub(super) is_covered: bool,
     /// The list with the defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
@@ -399,7 +401,7 @@ impl AxisDraft {
         self.channel_number = number;
     }
 
-    /// Whether its lists say that it is a spindle.
+    /// Returns whether its lists say that it is a spindle.
     pub(super) fn is_spindle(&self) -> bool {
         let axis_type = self.values.axis_type.as_ref();
         axis_type.is_some_and(|given| given.value == AxisType::Spindle)

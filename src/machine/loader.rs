@@ -417,13 +417,13 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
     }
 }
 
-/// Whether a list contains nothing before its `Ende` except comments, like a template.
+/// Returns whether a list contains nothing before its `Ende` except comments, like a template.
 pub(super) fn has_nothing(entries: &Entries) -> bool {
     let is_plain = entries.diagnostics.is_empty() && entries.entries.is_empty();
     is_plain && !entries.source().text().trim().is_empty()
 }
 
-/// Whether a line begins like an NC program: with a name, a comment or a letter with its number.
+/// Returns whether a line begins like an NC program: with a name, a comment or a letter with its number.
 fn is_block(line: &str) -> bool {
     let word = line.split([' ', '\t', '[']).next().unwrap_or_default();
     let mut letters = word.chars();
@@ -473,7 +473,7 @@ impl EmbeddedLists {
         Some(format!("item `{item}`, line {line} of `{element}`"))
     }
 
-    /// Whether a place is in one of these lists, where nothing is written.
+    /// Returns whether a place is in one of these lists, where nothing is written.
     pub(super) fn holds(&self, place: &Place) -> bool {
         self.words(place).is_some()
     }

@@ -218,7 +218,7 @@ impl Readings {
         selected.or(question.facts().assumed)
     }
 
-    /// Whether the second reading of a question is in force.
+    /// Returns whether the second reading of a question is in force.
     pub fn takes_second(&self, question: Question) -> bool {
         self.of(question) == Some(Alternative::Second)
     }

@@ -358,7 +358,7 @@ impl Causes {
 /// Different messages of one code at one place; further ones count with the last.
 const MAX_AT_A_PLACE: usize = 16;
 
-/// Whether a message is written.
+/// Decision on a message: written or left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum DedupVerdict {
     /// Message that is new.

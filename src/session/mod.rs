@@ -367,7 +367,7 @@ impl Session {
         self.stopped = false;
     }
 
-    /// Whether an error stopped the session, so that no further program may run (R9.20).
+    /// Returns whether an error stopped the session, so that no further program may run (R9.20).
     pub fn is_stopped(&self) -> bool {
         self.stopped
     }

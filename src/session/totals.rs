@@ -120,8 +120,8 @@ impl SessionTotals {
         }
     }
 
-    /// Whether a message only repeats that nothing describes an axis, which is said once in a session; an error of the
-    /// control says it, too, but is never left out.
+    /// Returns whether a message only repeats that nothing describes an axis, which is said once in a session; an error
+    /// of the control says it, too, but is never left out.
     pub(super) fn knows_undescribed(
         &mut self,
         machine: &Machine,

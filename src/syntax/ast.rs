@@ -27,7 +27,7 @@ pub struct Block {
     pub words: Vec<Word>,
     /// Items after them, from left to right.
     pub items: Vec<Item>,
-    /// Whether a `$GOTO` is among them; an `$IF` in its block opens no control block.
+    /// Whether a `$GOTO` is among the items; an `$IF` in its block opens no control block.
     pub jumps: bool,
     /// The values after the numbers of words, `G163=50`, each with its word.
     pub second_values: Vec<(Span, Operand)>,
@@ -85,7 +85,7 @@ impl Block {
 pub struct BlockNumber {
     /// The number, often an expression.
     pub value: Operand,
-    /// Whether a colon makes it a jump label.
+    /// Whether a colon makes the number a jump label.
     pub label: bool,
     /// From the N to the number's or the colon's end.
     pub span: Span,
@@ -250,7 +250,7 @@ impl Hash {
         self.command.basis
     }
 
-    /// Whether it names all variables that the program shares with the PLC, `V.E.` (PM/207988747).
+    /// Returns whether it names all variables that the program shares with the PLC, `V.E.` (PM/207988747).
     pub(crate) fn names_all_externals(&self, text: &str) -> bool {
         let code = self.code(text);
         code.split(',')
@@ -325,7 +325,7 @@ impl BracketArguments {
         self.0.chunk_by(|one, other| one.group == other.group)
     }
 
-    /// Whether a word is among them, in upper or lower case.
+    /// Returns whether a word is among them, in upper or lower case.
     pub(crate) fn has(&self, word: &str, text: &str) -> bool {
         let words = |it: &Argument| it.key.into_iter().chain([it.span]);
         let mut words = self.0.iter().flat_map(words);
@@ -367,7 +367,7 @@ impl BracketArguments {
         })
     }
 
-    /// Whether a word or value contains some letters, in upper or lower case.
+    /// Returns whether a word or value contains some letters, in upper or lower case.
     pub(crate) fn mention(&self, letters: &str, text: &str) -> bool {
         let mut words = self.words(text).map(str::to_ascii_lowercase);
         words.any(|word| word.contains(letters))
@@ -396,13 +396,13 @@ pub struct Call {
     pub scope: CallScope,
     /// Name of the program.
     pub name: CallName,
-    /// Whether it is a cycle.
+    /// Form of the call: that of a cycle or of a program.
     pub form: CallForm,
     /// Own parameters of the call, `@P1` …: number and value.
     pub arguments: Vec<(u32, Operand)>,
     /// Words of the call, `@X`, `@S` …: the letter in upper case and its value.
     pub words: Vec<(u8, Operand)>,
-    /// Whether it is repeated.
+    /// Repetition of the call.
     pub repetition: Repetition,
     /// Span of its whole text.
     pub span: Span,
@@ -428,7 +428,7 @@ pub enum CallScope {
     Global,
 }
 
-/// Whether a call is one of a cycle.
+/// Form of a call: that of a cycle or of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum CallForm {
     /// `L file.nc`, `LL NAME`.
@@ -737,13 +737,13 @@ pub enum Function {
     Inv,
     /// Logical inversion.
     Not,
-    /// Whether a parameter or variable exists.
+    /// `EXIST`: a parameter or variable exists.
     Exist,
     /// The number of elements of an array.
     Sizeof,
-    /// Whether a value is a text.
+    /// `IS_STRING`: a value is a text.
     IsString,
-    /// Whether a value is a number.
+    /// `IS_NUMBER`: a value is a number.
     IsNumber,
     /// The first characters of a text.
     Left,

@@ -83,8 +83,8 @@ fn is_json(text: &str) -> bool {
     }
 }
 
-/// Whether there are control characters of several kinds that no text has. Tapes and serial lines leave NUL, DEL,
-/// STX, ETX, EOT, SUB and DC1 to DC4.
+/// Returns whether there are control characters of several kinds that no text has. Tapes and serial lines leave NUL,
+/// DEL, STX, ETX, EOT, SUB and DC1 to DC4.
 fn is_binary(head: &str) -> bool {
     let (mut count, mut kinds) = (0, 0_u32);
     let odd = head.bytes().filter(|byte| {
@@ -129,7 +129,7 @@ enum Told {
     Perhaps,
 }
 
-/// Whether a `#` begins a comment of TOML, not a command.
+/// Returns whether a `#` begins a comment of TOML, not a command.
 fn is_remark(after: &str) -> bool {
     after.is_empty() || after.starts_with([' ', '\t', '#', '-', '='])
 }
@@ -189,8 +189,8 @@ const MAX_BLOCKS: usize = 400;
 /// Number of blocks after which a text that hardly has any is given up.
 const FIRST_BLOCKS: usize = 24;
 
-/// Whether more than two thirds of the lines at the head of a text are blocks, and one of them is of a kind that only NC programs have: R2.97
-/// turned round.
+/// Returns whether more than two thirds of the lines at the head of a text are blocks, and one of them is of a kind
+/// that only NC programs have: R2.97 turned round.
 pub fn reads_as_program(text: &str) -> bool {
     if no_program(text).is_some() {
         return false;
@@ -217,7 +217,7 @@ pub fn reads_as_program(text: &str) -> bool {
     is_told && good * 3 > all * 2
 }
 
-/// Whether other texts hardly have such a block: a block number, a G or M function, a command, a statement.
+/// Returns whether other texts hardly have such a block: a block number, a G or M function, a command, a statement.
 fn tells(block: &Block) -> bool {
     let is_function = |address: &Address| matches!(address, Address::Letter(b'G' | b'M'));
     block.number.is_some()

@@ -161,8 +161,8 @@ fn is_line_end(byte: u8) -> bool {
     byte == b'\n' || byte == b'\r'
 }
 
-/// Whether a letter begins a word that is plain: calls, parameters and block numbers do not, nor does E, which may look
-/// like an exponent.
+/// Returns whether a letter begins a word that is plain: calls, parameters and block numbers do not, nor does E, which
+/// may look like an exponent.
 #[inline]
 fn is_address(byte: u8) -> bool {
     ADDRESSES[usize::from(byte)]

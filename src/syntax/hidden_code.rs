@@ -81,9 +81,9 @@ pub(super) fn words_without_value(text: &str, block: &mut Block) {
     block.faults.append(&mut faults);
 }
 
-/// Whether a word is a G function with which axes may be named without a value: homing, measuring, manual mode,
-/// weights, mirroring (PM/206138635, 206177803, 206633483, 206266379). With those of the groups, with G04 and G92
-/// an axis word is a number.
+/// Returns whether a word is a G function with which axes may be named without a value: homing, measuring, manual mode,
+/// weights, mirroring (PM/206138635, 206177803, 206633483, 206266379). With those of the groups, with G04 and G92 an
+/// axis word is a number.
 fn takes_names(word: &Word) -> bool {
     let is_g = word.address == Address::Letter(b'G');
     let takes_numbers = |number| GFunction::of_value(number).is_some_and(GFunction::takes_numbers);
@@ -147,7 +147,7 @@ fn comps(text: &str) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Whether a text holds a COMP command: the word after the bracket of a name.
+/// Returns whether a text holds a COMP command: the word after the bracket of a name.
 fn holds_command(text: &str) -> bool {
     comps(text).any(|at| {
         let before = text[..at].trim_end_matches(is_blank).strip_suffix('[');

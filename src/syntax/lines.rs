@@ -24,7 +24,7 @@ const MAX_REGION: usize = 1 << 20;
 /// Faults of one block that are reported one by one (R2.85).
 const MAX_FAULTS: usize = 1000;
 
-/// Whether blocks are parsed by hand where that is possible, and executed without looking for more where they only move or
+/// Use of a parser by hand for blocks where that is possible, with a shorter execution of blocks that only move or
 /// compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
@@ -356,7 +356,7 @@ fn plain_block<'a>(
     }
 }
 
-/// Whether a line begins with the command that ends a region.
+/// Returns whether a line begins with the command that ends a region.
 fn ends(code: &str, end: &str) -> bool {
     opening_command(code).is_some_and(|command| command.name.name == end)
 }

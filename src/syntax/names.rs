@@ -92,7 +92,7 @@ pub(super) fn own_uses<'a>(
     words.chain(items)
 }
 
-/// Whether a name has the form of an axis name (R2.20).
+/// Returns whether a name has the form of an axis name (R2.20).
 pub(crate) fn is_axis_name(name: &str) -> bool {
     let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     name.len() <= 16

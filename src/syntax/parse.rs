@@ -71,7 +71,7 @@ pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     }
 }
 
-/// Whether the first bracket of a text begins with `COMP`, or nearly so.
+/// Returns whether the first bracket of a text begins with `COMP`, or nearly so.
 fn opens_comp(text: &str) -> bool {
     let Some((_, inside)) = text.split_once('[') else {
         return false;
@@ -88,8 +88,8 @@ pub fn parse_block(text: &str) -> Block {
     block
 }
 
-/// Whether a block is only an M word, `N90 M30 ; end`, `M 2`, `M=P1`, or only `#ERROR`, so that another block can be
-/// put before it (R1.59). A jump label is more: a jump to it would skip the other block.
+/// Returns whether a block is only an M word, `N90 M30 ; end`, `M 2`, `M=P1`, or only `#ERROR`, so that another block
+/// can be put before it (R1.59). A jump label is more: a jump to it would skip the other block.
 pub fn is_lone_end(text: &str) -> bool {
     let block = parse_block(text);
     let is_m = |word: &Word| word.address == Address::Letter(b'M');

@@ -132,7 +132,7 @@ fn code_length(bytes: &[u8]) -> usize {
     bytes.iter().position(ends).unwrap_or(bytes.len())
 }
 
-/// Whether a comment begins with a `(` that nothing closes (R2.6).
+/// Returns whether a comment begins with a `(` that nothing closes (R2.6).
 pub(super) fn is_open_comment(comment: &str) -> bool {
     comment.starts_with('(') && closing(comment.as_bytes(), 0).is_none()
 }
@@ -186,7 +186,7 @@ impl<'a> Texts<'a> {
         None
     }
 
-    /// Whether a quote after a place has no `\` before it.
+    /// Returns whether a quote after a place has no `\` before it.
     pub(super) fn is_closed(&self, start: usize) -> bool {
         let last = self.last.get_or_init(|| {
             let mut quotes = memchr::memrchr_iter(b'"', self.bytes);
@@ -258,7 +258,7 @@ pub(crate) fn code_of_part(text: &str) -> Cow<'_, str> {
     Cow::Owned(code)
 }
 
-/// Whether a line marks its block as continued on the next one.
+/// Returns whether a line marks its block as continued on the next one.
 pub(crate) fn goes_on(line: &str) -> bool {
     line.contains('\\') && mask(line, &mut String::new()).continues
 }

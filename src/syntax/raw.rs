@@ -20,7 +20,7 @@ pub enum Stretch {
     Program {
         /// The name of the program.
         name: Span,
-        /// Whether it is a local subprogram, `%L NAME`.
+        /// Whether the program is a local subprogram, `%L NAME`.
         local: bool,
     },
 }
@@ -36,9 +36,9 @@ pub struct RawBlock<'a> {
     pub line: u32,
     /// Offset of that line in bytes from the start of the text.
     pub offset: usize,
-    /// Whether it has comments.
+    /// Comments of the block.
     pub comments: Comments,
-    /// Whether it was parsed by hand, so that it is made of words with plain numbers.
+    /// Whether the block was parsed by hand, so that it consists of words with plain numbers.
     pub plain: bool,
     /// The comment line directly above that is addressed to this tool (R9.24).
     pub remark: Option<&'a Remark>,
@@ -102,7 +102,7 @@ pub struct LineFault {
     pub fault: Fault,
 }
 
-/// Whether a text has comments.
+/// Presence of comments in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Comments {
@@ -131,7 +131,7 @@ pub(super) struct LatestRemarks {
     remark: Remark,
     /// The number of its last line; 0 where there is none.
     last: u32,
-    /// Whether a block begins on the line after it.
+    /// Whether a block begins on the line after the last comment.
     is_heard: bool,
     lost: LostRemarks,
 }

@@ -155,7 +155,7 @@ struct PendingLabel {
     next: Option<usize>,
 }
 
-/// Whether a call of a file was found.
+/// Calls found in a program.
 #[derive(Debug, Default)]
 struct Calls {
     is_found: bool,
@@ -185,7 +185,7 @@ impl NamedAxes {
         &self.read
     }
 
-    /// Whether the program may name further axes: it calls a file, or a block that may name one has a fault.
+    /// Returns whether the program may name further axes: it calls a file, or a block that may name one has a fault.
     pub fn may_name_more(&self) -> bool {
         self.calls.is_found || self.is_faulty
     }
@@ -254,7 +254,7 @@ fn axis_place(text: &[u8], from: usize, name: &[u8]) -> Option<usize> {
     places.find(begins).map(|at| from + at)
 }
 
-/// Whether a text may call a file with `L`.
+/// Returns whether a text may call a file with `L`.
 pub(crate) fn may_call_file(text: &[u8]) -> bool {
     call_place(text, 0).is_some()
 }
@@ -311,7 +311,7 @@ impl FlowScan {
         self.found |= commands.any(|at| Self::opens_branch(&piece[at + 1..]));
     }
 
-    /// Whether the whole text is needed.
+    /// Returns whether the whole text is needed.
     pub fn needs_whole_text(&self) -> bool {
         self.found
     }
@@ -325,7 +325,7 @@ impl FlowScan {
         is_alone && is_followed && !Self::ends_in_comment(before)
     }
 
-    /// Whether the last line is in a comment so far. A line that is longer than a block may be is not.
+    /// Returns whether the last line is in a comment so far. A line that is longer than a block may be is not.
     fn ends_in_comment(text: &[u8]) -> bool {
         let near = &text[text.len().saturating_sub(MAX_LINE)..];
         let line = match memchr::memrchr2(b'\n', b'\r', near) {

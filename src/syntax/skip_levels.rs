@@ -33,7 +33,7 @@ impl SkipLevels {
             .then_some(Self(self.0 | 1 << level))
     }
 
-    /// Whether blocks of a level are skipped.
+    /// Returns whether blocks of a level are skipped.
     pub fn has(self, level: u8) -> bool {
         self.0 & (1 << level.min(15)) != 0
     }

@@ -48,27 +48,27 @@ impl VariableFamily {
         }
     }
 
-    /// Whether a program start clears its variables.
+    /// Returns whether a program start clears its variables.
     pub(crate) fn is_of_run(self) -> bool {
         matches!(self, Self::Parameter | Self::Program | Self::Cycle)
     }
 
-    /// Whether programs write its variables.
+    /// Returns whether programs write its variables.
     pub(crate) fn is_written(self) -> bool {
         self.is_of_run() || matches!(self, Self::Shared | Self::Internal | Self::Local)
     }
 
-    /// Whether only programs write its variables: `V.P.`, `V.L.`, `V.S.`.
+    /// Returns whether only programs write its variables: `V.P.`, `V.L.`, `V.S.`.
     pub(crate) fn is_of_programs(self) -> bool {
         self.is_written() && !matches!(self, Self::Cycle | Self::Internal)
     }
 
-    /// Whether its variables end with the level of the program that creates them.
+    /// Returns whether its variables end with the level of the program that creates them.
     pub(crate) fn is_of_level(self) -> bool {
         matches!(self, Self::Local | Self::Cycle)
     }
 
-    /// Whether others than the program that writes its variables read them (R2.34, R2.36).
+    /// Returns whether others than the program that writes its variables read them (R2.34, R2.36).
     pub(crate) fn is_read_by_others(self) -> bool {
         matches!(
             self,
@@ -194,12 +194,12 @@ impl VariableName {
         }
     }
 
-    /// Whether it is the array or structure of a name, or belongs to it.
+    /// Returns whether it is the array or structure of a name, or belongs to it.
     pub(crate) fn is_in(&self, whole: &Self) -> bool {
         self.is_any(|it| it == whole)
     }
 
-    /// Whether a name, or that of an array or structure that it belongs to, is one of some.
+    /// Returns whether a name, or that of an array or structure that it belongs to, is one of some.
     pub(crate) fn is_any(&self, is_it: impl Fn(&Self) -> bool) -> bool {
         let structures = self.array.match_indices('.');
         let structures = structures.map(|(end, _)| Self::whole(self.array[..end].to_owned()));
@@ -284,7 +284,7 @@ impl Subscripts {
         &self.0
     }
 
-    /// Whether they lead to an element, or to a part of it.
+    /// Returns whether they lead to an element, or to a part of it.
     pub(crate) fn starts_with(&self, outer: &Self) -> bool {
         self.0.starts_with(&outer.0)
     }

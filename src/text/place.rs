@@ -90,7 +90,7 @@ impl Place {
         }
     }
 
-    /// Whether both places share the lines that they show.
+    /// Returns whether both places share the lines that they show.
     fn shows_lines_of(&self, other: &Self) -> bool {
         self.first_line == other.first_line && Arc::ptr_eq(&self.text, &other.text)
     }

@@ -216,7 +216,7 @@ fn names_too_much(seed: u64) -> bool {
     })
 }
 
-/// Whether a program has more than one condition.
+/// Returns whether a program has more than one condition.
 fn asks_twice(program: &[Statement]) -> bool {
     fn asks(program: &[Statement]) -> usize {
         let of = |statement: &Statement| match &statement.form {

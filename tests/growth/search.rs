@@ -250,7 +250,7 @@ impl Search {
     }
 }
 
-/// Whether a combination is the one to try among its rotations, which repeat the same text.
+/// Returns whether a combination is the one to try among its rotations, which repeat the same text.
 fn is_first_rotation(combination: &[usize]) -> bool {
     let length = combination.len();
     (1..length).all(|by| {

@@ -168,7 +168,7 @@ fn streamed(text: &str, stop: StopPolicy) -> Vec<String> {
     })
 }
 
-/// Whether the text prevents the program from running at all, which a stream detects late.
+/// Returns whether the text prevents the program from running at all, which a stream detects late.
 fn is_refused(whole: &[String]) -> bool {
     whole
         .iter()

@@ -37,7 +37,7 @@ impl Package {
         }
     }
 
-    /// Whether a room re-exports an item of another one, which is the same item.
+    /// Returns whether a room re-exports an item of another one, which is the same item.
     fn shows(&self, room: &str, name: &str) -> bool {
         let room = room.strip_prefix(self.prefix).unwrap_or(room);
         let room = room.trim_start_matches("::").replace("::", "/");
@@ -221,8 +221,8 @@ const FILLED_IN: &[&str] = &[
     "host::replay::ReplayChannels",
 ];
 
-/// Whether the definition of a type in a text allows it to grow without breaking its readers; `None` if
-/// the text does not define it, or if nothing of it is public.
+/// Returns whether the definition of a type in a text allows it to grow without breaking its readers; `None` if the
+/// text does not define it, or if nothing of it is public.
 fn can_grow(text: &str, name: &str) -> Option<bool> {
     let lines: Vec<&str> = text.lines().collect();
     let start = ["struct", "enum"].map(|kind| format!("pub {kind} {name}"));

@@ -106,7 +106,7 @@ pub(crate) fn advice(said: &Diagnostic) -> Vec<String> {
     help.chain(labels).collect()
 }
 
-/// Whether it is one of the programs that are run, not one that they call.
+/// Returns whether it is one of the programs that are run, not one that they call.
 pub(crate) fn is_main(file: &str) -> bool {
     matches!(file.as_bytes(), [b'a'..=b'z', b'.', b'n', b'c'])
 }

@@ -206,7 +206,7 @@ fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
 /// Extensions of files that hold samples, or are known to hide them.
 const RECORDINGS: [&str; 7] = ["csv", "tsv", "svdx", "svd", "svb", "tdms", "tcscopex"];
 
-/// Whether a text has columns of samples.
+/// Returns whether a text has columns of samples.
 fn is_table(text: &str) -> bool {
     let mut is_table = false;
     let mut reader = TraceReader::new(1, |_| {
@@ -240,7 +240,7 @@ fn is_picture(path: &Path, content: &[u8]) -> bool {
             .any(|it| content.starts_with(it) && is_bitmap(it))
 }
 
-/// Whether a text begins as a program for Heidenhain in its own language, with `BEGIN PGM` in its first line.
+/// Returns whether a text begins as a program for Heidenhain in its own language, with `BEGIN PGM` in its first line.
 fn is_for_another_control(text: &str) -> bool {
     let first = text.lines().find(|line| !line.trim().is_empty());
     let words = first.unwrap_or_default().split_whitespace();

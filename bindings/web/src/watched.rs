@@ -9,7 +9,7 @@ unsafe extern "C" {
     /// Reports the progress of a run to the page: executed blocks, and the line of the main program.
     safe fn progress(blocks: f64, line: u32);
 
-    /// Whether it is time to report the progress of other work: 1, at most a few times a second.
+    /// Returns 1 if it is time to report the progress of other work, at most a few times a second.
     safe fn due() -> u32;
 
     /// Reports progress to the page, in so many bytes of text at an address.

@@ -254,7 +254,7 @@ impl Mapping {
         }
     }
 
-    /// Whether the file says which objects are exchanged.
+    /// Returns whether the file says which objects are exchanged.
     fn assigns(&self) -> bool {
         !self.assigned.is_empty() || self.pdos.iter().any(|pdo| pdo.has_sync_manager)
     }

@@ -15,13 +15,13 @@ const STEP: u64 = 1 << 14;
 
 /// Watcher of long work.
 pub trait Watcher: fmt::Debug + Send + Sync {
-    /// Whether a progress report is due. Called often, and by several threads.
+    /// Returns whether a progress report is due. Called often, and by several threads.
     fn is_due(&self) -> bool;
 
     /// Receives the progress of the work.
     fn show(&self, progress: &Progress);
 
-    /// Whether the work is to stop. It then ends early, and its result is not usable.
+    /// Returns whether the work is to stop. It then ends early, and its result is not usable.
     fn is_stopped(&self) -> bool {
         false
     }
@@ -164,12 +164,12 @@ impl Watch {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Whether there is a watcher.
+    /// Returns whether there is a watcher.
     pub fn is_on(&self) -> bool {
         self.watcher.is_some()
     }
 
-    /// Whether the watcher stops the work.
+    /// Returns whether the watcher stops the work.
     pub fn is_stopped(&self) -> bool {
         self.watcher.as_ref().is_some_and(|it| it.is_stopped())
     }

@@ -115,7 +115,7 @@ const SIMULATION: usize = 24 << 20;
 /// its allocations takes a page.
 const THREAD: usize = 136 << 20;
 
-/// Whether there is memory for one more thread.
+/// Returns whether there is memory for one more thread.
 fn is_there_for_a_thread() -> bool {
     available(THREAD).is_ok()
 }

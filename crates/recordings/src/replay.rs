@@ -142,7 +142,7 @@ pub struct TriedCondition {
     pub line: u32,
     /// The condition as written, or `skip level 1 is off`.
     pub condition: String,
-    /// Whether it is true.
+    /// Whether the condition holds.
     pub holds: bool,
 }
 
@@ -168,12 +168,12 @@ pub struct Replayed {
 }
 
 impl Replayed {
-    /// Whether the recording and the dry run agree on every axis and to the end.
+    /// Returns whether the recording and the dry run agree on every axis and to the end.
     pub fn agrees(&self) -> bool {
         self.stopped.is_none() && self.axes.iter().all(|it| it.disagreement.is_none())
     }
 
-    /// Whether they agree only with some answers to the conditions of the programs.
+    /// Returns whether they agree only with some answers to the conditions of the programs.
     pub fn is_conditional(&self) -> bool {
         let [tried, fitting] = self.ways;
         self.agrees() && fitting < tried

@@ -171,7 +171,7 @@ impl Control {
 }
 
 impl Path {
-    /// Whether an arc goes on with a path of arcs.
+    /// Returns whether an arc goes on with a path of arcs.
     fn continues(&self, angle: f64, feed: f64) -> bool {
         let is_same = |it: &Piece| matches!(it, Piece::Arc { angle: own, .. } if own * angle > 0.0);
         (self.feed - feed).abs() < 1e-9 && self.pieces.iter().all(is_same)

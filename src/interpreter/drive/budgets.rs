@@ -49,7 +49,7 @@ impl Executor {
         is_over.then(|| too_many_values(self.options.limits.values, at))
     }
 
-    /// Whether variables and couplings hold more than their budget.
+    /// Returns whether variables and couplings hold more than their budget.
     pub(crate) fn holds_too_many_values(&self) -> bool {
         let control = &self.state.control;
         let held = control
@@ -181,7 +181,7 @@ impl ControlState {
 const MAX_NAMED: usize = 3;
 
 impl OtherPaths {
-    /// Whether following the ways of the program takes more work than its budget.
+    /// Returns whether following the ways of the program takes more work than its budget.
     #[inline]
     pub(crate) fn is_past_ways(&self, here: &Executor) -> bool {
         let is_past = here.state.work.ways() > here.options.limits.ways

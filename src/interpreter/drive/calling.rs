@@ -335,7 +335,7 @@ impl Executor {
     }
 }
 
-/// Whether a way is in the last executed call of a program.
+/// Returns whether a way is in the last executed call of a program.
 fn is_within(calls: &CallStack, (depth, program): CalledAt, effect: &CallEffect) -> bool {
     let at_depth = calls.iter().nth(depth.saturating_sub(1));
     at_depth.is_some_and(|frame| frame.program() == program)

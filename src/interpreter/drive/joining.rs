@@ -190,7 +190,7 @@ impl ControlState {
     }
 }
 
-/// Whether two ways differ in G functions other than that of the motion.
+/// Returns whether two ways differ in G functions other than that of the motion.
 fn differ_in_words(mine: &ControlState, theirs: &ControlState) -> bool {
     let differs = |group: &Group| mine.modal.differs_in(&theirs.modal, *group);
     let groups = Group::ALL.iter().filter(|group| **group != Group::Motion);
@@ -531,7 +531,7 @@ impl OtherPaths {
 }
 
 impl Executor {
-    /// Whether a user has chosen that the block jumps.
+    /// Returns whether a user has chosen that the block jumps.
     pub(crate) fn is_jump_chosen(&self) -> bool {
         let next = self.state.control.frames.running().map(|it| it.next);
         self.options.branches == Branches::OneFollowed

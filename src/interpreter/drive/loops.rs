@@ -30,7 +30,7 @@ const MOST_COUNTED_PASSES: u64 = 1000;
 /// Passes after which a loop that is joined at its head is given up (R14.4).
 const MOST_JOINED_PASSES: u64 = 64;
 
-/// Whether it is known that a loop is repeated.
+/// Certainty that a loop is repeated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Repeats {
     Known,
@@ -190,7 +190,7 @@ impl OtherPaths {
         Around::Nothing
     }
 
-    /// Whether the loop whose passes begin with a block is joined there.
+    /// Returns whether the loop whose passes begin with a block is joined there.
     fn is_joined_at(&self, here: &Executor, target: EntryIndex) -> bool {
         let heads = &self.loop_heads;
         !heads.is_empty() && heads.has(&head_place(&here.state.control.frames, target))
@@ -382,7 +382,7 @@ impl RunState {
         }
     }
 
-    /// Whether the state is that of an earlier pass; if there is none, it is kept for comparison.
+    /// Returns whether the state is that of an earlier pass; if there is none, it is kept for comparison.
     #[cold]
     fn repeats(&mut self) -> bool {
         let Some(mut last) = self.track.loops.pop() else {
@@ -453,7 +453,7 @@ fn counters(mark: &Mark, state: &RunState) -> Option<Vec<Location>> {
     only_counts.then_some(differing)
 }
 
-/// Whether a loop is compared with an earlier pass.
+/// Returns whether a loop is compared with an earlier pass.
 pub(crate) fn watches(track: &RunTrack) -> bool {
     track.loops.iter().any(|known| known.mark.is_some())
 }

@@ -439,7 +439,7 @@ impl Executor {
     }
 }
 
-/// Whether the control only computes, branches or switches.
+/// Returns whether the control only computes, branches or switches.
 fn is_still(item: &Item) -> bool {
     matches!(
         item,
@@ -462,7 +462,7 @@ impl Executor {
         self.outdate_readings(at);
     }
 
-    /// Whether an error of the control stops the run at the block; else its axes move.
+    /// Returns whether an error of the control stops the run at the block; else its axes move.
     #[inline]
     fn judge(&mut self, at: &BlockContext<'_>) -> bool {
         let said = &self.scratch.messages.diagnostics;
@@ -523,7 +523,7 @@ impl Executor {
         }
     }
 
-    /// Whether the block only computes, or moves axes that have moved before, and nothing else is due after it.
+    /// Returns whether the block only computes, or moves axes that have moved before, and nothing else is due after it.
     #[inline]
     fn is_done(&self, at: &BlockContext<'_>) -> bool {
         self.options.fast_path == FastPath::On
@@ -537,7 +537,7 @@ impl Executor {
             && self.is_within_budgets()
     }
 
-    /// Whether a block of the only way switches nothing, nothing is said on it, and its axes have moved before.
+    /// Returns whether a block of the only way switches nothing, nothing is said on it, and its axes have moved before.
     #[inline]
     fn is_quiet(&self) -> bool {
         self.scratch.is_quiet() && !self.scratch.new_axes && self.state.track.searching.is_none()

@@ -246,7 +246,7 @@ impl<'a> Trust<'a> {
         }
     }
 
-    /// Whether everything that the state names is there.
+    /// Checks that everything that the state names is there.
     pub(crate) fn check(&self) -> Validity {
         let state = self.state;
         holds(
@@ -390,7 +390,7 @@ impl<'a> Trust<'a> {
         unit.is_some_and(|unit| found.section < unit.index.sections.len())
     }
 
-    /// Whether a section contains a block, or ends there.
+    /// Returns whether a section contains a block, or ends there.
     fn has_block(&self, found: ProgramId, entry: EntryIndex) -> bool {
         let unit = self.programs.units().get(found.unit);
         let section = unit.and_then(|unit| unit.index.sections.get(found.section));
@@ -432,7 +432,7 @@ fn holds(is: bool, otherwise: &'static str) -> Validity {
     if is { Ok(()) } else { Err(otherwise) }
 }
 
-/// Whether a place has a line that a text may have.
+/// Returns whether a place has a line that a text may have.
 fn is_somewhere(place: &Place) -> bool {
     place.first_line < MOST_LINES
 }

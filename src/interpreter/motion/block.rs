@@ -142,7 +142,7 @@ impl BlockMotion {
         &self.rests
     }
 
-    /// Whether the axes come to rest in the block, or may.
+    /// Returns whether the axes come to rest in the block, or may.
     pub(crate) fn rests(&self) -> bool {
         self.rests.get() || self.dwells
     }
@@ -204,7 +204,7 @@ impl BlockMotion {
         words.chain(self.also.iter().map(|moved| moved.axis))
     }
 
-    /// Whether it has words of axes that the machine does not have.
+    /// Returns whether it has words of axes that the machine does not have.
     #[inline]
     pub(crate) fn lacks_axes(&self) -> bool {
         !self.lacking.is_empty()
@@ -214,7 +214,7 @@ impl BlockMotion {
         std::mem::take(&mut self.lacking)
     }
 
-    /// Whether an axis may have two words.
+    /// Returns whether an axis may have two words.
     #[inline]
     pub(crate) fn has_repeated(&self) -> bool {
         self.again != 0
@@ -283,7 +283,7 @@ impl BlockMotion {
         words.map(|word| modal.position(word.axis).value).collect()
     }
 
-    /// Whether the block moves along its axis words at the feed in force.
+    /// Returns whether the block moves along its axis words at the feed in force.
     pub(crate) fn is_at_feed(&self, modal: &Modal) -> bool {
         let geometry = self.geometry.as_ref();
         let is_other = geometry.is_some_and(|it| it.foreign.is_some() || it.end_feed.is_some());
@@ -336,7 +336,7 @@ impl BlockMotion {
         }
     }
 
-    /// Whether other axes may follow what the block moves.
+    /// Returns whether other axes may follow what the block moves.
     pub(crate) fn leads(&self, words: AxisWords) -> bool {
         !self.also.is_empty() || !self.words.is_empty() && words.move_axes()
     }

@@ -11,7 +11,7 @@ use crate::language::{Certainty, MotionKind, Simplifications};
 use crate::lists::SlopeProfile;
 use crate::text::Span;
 
-/// Whether blocks report their motion.
+/// Reports of motion by blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Motions {
@@ -295,7 +295,7 @@ pub struct MovedAxis {
     pub span: Span,
     /// Kind of the motion.
     pub kind: MotionKind,
-    /// Whether it certainly moves.
+    /// Certainty of the motion.
     pub certainty: Certainty,
 }
 

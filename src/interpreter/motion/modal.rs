@@ -16,8 +16,7 @@ use crate::language::{
 };
 use crate::lists::{ChannelSettings, ChannelSwitch, SlopeProfile};
 
-/// Whether a position is one of the machine, and if not, what separates it from one; what separates more
-/// comes later.
+/// Frame of a position: that of the machine, or the difference from it; greater differences come later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PositionFrame {
@@ -40,7 +39,7 @@ pub struct AxisPosition {
     /// The programmed coordinate in mm or degrees with the offset of G92; `None` where it is not
     /// known.
     pub value: Option<f64>,
-    /// Whether it is one of the machine.
+    /// Frame of the position.
     pub frame: PositionFrame,
 }
 
@@ -139,13 +138,13 @@ impl Modal {
         }
     }
 
-    /// Whether it describes a number of axes.
+    /// Returns whether it describes a number of axes.
     pub(crate) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
         [self.positions.len(), self.references.len(), suspended] == [axes; 3]
     }
 
-    /// Whether it is known which G function of a group is in force.
+    /// Returns whether it is known which G function of a group is in force.
     pub fn is_known(&self, group: Group) -> bool {
         !self.functions.unknown.contains(group)
     }
@@ -243,7 +242,7 @@ impl Modal {
         }
     }
 
-    /// Whether coordinates count from an origin other than that at the start of the program, or may: axis
+    /// Returns whether coordinates count from an origin other than that at the start of the program, or may: axis
     /// positions from then have no meaning any more.
     pub fn has_moved_origin(&self) -> bool {
         self.origin_moved
@@ -306,8 +305,8 @@ impl Modal {
         self.havoc_positions();
     }
 
-    /// Whether the programmed coordinate of an axis is that of the machine: no zero offset, no G92 and no tool data are
-    /// in force (R2.112).
+    /// Returns whether the programmed coordinate of an axis is that of the machine: no zero offset, no G92 and no tool
+    /// data are in force (R2.112).
     pub(crate) fn is_without_offsets(&self, axis: AxisIndex) -> bool {
         self.functions.offset == 53
             && self.is_known(Group::Offset)
@@ -315,13 +314,13 @@ impl Modal {
             && self.functions.tool_data == Some(0)
     }
 
-    /// Whether the path between points is a spline, G151 or `#HSC ON [OPMODE 2]`.
+    /// Returns whether the path between points is a spline, G151 or `#HSC ON [OPMODE 2]`.
     pub(crate) fn is_spline(&self) -> bool {
         let fast = self.simplified.contains(Simplification::HighSpeed);
         self.transformed.contains("#SPLINE") || fast && self.high_speed.is_spline
     }
 
-    /// Whether offsets may be switched off.
+    /// Returns whether offsets may be switched off.
     pub(crate) fn are_offsets_suspended(&self) -> bool {
         let mut rows = self
             .transformed
@@ -330,7 +329,7 @@ impl Modal {
         rows.any(|row| row.chain == Some(ChainStep::Machine))
     }
 
-    /// Whether a rotation is in force in which a motion along one axis of the plane moves the other one, too.
+    /// Returns whether a rotation is in force in which a motion along one axis of the plane moves the other one, too.
     pub(crate) fn is_skewed(&self) -> bool {
         self.skewed && !self.are_offsets_suspended()
     }
@@ -405,8 +404,8 @@ impl Modal {
         }
     }
 
-    /// Whether it is known that two states have different functions of a group in force, or unknown
-    /// in one of them only.
+    /// Returns whether it is known that two states have different functions of a group in force, or unknown in one of
+    /// them only.
     pub(crate) fn differs_in(&self, other: &Self, group: Group) -> bool {
         let (mine, theirs) = (self.is_known(group), other.is_known(group));
         mine != theirs || (mine && self.value(group) != other.value(group))
@@ -667,7 +666,7 @@ fn frame_of(name: &str) -> PositionFrame {
     }
 }
 
-/// Whether an M function is known not to move an origin: those of DIN 66025-2 and of the manual's overview
+/// Returns whether an M function is known not to move an origin: those of DIN 66025-2 and of the manual's overview
 /// (tccncprogramming/15557312651).
 pub(crate) fn is_named_m(number: i64) -> bool {
     matches!(number, 0..=17 | 19 | 29..=31 | 40..=49 | 60)
@@ -747,31 +746,31 @@ impl GFunctions {
         }
     }
 
-    /// Whether G01, G02 or G03 is in force and may have no feed, or the feed 0 (R2.110).
+    /// Returns whether G01, G02 or G03 is in force and may have no feed, or the feed 0 (R2.110).
     #[inline]
     pub(crate) fn may_lack_feed(&self) -> bool {
         self.is_feed_move() && self.has_no_feed()
     }
 
-    /// Whether the mode in force may have no feed, or the feed 0.
+    /// Returns whether the mode in force may have no feed, or the feed 0.
     #[inline]
     pub(crate) fn has_no_feed(&self) -> bool {
         self.lacking.contains(self.feed_place())
     }
 
-    /// Whether G01, G02 or G03 is in force.
+    /// Returns whether G01, G02 or G03 is in force.
     #[inline]
     pub(crate) fn is_feed_move(&self) -> bool {
         GFunction::is_feed_move(self.motion) && !self.unknown.contains(Group::Motion)
     }
 
-    /// Whether G02 or G03 was programmed last.
+    /// Returns whether G02 or G03 was programmed last.
     #[inline]
     pub(crate) fn is_arc(&self) -> bool {
         GFunction::is_arc(self.motion)
     }
 
-    /// Whether the program has certainly given no feed so far, and G94 is in force.
+    /// Returns whether the program has certainly given no feed so far, and G94 is in force.
     pub(crate) fn is_first_without_feed(&self) -> bool {
         self.feed_mode == 94 && !self.unknown.contains(Group::Feed) && self.lacking.is_certain()
     }

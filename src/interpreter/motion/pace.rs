@@ -42,7 +42,7 @@ impl Default for Factors {
     }
 }
 
-/// Whether a motion is a rapid one.
+/// Haste of a motion: rapid or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Haste {
     /// G00.
@@ -311,13 +311,13 @@ impl LackingFeeds {
         self.possible |= other.possible;
     }
 
-    /// Whether the mode at a place may lack a feed.
+    /// Returns whether the mode at a place may lack a feed.
     #[inline]
     pub(crate) fn contains(self, place: usize) -> bool {
         self.possible & 1 << place != 0
     }
 
-    /// Whether the program has certainly given no feed in any mode.
+    /// Returns whether the program has certainly given no feed in any mode.
     pub(crate) fn is_certain(self) -> bool {
         self.certain == Self::ALL
     }

@@ -28,7 +28,7 @@ struct Open {
     span: Span,
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
     sign: Option<char>,
-    /// Whether its `$ELSE` or `$DEFAULT` was found.
+    /// Whether the `$ELSE` or `$DEFAULT` of the block was found.
     last_branch: bool,
     /// Whether a block before its first branch was refused.
     is_led: bool,
@@ -603,7 +603,7 @@ fn not_closed(open: &Open) -> Option<Fault> {
     Some(fault.with_help(format!("write `{closer}` in a separate block")))
 }
 
-/// Whether a statement is one of the language, and not a misspelt one.
+/// Returns whether a statement is one of the language, and not a misspelt one.
 fn is_spelt(kind: ControlBlock, text: &str) -> bool {
     kind == ControlBlock::RealTime || is_statement(text)
 }

@@ -59,7 +59,7 @@ pub fn call_sites(text: &str, programs: &ConfiguredPrograms) -> Vec<CallSite> {
     sites.found
 }
 
-/// Whether M02 or M30 is in a text, or an M function known only at run time.
+/// Returns whether M02 or M30 is in a text, or an M function known only at run time.
 ///
 /// ```
 /// use frictcomp::interpreter::holds_program_end;
@@ -81,7 +81,7 @@ pub fn holds_program_end(text: &str) -> bool {
     is_found
 }
 
-/// Whether a text is a main program: M02 or M30 is in it, and it does not end with M17 or M29 (R2.110).
+/// Returns whether a text is a main program: M02 or M30 is in it, and it does not end with M17 or M29 (R2.110).
 pub(crate) fn is_main_program(text: &str) -> bool {
     let mut returns = false;
     for_each_block(text, |block, _, _| {
@@ -284,7 +284,7 @@ pub(crate) struct WantedCall {
     pub(crate) span: Span,
     /// Span of the name, if the block itself has it.
     pub(crate) named: Option<Span>,
-    /// Whether it is a cycle.
+    /// Form of the call: that of a cycle or of a program.
     pub(crate) form: CallForm,
     /// Set for a modal cycle: whether it waits for motion.
     pub(crate) repeat: Option<bool>,
@@ -333,7 +333,7 @@ pub(crate) struct CalledPart {
     /// Whether the call itself ends the part, too.
     pub(crate) end_tag: bool,
     pub(crate) passes: u64,
-    /// Whether it belongs to the program being executed.
+    /// Whether the part belongs to the program being executed.
     pub(crate) here: bool,
 }
 

@@ -140,7 +140,7 @@ impl JumpTargets {
         }
     }
 
-    /// Whether a label may be one of them, in either form.
+    /// Returns whether a label may be one of them, in either form.
     pub(crate) fn may_be(&self, label: &LabelName) -> bool {
         let other = label.in_other_form();
         self.are_computed
@@ -188,7 +188,7 @@ pub(crate) struct Index {
 }
 
 impl Index {
-    /// Whether a `$` statement belongs to a control block that is whole.
+    /// Returns whether a `$` statement belongs to a control block that is whole.
     pub(crate) fn is_linked(&self, entry: EntryIndex) -> bool {
         self.links.contains_key(&entry)
     }
@@ -381,7 +381,7 @@ impl Index {
         outwards.filter(move |opener| self.is_within(entry, *opener))
     }
 
-    /// Whether a block is within a control block, by its opener, and does not open it.
+    /// Returns whether a block is within a control block, by its opener, and does not open it.
     fn is_within(&self, entry: EntryIndex, opener: EntryIndex) -> bool {
         opener < entry && entry <= self.links(opener).end
     }

@@ -85,7 +85,7 @@ impl ProgramStore {
         &self.units[unit].index
     }
 
-    /// Whether the first blocks of a file were read line by line and are not kept.
+    /// Returns whether the first blocks of a file were read line by line and are not kept.
     pub(crate) fn is_cut(&self, unit: usize) -> bool {
         let source = &self.index(unit).source;
         unit == 0 && (source.name().is_empty() || source.lines().first() > 1)
@@ -129,7 +129,7 @@ impl ProgramStore {
         self.names.insert(name, 0);
     }
 
-    /// Whether a block was read before, in order to be executed.
+    /// Returns whether a block was read before, in order to be executed.
     #[inline]
     pub(crate) fn was_read(&self, unit: usize, entry: EntryIndex) -> bool {
         self.units[unit].executed[entry as usize]

@@ -51,7 +51,7 @@ pub(crate) struct ExpressionScope<'a> {
     /// The variables read whose value is known and which the PLC may write.
     pub(crate) relied: &'a RefCell<Vec<VariableName>>,
     pub(crate) held: HeldValues,
-    /// Whether numbers are equal that differ only by rounding (R2.112).
+    /// Reading of the equality of numbers that differ only by rounding (R2.112).
     pub(crate) nearly_equal: Option<Alternative>,
 }
 

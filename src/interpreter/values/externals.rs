@@ -32,22 +32,22 @@ impl ExternalNames {
         }
     }
 
-    /// Whether only programs write a variable.
+    /// Returns whether only programs write a variable.
     pub(crate) fn is_own(&self, name: &VariableName) -> bool {
         is_named(&self.own, name)
     }
 
-    /// Whether only programs write a variable or an array.
+    /// Returns whether only programs write a variable or an array.
     pub(crate) fn is_own_array(&self, array: &str) -> bool {
         !self.own.is_empty() && self.is_own(&VariableName::whole(array.to_owned()))
     }
 
-    /// Whether a variable keeps its value while a program runs, unless the program writes it.
+    /// Returns whether a variable keeps its value while a program runs, unless the program writes it.
     pub(crate) fn is_stable(&self, name: &VariableName) -> bool {
         is_named(&self.stable, name) || self.is_own(name)
     }
 
-    /// Whether the PLC may write a variable while a program runs.
+    /// Returns whether the PLC may write a variable while a program runs.
     pub(crate) fn may_change(&self, name: &VariableName) -> bool {
         name.family() == VariableFamily::External && !self.is_stable(name)
     }
@@ -79,7 +79,7 @@ pub(crate) struct ExternalVariables {
 }
 
 impl ExternalVariables {
-    /// Whether any variable is held.
+    /// Returns whether any variable is held.
     #[inline]
     fn are_held(&self) -> bool {
         !self.held.is_empty() || self.initialised.is_some()
@@ -94,7 +94,7 @@ impl ExternalVariables {
         self.held.remove(name)
     }
 
-    /// Whether a variable without a value is 0: only programs write it and none has since the start of the
+    /// Returns whether a variable without a value is 0: only programs write it and none has since the start of the
     /// control, or `#INIT V.E.` has set it.
     pub(crate) fn is_zero(&self, name: &VariableName) -> bool {
         self.names.is_own(name) || self.initialised.is_some() && self.names.may_change(name)
@@ -179,7 +179,7 @@ impl HeldVariable {
     }
 }
 
-/// Whether names hold a variable, or the array or structure that it belongs to.
+/// Returns whether names hold a variable, or the array or structure that it belongs to.
 fn is_named(names: &BTreeSet<VariableName>, name: &VariableName) -> bool {
     !names.is_empty() && name.is_any(|it| names.contains(it))
 }
@@ -198,7 +198,7 @@ impl Memory {
         self.externals.names = Arc::clone(names);
     }
 
-    /// Whether the PLC may write a variable, and no value from the user says what it writes.
+    /// Returns whether the PLC may write a variable, and no value from the user says what it writes.
     pub(crate) fn may_change(&self, name: &VariableName) -> bool {
         self.externals.names.may_change(name) && self.given.get(name).is_none()
     }
@@ -249,7 +249,7 @@ impl Memory {
         held.into_iter().map(|(name, _)| name).collect()
     }
 
-    /// Whether any variable is held.
+    /// Returns whether any variable is held.
     #[inline]
     pub(crate) fn holds_any(&self) -> bool {
         self.externals.are_held()

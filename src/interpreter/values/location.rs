@@ -39,9 +39,9 @@ pub enum Unknown {
     /// Effect of `$CONTINUE` in a `$SWITCH` outside a loop (R2.40).
     #[serde(rename = "`$CONTINUE` in a `$SWITCH`")]
     ContinueInSwitch,
-    /// Whether the control refuses a block, by the number of its error where that is public (R2.114).
+    /// Refusal of a block by the control, with the number of its error where that is public (R2.114).
     Refused(Option<u32>),
-    /// Whether the control takes variables that no `#VAR` declares (R2.102).
+    /// Acceptance by the control of variables that no `#VAR` declares (R2.102).
     #[serde(rename = "a missing declaration")]
     Undeclared,
     /// The last digits of a computed number (R2.112; PM/206929163).
@@ -59,7 +59,7 @@ pub enum Unknown {
     /// The effect of a block search on the commands that it passes (R2.96).
     #[serde(rename = "the block search")]
     Search,
-    /// Whether the control skips an optional section while it moves backward (R2.109).
+    /// Skipping of an optional section while the control moves backward (R2.109).
     #[serde(rename = "an optional section")]
     OptionalSection,
     /// A modal cycle that may be in force, by the name of its program (R2.13).
@@ -213,7 +213,7 @@ impl Unknown {
         }
     }
 
-    /// Whether a block shows it.
+    /// Returns whether a block shows it.
     pub(crate) fn is_shown_in(&self, text: &str) -> bool {
         match self {
             Self::Text(of) => text.contains(&*of.text),

@@ -126,12 +126,12 @@ impl Memory {
         })
     }
 
-    /// Whether only programs write the variable of a name.
+    /// Returns whether only programs write the variable of a name.
     fn is_written(&self, name: &VariableName) -> bool {
         name.family().is_written() || self.externals.names.is_own(name)
     }
 
-    /// Whether a name that nothing is known about may exist.
+    /// Returns whether a name that nothing is known about may exist.
     fn may_find(&self, name: &VariableName) -> bool {
         let is_kept = name.family() == VariableFamily::Shared || self.externals.names.is_own(name);
         self.may_find && is_kept && self.given.get(name).is_none()
@@ -165,7 +165,7 @@ impl Memory {
         }
     }
 
-    /// Whether a parameter or a whole variable may exist and the program has not certainly written it.
+    /// Returns whether a parameter or a whole variable may exist and the program has not certainly written it.
     pub(crate) fn is_found(&self, location: &Location) -> bool {
         let is_new = |name: &VariableName| {
             self.may_find(name) && self.variables.names.get(name.array()).is_none()
@@ -174,7 +174,7 @@ impl Memory {
             || matches!(location, Location::Variable(name) if is_new(name))
     }
 
-    /// Whether a parameter or a whole variable still has the value that the program found, or none.
+    /// Returns whether a parameter or a whole variable still has the value that the program found, or none.
     pub(crate) fn is_unwritten(&self, location: &Location) -> bool {
         let holds = match location {
             Location::Parameter(_, index) => self.parameters.get(*index).is_some(),
@@ -318,7 +318,7 @@ impl Memory {
             .declared
     }
 
-    /// Whether a declaration of the name in the current level is a second one.
+    /// Returns the form in which the current level declares the name; `None` if it does not.
     pub(crate) fn is_declared_here(&self, name: &VariableName) -> Option<Declared> {
         let level = if name.family().is_of_level() {
             self.locals.last()?
@@ -336,7 +336,7 @@ impl Memory {
         outer.find_map(|level| level.names.get(name.array()))
     }
 
-    /// Whether nothing of the name is known, or may be there.
+    /// Returns whether nothing of the name is known, or may be there.
     pub(crate) fn is_absent(&self, name: &VariableName) -> bool {
         let mut levels = self.locals.iter().chain([&self.variables]);
         self.unknown_names.is_none()
@@ -552,7 +552,7 @@ impl Memory {
         }
     }
 
-    /// Whether the macros of another memory are the same.
+    /// Returns whether the macros of another memory are the same.
     fn has_macros_of(&self, other: &Self) -> bool {
         self.macros == other.macros
     }
@@ -656,7 +656,7 @@ fn unescaped(code: &str) -> String {
     code.replace("\\\"", "\"")
 }
 
-/// Whether a program start leaves a variable or array.
+/// Returns whether a program start leaves a variable or array.
 pub(crate) fn is_kept(array: &str, parameters: Parameters) -> bool {
     let family = VariableFamily::of(array);
     !family.is_of_run() || (parameters == Parameters::Kept && family == VariableFamily::Parameter)
@@ -756,7 +756,7 @@ fn page_of(index: u32) -> (usize, usize) {
 pub(crate) struct Shared<T>(Arc<T>);
 
 impl<T> Shared<T> {
-    /// Whether two are copies of each other, neither of which has changed since.
+    /// Returns whether two are copies of each other, neither of which has changed since.
     fn is_copy_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

@@ -55,7 +55,7 @@ pub(crate) struct Declared {
     pub(crate) certainty: Sure,
 }
 
-/// Whether a variable is declared on every way.
+/// Certainty of a declaration over the ways.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Sure {
     Certain,
@@ -100,7 +100,7 @@ pub(crate) struct Array {
 }
 
 impl Array {
-    /// Whether the subscripts are, or may be, those of an element.
+    /// Returns whether the subscripts are, or may be, those of an element.
     pub(crate) fn has(&self, subscripts: &Subscripts) -> bool {
         let is_inside = |(number, size): (&i64, &Option<u32>)| {
             u32::try_from(*number).is_ok_and(|at| size.is_none_or(|size| at < size))
@@ -201,7 +201,7 @@ impl NamedVariable {
         self.elements.iter().map(weight).sum()
     }
 
-    /// Whether it is there on every way.
+    /// Returns whether it is there on every way.
     pub(crate) fn is_certain(&self) -> bool {
         let is_known = |value: &Value| !matches!(value, Value::Unknown(_));
         let declared = self.declared.map(|it| it.certainty == Sure::Certain);

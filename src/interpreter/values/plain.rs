@@ -11,7 +11,7 @@ use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owne
 use crate::syntax::{Subscript, VariableFamily, VariableName};
 use crate::text::Span;
 
-/// Whether a condition holds.
+/// Truth of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Truth {
     Holds,
@@ -84,8 +84,8 @@ pub(crate) fn conclusions(
     found
 }
 
-/// Whether an expression only compares one variable with one number, so that either answer tells whether
-/// they are equal.
+/// Returns whether an expression only compares one variable with one number, so that either answer tells whether they
+/// are equal.
 pub(crate) fn is_one_comparison(block: &Block, text: &str, expression: Expression) -> bool {
     let Some((node, operands)) = root(block, expression) else {
         return false;
@@ -105,7 +105,7 @@ pub(crate) fn is_one_comparison(block: &Block, text: &str, expression: Expressio
     }
 }
 
-/// Whether a variable can only be 0 or 1.
+/// Returns whether a variable can only be 0 or 1.
 fn is_switch(target: &Location) -> bool {
     let of_axis = match target {
         Location::Variable(name) => name.of_axis(),
@@ -233,15 +233,15 @@ pub(crate) struct ConditionMeaning {
 /// Subject of a condition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum ConditionSubject {
-    /// Whether an expression holds.
+    /// Truth of an expression.
     Truth,
     /// Choice of a case by the value of an expression.
     Cases(Vec<Arc<str>>),
-    /// Whether an expression as the remedy class of an error ends the program.
+    /// End of the program by an error whose remedy class is the expression.
     RemedyClass,
     /// Something that only the machine knows.
     Unknown(Unknown),
-    /// Whether the control takes blocks of a kind, in the words of FC328.
+    /// Acceptance by the control of blocks of a kind, in the words of FC328.
     Refusal(Arc<str>),
 }
 
@@ -323,7 +323,7 @@ pub(crate) fn read_of_machine(
     read.collect()
 }
 
-/// Whether an expression reads, or may read, a value that the machine writes while the program waits.
+/// Returns whether an expression reads, or may read, a value that the machine writes while the program waits.
 pub(crate) fn is_written_by_machine(
     block: &Block,
     text: &str,
@@ -353,7 +353,7 @@ pub(crate) fn subscript(node: &Node) -> Subscript {
     Subscript::Number(number.unwrap_or(i64::MAX))
 }
 
-/// Whether a function of numbers always gives equal results for equal numbers.
+/// Returns whether a function of numbers always gives equal results for equal numbers.
 fn is_pure(function: Function) -> bool {
     !matches!(
         function,

@@ -46,7 +46,7 @@ impl Value {
         }
     }
 
-    /// Whether the value counts as true: |value| ≥ 0.5 (R2.31). `None` where it is not a number.
+    /// Returns whether the value counts as true: |value| ≥ 0.5 (R2.31). `None` where it is not a number.
     pub fn truth(&self) -> Option<bool> {
         self.number().map(is_true)
     }
@@ -167,7 +167,7 @@ impl ValueType {
         }
     }
 
-    /// Whether a whole number is one of its own.
+    /// Returns whether a whole number is one of its own.
     pub(crate) fn has(self, number: f64) -> bool {
         let limits = self.limits();
         limits.is_none_or(|(least, most)| (least..=most).contains(&number))
@@ -284,7 +284,7 @@ pub(crate) fn numbers(
     arithmetic(operator, left, right, span)
 }
 
-/// Whether rounding alone keeps a number from being a multiple of another.
+/// Returns whether rounding alone keeps a number from being a multiple of another.
 fn is_nearly_multiple(left: f64, right: f64) -> bool {
     let rest = (left % right).abs();
     let least = rest.min(right.abs() - rest);
@@ -365,7 +365,7 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
 /// as it stands (R2.112).
 const ROUNDING: f64 = 1e-9;
 
-/// Whether two numbers differ, and by no more than rounding: the control may have rounded otherwise.
+/// Returns whether two numbers differ, and by no more than rounding: the control may have rounded otherwise.
 pub(crate) fn are_nearly_equal(left: f64, right: f64) -> bool {
     let difference = (left - right).abs();
     let scale = if left == 0.0 || right == 0.0 {

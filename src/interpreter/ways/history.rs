@@ -63,7 +63,7 @@ impl Split {
         }
     }
 
-    /// Whether all conditions that it names are below a number.
+    /// Returns whether all conditions that it names are below a number.
     pub(crate) fn fits(&self, conditions: usize) -> bool {
         self.conditions().all(|it| (it as usize) < conditions)
     }
@@ -240,7 +240,7 @@ impl HistorySide<'_> {
         })
     }
 
-    /// Whether a kind is unknown on both sides, with the same ways to its states.
+    /// Returns whether a kind is unknown on both sides, with the same ways to its states.
     fn is_open_alike(&self, (axis, kind): AxisKind, theirs: &Self) -> bool {
         let is_unknown = |it: &Self| it.compensation.unknown(axis).contains(kind);
         is_unknown(self)
@@ -342,7 +342,7 @@ impl History {
         self.change((axis, kind), |it| it.states = Some(split));
     }
 
-    /// Whether the state of some kind differs between ways.
+    /// Returns whether the state of some kind differs between ways.
     #[inline]
     pub(crate) fn is_open(&self) -> bool {
         self.0.values().any(|kind| kind.states.is_some())
@@ -495,7 +495,7 @@ impl History {
         self.sets().flat_map(WaySet::conditions)
     }
 
-    /// Whether all axes and conditions that it names are below a number of each.
+    /// Returns whether all axes and conditions that it names are below a number of each.
     pub(crate) fn fits(&self, axes: usize, conditions: usize) -> bool {
         self.0.keys().all(|(axis, _)| axis.get() < axes)
             && self.conditions().all(|it| (it as usize) < conditions)
@@ -594,13 +594,13 @@ impl FoundStates<'_> {
         states_of(kind, split, (self.reach, self.conditions))
     }
 
-    /// Whether a kind of an axis may still be in the state that the program found.
+    /// Returns whether a kind of an axis may still be in the state that the program found.
     pub(crate) fn has(self, axis: AxisIndex, kind: Kind) -> bool {
         let ways = self.history.found_ways(axis, kind);
         ways.is_none_or(|ways| !ways.is_apart_from(self.reach))
     }
 
-    /// Whether it is on all ways, except where a value changes that the program set.
+    /// Returns whether it is on all ways, except where a value changes that the program set.
     pub(crate) fn is_always(self, axis: AxisIndex, kind: Kind) -> bool {
         let ways = self.history.found_ways(axis, kind);
         self.are_all(self.reach) && ways.is_none_or(|ways| self.are_all(ways))

@@ -65,7 +65,7 @@ pub(crate) struct AskedCondition {
 }
 
 impl AskedCondition {
-    /// Whether no value decides, so that it has one answer on all ways.
+    /// Returns whether no value decides, so that it has one answer on all ways.
     pub(crate) fn reads_nothing(&self) -> bool {
         self.meaning.reads.is_empty()
     }
@@ -93,8 +93,8 @@ pub(crate) struct ValueBefore {
 }
 
 impl ValueBefore {
-    /// Whether as much was known of a value, whatever the cause of an unknown one. A variable of the machine that was
-    /// never written is as unknown as one that the PLC may have changed.
+    /// Returns whether as much was known of a value, whatever the cause of an unknown one. A variable of the machine
+    /// that was never written is as unknown as one that the PLC may have changed.
     fn is_like(&self, other: &Self, target: &Location, memory: &Memory) -> bool {
         let is_external = matches!(target, Location::Variable(name) if memory.may_change(name));
         let is_open = |it: &Self| match &it.value {
@@ -340,7 +340,7 @@ impl Path {
         }
     }
 
-    /// Whether everything that another way may do from the same block is done on this one, too.
+    /// Returns whether everything that another way may do from the same block is done on this one, too.
     pub(crate) fn covers(&self, other: &Self, cause: &Unknown) -> bool {
         let mut both = self.clone();
         both.join(other.clone(), cause);
@@ -516,7 +516,7 @@ impl Loop {
         (self.depth, self.unit, self.head)
     }
 
-    /// Whether its counters are below a bound.
+    /// Returns whether its counters are below a bound.
     pub(crate) fn fits(&self, bound: u64) -> bool {
         let marked = self.mark.as_ref().map_or(0, |mark| mark.pass);
         self.passes.max(marked) < bound
@@ -524,13 +524,13 @@ impl Loop {
 }
 
 impl Loop {
-    /// Whether the loop contains a jump back, or is the one that jumps.
+    /// Returns whether the loop contains a jump back, or is the one that jumps.
     pub(crate) fn is_around(&self, place: ProgramId, head: EntryIndex, from: EntryIndex) -> bool {
         let around = self.head < head && from <= self.from;
         self.program() == place && (self.head == head || around)
     }
 
-    /// Whether the state is compared at this pass, or kept to be compared with.
+    /// Returns whether the state is compared at this pass, or kept to be compared with.
     pub(crate) fn is_due(&self) -> bool {
         self.mark.is_some() || (self.passes >= FIRST_LOOK && self.passes.is_power_of_two())
     }
@@ -586,13 +586,13 @@ impl Shadow {
 }
 
 impl RunTrack {
-    /// Whether the way raises no events.
+    /// Returns whether the way raises no events.
     #[inline]
     pub(crate) fn is_shadow(&self) -> bool {
         self.shadow.until.is_some()
     }
 
-    /// Whether motions on the ways that lead here are not those of all ways.
+    /// Returns whether motions on the ways that lead here are not those of all ways.
     pub(crate) fn has_undecided_motion(&self) -> bool {
         self.shadow.moves_alone || !self.shadow.moved.is_empty()
     }

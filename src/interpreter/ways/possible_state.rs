@@ -105,14 +105,14 @@ impl PossibleStates {
         }
     }
 
-    /// Whether the states depend only on what programs that only the machine has leave.
+    /// Returns whether the states depend only on what programs that only the machine has leave.
     pub(crate) fn rests_on_calls(&self) -> bool {
         let is_call = |condition: &WayCondition| matches!(condition, WayCondition::Call { .. });
         let named = self.states.iter().flat_map(|state| &state.ways);
         named.flatten().flatten().all(is_call)
     }
 
-    /// Whether a state is possible only if a value of the machine changes between two conditions.
+    /// Returns whether a state is possible only if a value of the machine changes between two conditions.
     pub fn needs_change(&self, state: State) -> bool {
         let found = self.states.iter().find(|it| it.state == state);
         found.is_some_and(PossibleState::needs_change)
@@ -151,18 +151,18 @@ impl PossibleStates {
         copy
     }
 
-    /// Whether there are more ways than can be named.
+    /// Returns whether there are more ways than can be named.
     pub(crate) fn is_widened(&self) -> bool {
         self.states.iter().any(PossibleState::is_always)
     }
 
-    /// Whether one condition decides.
+    /// Returns whether one condition decides.
     fn rests_on_one_condition(&self) -> bool {
         let mut named = self.states.iter().flat_map(|state| &state.ways);
         named.all(|ways| matches!(ways.as_slice(), [way] if way.len() == 1))
     }
 
-    /// Whether a state is possible.
+    /// Returns whether a state is possible.
     pub fn has(&self, state: State) -> bool {
         self.states.iter().any(|it| it.state == state)
     }
@@ -179,7 +179,7 @@ impl PossibleState {
         Some(unless(ways, self.more, file))
     }
 
-    /// Whether there are too many ways to name any.
+    /// Returns whether there are too many ways to name any.
     fn is_always(&self) -> bool {
         self.ways.as_ref().is_some_and(Vec::is_empty)
     }
@@ -435,7 +435,7 @@ impl CarriedWays {
         }
     }
 
-    /// Whether no state has more than one way to it.
+    /// Returns whether no state has more than one way to it.
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
     }

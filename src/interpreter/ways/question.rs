@@ -30,22 +30,22 @@ pub(crate) enum ConditionKind {
     Case,
     /// The target of a jump.
     Jump,
-    /// Whether a loop is repeated.
+    /// Repetition of a loop.
     Loop,
     /// A skip level.
     Skip(u8),
     /// The signal of a probe.
     Probe,
-    /// Whether a program that only the machine has leaves a kind selected on an axis; the texts are the
-    /// names of the program and of the axis.
+    /// Selection of a kind on an axis by a program that only the machine has; the texts are the names of the program
+    /// and of the axis.
     Call(Kind),
-    /// Whether the program finds a kind selected on an axis, with its state then; the text is the name of the axis.
+    /// Selection of a kind on an axis as the program finds it, with its state then; the text is the name of the axis.
     Found(Kind, State),
-    /// Whether a block search executes the commands that it passes.
+    /// Execution of the commands that a block search passes.
     Search,
-    /// Whether `#ERROR` without a remedy class ends the program (R2.100).
+    /// End of the program at `#ERROR` without a remedy class (R2.100).
     Stop,
-    /// Whether the control is restarted after an error, not only reset (R2.100).
+    /// Restart of the control after an error, not only a reset (R2.100).
     Restart,
 }
 
@@ -150,19 +150,19 @@ impl Condition {
         copy
     }
 
-    /// Whether some answers hold unless the machine changes what the program wrote.
+    /// Returns whether some answers hold unless the machine changes what the program wrote.
     pub(crate) fn keeps(&self, sides: u64) -> bool {
         self.kept
             .as_ref()
             .is_some_and(|kept| sides & !kept.sides == 0)
     }
 
-    /// Whether each of its answers has a bit.
+    /// Returns whether each of its answers has a bit.
     pub(crate) fn fits(&self) -> bool {
         self.texts.len() < MAX_ANSWERS
     }
 
-    /// Whether it is the same question at the same place, at any time.
+    /// Returns whether it is the same question at the same place, at any time.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.place.first_line == other.place.first_line
             && self.place.span == other.place.span
@@ -335,7 +335,7 @@ impl RememberedConditions {
         self.0.retain(|it| !it.meaning.reads.iter().any(&is_other));
     }
 
-    /// Whether each answer of each has a bit.
+    /// Returns whether each answer of each has a bit.
     pub(crate) fn fit(&self) -> bool {
         self.0.iter().all(|it| it.answers.len() <= MAX_ANSWERS)
     }
@@ -389,7 +389,7 @@ pub(crate) fn clash<'a>(
     })
 }
 
-/// Whether a condition can contradict another one: a loop waits for its value to change.
+/// Returns whether a condition can contradict another one: a loop waits for its value to change.
 pub(crate) fn is_compared(kind: ConditionKind) -> bool {
     matches!(
         kind,

@@ -114,7 +114,7 @@ impl WaySet {
         given
     }
 
-    /// Whether each of the ways is one of others.
+    /// Returns whether each of the ways is one of others.
     pub(crate) fn is_within(&self, others: &Self) -> bool {
         let is_one = |way: &Way| {
             let mut others = others.0.iter();
@@ -123,7 +123,7 @@ impl WaySet {
         self.0.iter().all(is_one)
     }
 
-    /// Whether no way is one of both sets.
+    /// Returns whether no way is one of both sets.
     pub(crate) fn is_apart_from(&self, other: &Self) -> bool {
         let is_apart = |way: &Way| other.0.iter().all(|other| contradict(way, other));
         self.0.iter().all(is_apart)
@@ -379,7 +379,7 @@ fn together(mine: &Way, theirs: &Way) -> Option<Way> {
     Some(both)
 }
 
-/// Whether two ways have different answers to a condition.
+/// Returns whether two ways have different answers to a condition.
 fn contradict(mine: &Way, theirs: &Way) -> bool {
     let mut rest = mine.iter().peekable();
     theirs.iter().any(|theirs| {

@@ -21,15 +21,15 @@ pub enum WayCondition {
     Condition(BlockCondition),
     /// A case of a `$SWITCH`.
     Case(BlockCondition),
-    /// Whether a loop is repeated.
+    /// Repetition of a loop.
     Loop(BlockCondition),
-    /// Whether a probe answers.
+    /// Answer of a probe.
     Probe(BlockCondition),
     /// The switch of a skip level.
     Skip {
         /// The level.
         level: u8,
-        /// Whether its blocks are executed.
+        /// Whether the blocks are executed.
         executed: bool,
         /// The file of its first block.
         file: Arc<str>,
@@ -53,7 +53,7 @@ pub enum WayCondition {
         axis: Arc<str>,
         /// The kind of compensation.
         compensation: Kind,
-        /// Whether it is selected after the call.
+        /// Whether the kind is selected after the call.
         on: bool,
     },
     /// The reading of a block search (R2.96).
@@ -65,7 +65,7 @@ pub enum WayCondition {
         /// Whether the search executes the commands that it passes.
         executed: bool,
     },
-    /// Whether something ends the program: `#ERROR` without a remedy class (R2.100), a feed move without a feed (R2.110).
+    /// End of the program by an error: `#ERROR` without a remedy class (R2.100), a feed move without a feed (R2.110).
     Stop {
         /// The file of the block.
         file: Arc<str>,
@@ -74,7 +74,7 @@ pub enum WayCondition {
         /// The error in words.
         #[serde(serialize_with = "as_text")]
         text: Arc<str>,
-        /// Whether it ends the program.
+        /// Whether the error ends the program.
         stops: bool,
     },
     /// Start after an error with the remedy class 7 (R2.100).
@@ -108,7 +108,7 @@ pub struct BlockCondition {
     /// The text of the condition.
     #[serde(serialize_with = "as_text")]
     pub text: Arc<str>,
-    /// Whether it holds.
+    /// Whether the condition holds.
     pub holds: bool,
     /// The change that the way needs.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -164,8 +164,8 @@ pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
     }
 }
 
-/// Whether each of some ways needs a value of the machine to change between two conditions. The ways
-/// that need no change come before the others.
+/// Returns whether each of some ways needs a value of the machine to change between two conditions. The ways that need
+/// no change come before the others.
 pub(crate) fn all_need_change(ways: &[Vec<WayCondition>]) -> bool {
     !ways.is_empty() && ways.iter().all(|way| needs_change(way))
 }

@@ -472,7 +472,7 @@ impl Executor {
         }
     }
 
-    /// Whether the value of a variable follows from the state of the run.
+    /// Returns whether the value of a variable follows from the state of the run.
     pub(crate) fn is_own(&self, name: &VariableName) -> bool {
         self.own_variable(name).is_some()
     }
@@ -735,7 +735,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// Whether the call gave an own parameter (R2.79).
+    /// Returns as a value whether the call gave an own parameter (R2.79); `None` where that is not known.
     fn is_given(&self, index: u32) -> Option<Value> {
         let frame = self.frames.running()?;
         let name = VariableName::own_parameter(index);
@@ -760,7 +760,7 @@ fn compensation_kind(name: &str) -> Option<Kind> {
     name.parse().ok().filter(|kind| *kind != Kind::Backlash)
 }
 
-/// Whether the value of an assignment is computed from the variable that it writes.
+/// Returns whether the value of an assignment is computed from the variable that it writes.
 fn reads_itself(assignment: Assignment, name: &VariableName, at: &BlockContext<'_>) -> bool {
     let Operand::Expression(value) = assignment.value else {
         return false;
@@ -771,7 +771,7 @@ fn reads_itself(assignment: Assignment, name: &VariableName, at: &BlockContext<'
     texts.any(|text| VariableName::read(text) == *name)
 }
 
-/// Whether an assignment counts: `P1 = P1 + 1`.
+/// Returns whether an assignment counts: `P1 = P1 + 1`.
 pub(crate) fn only_counts(
     assignment: Assignment,
     location: &Location,

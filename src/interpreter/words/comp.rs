@@ -492,7 +492,7 @@ fn advise_on_axis(machine: &Machine, mut diagnostic: Diagnostic, name: &str) -> 
     diagnostic.with_help(Advice::AddAxis(name.to_owned()))
 }
 
-/// Whether a name is one of a transformation between the coordinates of the program and those of the axes.
+/// Returns whether a name is one of a transformation between the coordinates of the program and those of the axes.
 fn is_transformation(name: &str) -> bool {
     let row = HashCommand::named(name);
     row.is_some_and(|row| row.chain == Some(ChainStep::Coordinates))

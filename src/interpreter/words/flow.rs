@@ -480,8 +480,8 @@ impl ControlState {
     }
 }
 
-/// Whether rounding decides whether a counter has passed its end: its step is not exact in binary, or it comes near
-/// without reaching it (R2.112; PM/206929163).
+/// Returns whether rounding decides whether a counter has passed its end: its step is not exact in binary, or it comes
+/// near without reaching it (R2.112; PM/206929163).
 fn is_last_pass_open(counter: f64, end: f64, step: f64) -> bool {
     /// A step of so many parts of one is exact.
     const EXACT: f64 = 1_048_576.0;
@@ -511,7 +511,7 @@ pub(crate) fn missing_label(label: &LabelName, span: Span) -> Fault {
     Fault::new(Code::Fc209, span, message)
 }
 
-/// Whether a label that does not exist is reported before the program begins: it is written in a block.
+/// Returns whether a label that does not exist is reported before the program begins: it is written in a block.
 pub(crate) fn is_reported(target: BlockReference, at: &BlockContext<'_>) -> bool {
     at.macro_depth == 0
         && matches!(

@@ -125,7 +125,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Whether the section is executed is one question to the machine.
+    /// Asks the machine once whether the section is executed.
     fn begin_optional(&mut self, span: Span, at: &BlockContext<'_>) -> OptionalSection {
         if !self.state.can_ask() {
             return OptionalSection::Inside;
@@ -469,7 +469,7 @@ pub(crate) fn written(arguments: &BracketArguments, text: &str) -> WriteTarget {
 /// The parameters of friction compensation, and P-AXIS-00522 among them.
 const FRICTION_KEYS: [&str; 2] = ["frict_comp", "p-axis-00522"];
 
-/// Whether a command sets P-AXIS-00522 to 1.
+/// Returns whether a command sets P-AXIS-00522 to 1.
 pub(crate) fn enables(arguments: &BracketArguments, text: &str) -> bool {
     let keys = ["P-AXIS-00522", "lr_param.frict_comp"];
     let value = keys.iter().find_map(|key| arguments.after(key, text));

@@ -222,7 +222,7 @@ impl Executor {
         Configured::None
     }
 
-    /// Whether any word calls a program.
+    /// Returns whether any word calls a program.
     #[inline]
     pub(crate) fn calls_by_words(&self) -> bool {
         !self.machine.programs.words.is_empty() || !self.state.control.named.is_empty()

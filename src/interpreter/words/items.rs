@@ -137,7 +137,7 @@ impl Executor {
         }
     }
 
-    /// Whether the control stops at a message about the block.
+    /// Returns whether the control stops at a message about the block.
     #[inline]
     pub(crate) fn is_halted(&self) -> bool {
         self.options.stop == StopPolicy::FirstError

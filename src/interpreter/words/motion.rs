@@ -400,7 +400,7 @@ impl Executor {
         );
     }
 
-    /// Whether the block moves along its axis words at the feed in force.
+    /// Returns whether the block moves along its axis words at the feed in force.
     fn moves_at_feed(&self) -> bool {
         self.scratch.actions.axis_words == AxisWords::Motion
             && self.state.control.described.is_none()
@@ -408,8 +408,8 @@ impl Executor {
             && !self.is_halted()
     }
 
-    /// Whether a block that comes next, or a program that it calls, may be a feed move without a feed: what the control
-    /// does then depends on how the text ends.
+    /// Returns whether a block that comes next, or a program that it calls, may be a feed move without a feed: what the
+    /// control does then depends on how the text ends.
     #[inline]
     pub(crate) fn may_begin_without_feed(&self, block: &Block) -> bool {
         self.state.control.modal.functions.has_no_feed() && self.may_move_or_call(block)

@@ -137,8 +137,8 @@ impl Executor {
         None
     }
 
-    /// Whether a condition may say what a value is: one that the program and the machine hold, and
-    /// that does not follow from something else.
+    /// Returns whether a condition may say what a value is: one that the program and the machine hold, and that does
+    /// not follow from something else.
     fn may_conclude(&self, target: &Location) -> bool {
         match target {
             Location::Variable(name) => !name.family().is_of_level() && !self.is_own(name),
@@ -308,7 +308,7 @@ impl Executor {
         (goals, texts)
     }
 
-    /// Whether the jump after a condition goes back, so that its condition is that of a loop.
+    /// Returns whether the jump after a condition goes back, so that its condition is that of a loop.
     pub(crate) fn jumps_back(&mut self, place: Span, at: &BlockContext<'_>) -> bool {
         let next = self.position().next_block();
         let jump = self.jump_after(place, at);
@@ -642,7 +642,7 @@ impl Executor {
         true
     }
 
-    /// Whether blocks at another place also ask for a level, and a selected reading decides whether its switch
+    /// Returns whether blocks at another place also ask for a level, and a selected reading decides whether its switch
     /// may have changed in between.
     fn is_level_read_again(&self, level: u8, here: &Place) -> bool {
         let mut conditions = self.state.conditions.iter();
@@ -686,7 +686,7 @@ fn operand_text(operand: Operand, (block, text): (&Block, &str)) -> String {
 }
 
 impl Executor {
-    /// Whether the jump of a block waits for the signal of a probe (R2.91).
+    /// Returns whether the jump of a block waits for the signal of a probe (R2.91).
     pub(crate) fn jump_is_probed(&mut self, at: &BlockContext<'_>) -> bool {
         if self.scratch.actions.probes {
             return true;

@@ -833,7 +833,7 @@ impl OtherPaths {
 }
 
 impl OtherPaths {
-    /// Whether a program calls itself once more on ways of which others wait in two of its calls.
+    /// Returns whether a program calls itself once more on ways of which others wait in two of its calls.
     fn is_open_recursion(&self, running: &CallStack, called: ProgramId) -> bool {
         let depth = running.depth();
         let waits =

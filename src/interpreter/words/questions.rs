@@ -378,12 +378,12 @@ impl Executor {
 }
 
 impl RunState {
-    /// Whether ways may name a further condition.
+    /// Returns whether ways may name a further condition.
     pub(crate) fn can_ask(&self) -> bool {
         self.conditions.len() + 1 < MAX_CONDITIONS
     }
 
-    /// Whether the condition was asked before at the same place, and its value not written since.
+    /// Returns whether the condition was asked before at the same place, and its value not written since.
     fn is_asked_again(&self, place: usize) -> bool {
         let RunState {
             track, conditions, ..
@@ -625,7 +625,7 @@ impl Doubt {
 }
 
 impl Executor {
-    /// Whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
+    /// Returns whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
     /// P-CHAN-00041, P-CHAN-00027.
     pub(crate) fn may_acknowledge(&self, letter: u8, number: Option<i64>) -> bool {
         let number = number.and_then(|number| u32::try_from(number).ok());
@@ -640,7 +640,7 @@ impl Executor {
         !is_silent || self.state.control.memory.variable(&set).is_some()
     }
 
-    /// Whether the PLC acts by design at a word that may be executed: an M or H function but an end, a dwell.
+    /// Returns whether the PLC acts by design at a word that may be executed: an M or H function but an end, a dwell.
     pub(crate) fn lets_plc_act_at(&self, letter: u8, number: Option<i64>) -> bool {
         match letter {
             b'M' if matches!(number, Some(2 | 17 | 29 | 30)) => false,
@@ -751,7 +751,7 @@ impl Executor {
 }
 
 impl Executor {
-    /// Whether only the machine has the program.
+    /// Returns whether only the machine has the program.
     pub(crate) fn is_external(&self, wanted: &WantedCall) -> bool {
         wanted.word.is_some()
             || wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)

@@ -441,7 +441,8 @@ impl Executor {
         self.version += 1;
     }
 
-    /// Whether the control executes the COMP commands of a block that it refuses is not documented (R1.24).
+    /// Makes the COMP commands of a refused block uncertain: whether the control executes them is not documented
+    /// (R1.24).
     fn doubt_switches(&mut self) {
         for change in &self.scratch.changes {
             let kind = KindSet::of(change.kind);

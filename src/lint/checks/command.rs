@@ -64,7 +64,7 @@ pub(super) fn repeated(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnos
     })
 }
 
-/// Whether the machine is known to lack a kind on the axis.
+/// Returns whether the machine is known to lack a kind on the axis.
 fn is_unconfigured(linter: &Linter<'_>, taken: &Taken<'_>, kind: Kind) -> bool {
     let compensation = taken.executed.compensation;
     linter.machine.axis(taken.axis).is_described() && !compensation.is_configured(taken.axis, kind)

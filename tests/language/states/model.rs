@@ -7,7 +7,7 @@ use super::program::{AXES, KINDS, Program};
 /// A message: program, executed block, line, code, axis.
 pub(crate) type Said = (usize, u64, u32, &'static str, &'static str);
 
-/// Whether the machine has a kind on an axis.
+/// Returns whether the machine has a kind on an axis.
 fn has(axis: usize, kind: usize) -> bool {
     matches!(
         (AXES[axis], KINDS[kind]),

@@ -59,7 +59,7 @@ impl Answers {
             .fold(bench, |bench, (name, value)| bench.set(name, *value))
     }
 
-    /// Whether a condition `V.E.A == 1`, or one of several, is true.
+    /// Returns whether a condition `V.E.A == 1`, or one of several, is true.
     #[allow(clippy::float_cmp)] // whole numbers are exact
     fn holds(&self, text: &str) -> bool {
         text.split(" || ").any(|text| {

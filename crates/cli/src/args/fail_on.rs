@@ -78,7 +78,7 @@ impl FailOn {
         }
     }
 
-    /// Whether this severity gives the status 1.
+    /// Returns whether this severity gives the status 1.
     pub(crate) fn counts(self, severity: Severity) -> bool {
         self.least.is_some_and(|least| severity >= least)
     }

@@ -67,7 +67,7 @@ pub(crate) struct DataTarget {
     pub(crate) look: Look,
 }
 
-/// Whether all output was read.
+/// Reception of the output: whole, or broken off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Printed {
     /// All output was read.

@@ -254,7 +254,7 @@ impl Failures {
         done
     }
 
-    /// Whether everything was done.
+    /// Returns whether everything was done.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

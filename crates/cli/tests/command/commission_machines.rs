@@ -110,7 +110,7 @@ const QUICK: [(usize, &str); 7] = [
     (1, "another machine with 30 % more friction"),
 ];
 
-/// Whether the lists of the last round are accepted.
+/// Returns whether the lists of the last round are accepted.
 fn is_accepted(said: &str) -> bool {
     said.contains("accepted: X m/lists")
 }

@@ -15,7 +15,7 @@ pub(crate) trait Stage {
     /// Takes a block that is not a console.
     fn take(&mut self, _kind: &str, _text: &str) {}
 
-    /// Whether this system has the programs that the commands need.
+    /// Returns whether this system has the programs that the commands need.
     fn is_equipped(&self) -> bool {
         true
     }
@@ -69,7 +69,7 @@ struct Typed {
     variables: Vec<(String, String)>,
     words: Vec<String>,
     input: Option<String>,
-    /// Whether its output and its errors go to `/dev/null`.
+    /// Whether the output and the errors of the command go to `/dev/null`.
     is_silent: [bool; 2],
 }
 

@@ -273,8 +273,8 @@ mod unix {
         assert!(killed.expect("kill starts").success());
     }
 
-    /// Whether these tests run with a signal ignored, as under `nohup` and in background jobs of a shell;
-    /// the tool does not change that.
+    /// Returns whether these tests run with a signal ignored, as under `nohup` and in background jobs of a shell; the
+    /// tool does not change that.
     fn is_ignored(signal: i32) -> bool {
         let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status

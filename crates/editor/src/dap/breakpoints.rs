@@ -115,7 +115,7 @@ impl Breakpoints {
         self.unknown = unknown;
     }
 
-    /// Whether the line of a block has a breakpoint.
+    /// Returns whether the line of a block has a breakpoint.
     pub(super) fn is_on(&mut self, block: &Executed<'_>) -> bool {
         if self.lines.is_empty() {
             return false;
@@ -135,12 +135,12 @@ impl Breakpoints {
         met
     }
 
-    /// Whether values that only the machine knows stop the run where they are read.
+    /// Returns whether values that only the machine knows stop the run where they are read.
     pub(super) fn stops_at_unknown(&self) -> bool {
         self.unknown
     }
 
-    /// Whether a change of state of this axis stops the run.
+    /// Returns whether a change of state of this axis stops the run.
     pub(super) fn watches(&self, axis: &str) -> bool {
         self.changes
             .as_ref()

@@ -87,7 +87,7 @@ impl DapClient {
         Some(self.waiting.remove(0))
     }
 
-    /// Whether it has sent a request that cannot wait until the run stops by itself.
+    /// Returns whether it has sent a request that cannot wait until the run stops by itself.
     fn interrupts(&mut self) -> bool {
         self.waiting.extend(self.receiver.try_iter());
         self.waiting
@@ -132,7 +132,7 @@ struct DapServer<W> {
     breakpoints: Breakpoints,
     stepper: Option<Stepper>,
     stop_on_entry: bool,
-    /// Whether the request moved the run to another block by itself.
+    /// Motion of the run to another block by the request itself.
     moved: Moved,
     /// Whether the client was informed that the run has ended.
     is_over: bool,

@@ -229,7 +229,7 @@ impl Observer for Stride<'_> {
     }
 }
 
-/// Whether the run has moved to another block.
+/// Motion of the run to another block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moved {
     Yes,
@@ -332,7 +332,7 @@ impl Stepper {
         &self.settled
     }
 
-    /// Whether the machine or the program has an axis of this name.
+    /// Returns whether the machine or the program has an axis of this name.
     pub(super) fn has_axis(&self, name: &str) -> bool {
         self.machine.find(name).is_some() || self.used.contains(name)
     }

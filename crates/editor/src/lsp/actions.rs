@@ -40,7 +40,7 @@ pub(super) fn code_actions(
     Some(actions.into_iter().map(Into::into).collect())
 }
 
-/// Whether a kind of action belongs to a wider kind.
+/// Returns whether a kind of action belongs to a wider kind.
 fn holds(wide: &CodeActionKind, kind: &CodeActionKind) -> bool {
     let (wide, kind) = (wide.as_str(), kind.as_str());
     wide.is_empty()

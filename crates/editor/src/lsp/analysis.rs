@@ -28,7 +28,7 @@ pub(super) struct AnalysisJob {
     pub(super) disk: Disk,
     /// The executed blocks that are checked.
     pub(super) max_blocks: u64,
-    /// Whether the text has changed since.
+    /// Mark that the text has changed since.
     pub(super) cancel: Cancel,
 }
 

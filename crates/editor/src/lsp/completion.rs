@@ -130,7 +130,7 @@ fn comp_words(before: &str) -> Option<Offer<'_>> {
     Some(Offer { typed, items })
 }
 
-/// Whether a bracket after this code belongs to a word of the block and does not hold an index.
+/// Returns whether a bracket after this code belongs to a word of the block and does not hold an index.
 fn is_of_axis(code: &str) -> bool {
     let (above, name) = split_word(code.trim_end());
     name.contains(|letter: char| letter.is_ascii_alphabetic()) && !above.ends_with(['.', '@', '='])
@@ -184,7 +184,7 @@ fn axes<'t>(view: &RequestView, document: &OpenDocument, before: &'t str) -> Opt
     })
 }
 
-/// Whether the name of a program is expected: after `L` and `LL`.
+/// Returns whether the name of a program is expected: after `L` and `LL`.
 fn calls(above: &str) -> bool {
     let last = above.split_whitespace().next_back().unwrap_or_default();
     ["L", "LL"].iter().any(|it| last.eq_ignore_ascii_case(it))

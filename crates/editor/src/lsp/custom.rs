@@ -35,7 +35,7 @@ pub(super) struct BlockStates {
     /// The line of the block, from 0; if the place is not in an executed block, that of the last executed
     /// block before it.
     pub(super) line: u32,
-    /// Whether the place is in that block.
+    /// Whether the place is in an executed block.
     pub(super) executed: bool,
     /// Number of executions of the block.
     pub(super) times: u64,

@@ -72,7 +72,7 @@ impl Delivery {
             && changed.keys().any(|uri| by_other(uri) && is_open(uri));
     }
 
-    /// Whether the client has to ask again; true only once per change.
+    /// Returns whether the client has to ask again; true only once per change.
     pub(super) fn take_outdated(&mut self) -> bool {
         std::mem::take(&mut self.is_outdated)
     }

@@ -31,7 +31,7 @@ pub(super) struct OpenDocument {
     pub(super) uri: Uri,
     /// The file that it replaces; for a text without one, a name in the folder of the project.
     pub(super) path: PathBuf,
-    /// Whether it is a program, a list or a configuration.
+    /// Kind of the text: a program, a list or a configuration.
     pub(super) kind: Kind,
     /// The version number given by the client.
     pub(super) version: i32,
@@ -276,8 +276,8 @@ fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
     }
 }
 
-/// Whether texts of this URI are those of a user: files, and texts that were never saved. Versions that
-/// an editor takes from git, for example, would show every message twice (R12.12).
+/// Returns whether texts of this URI are those of a user: files, and texts that were never saved. Versions that an
+/// editor takes from git, for example, would show every message twice (R12.12).
 pub(super) fn is_of_a_user(uri: &Uri) -> bool {
     let scheme = uri.0.split(':').next().unwrap_or_default();
     ["file", "untitled"]

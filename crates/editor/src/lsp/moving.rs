@@ -25,7 +25,7 @@ pub(super) struct AxisMoves {
     pub(super) times: u64,
     /// Number of reversals at the beginning of the block or in it.
     pub(super) reversals: u64,
-    /// Whether a target of it is not known.
+    /// Whether the motion has an unknown target.
     pub(super) is_unsure: bool,
 }
 

@@ -108,7 +108,7 @@ impl ProjectCalls {
         }
     }
 
-    /// Whether there is a folder.
+    /// Returns whether there is a folder.
     pub(super) fn are_known(&self) -> bool {
         self.folder.is_some()
     }

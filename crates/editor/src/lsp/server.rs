@@ -257,7 +257,7 @@ impl<'c> LspServer<'c> {
         }
     }
 
-    /// Whether nothing new is to be expected about a text.
+    /// Returns whether nothing new is to be expected about a text.
     fn is_checked(&self, uri: &Uri) -> bool {
         self.documents.get(uri).is_none() || !self.checks.is_awaited(&uri.0)
     }

@@ -7,7 +7,7 @@ use serde_json::Value;
 /// Executed blocks of a program that are checked as the user types.
 pub(super) const MAX_BLOCKS: u64 = 500_000;
 
-/// Whether an outline, definitions, references, folding and renaming are offered.
+/// Offer of an outline, definitions, references, folding and renaming.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Navigation {
     /// Features that ISG's extension lacks; all of them if the client says that it is absent.
@@ -164,12 +164,12 @@ impl Settings {
         wrong
     }
 
-    /// Whether an outline, folding and renaming are offered, which ISG's extension does not have.
+    /// Returns whether an outline, folding and renaming are offered, which ISG's extension does not have.
     pub(super) fn outlines(&self) -> bool {
         self.navigation != Navigation::Off
     }
 
-    /// Whether definitions and references are offered, which ISG's extension has (R12.12).
+    /// Returns whether definitions and references are offered, which ISG's extension has (R12.12).
     pub(super) fn finds_names(&self) -> bool {
         match self.navigation {
             Navigation::On => true,

@@ -242,7 +242,7 @@ impl StateBook {
         &self.axes
     }
 
-    /// Whether a block of a file was executed.
+    /// Returns whether a block of a file was executed.
     pub(super) fn has(&self, file: &str) -> bool {
         self.by_name.contains_key(file)
     }

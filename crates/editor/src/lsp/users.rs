@@ -77,7 +77,7 @@ impl Users {
         }
     }
 
-    /// Whether a check read a file.
+    /// Returns whether a check read a file.
     pub(super) fn are_of(&self, path: &Path) -> bool {
         self.readers.contains_key(path)
     }

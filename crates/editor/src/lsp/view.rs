@@ -27,7 +27,7 @@ pub(super) struct RequestView {
     pub(super) shown: MessagesByUri,
     /// Calls between the programs of the project.
     pub(super) calls: ProjectCalls,
-    /// Whether the client still waits for the answer.
+    /// Mark that the client no longer waits for the answer.
     pub(super) cancel: Cancel,
 }
 

@@ -64,7 +64,7 @@ pub struct LeftOutFile {
 pub struct LeftOutFiles {
     /// The files, in the order of the folders.
     pub files: Vec<LeftOutFile>,
-    /// Whether there were too many entries in ignored and hidden folders to look at all.
+    /// Whether folders hold too many ignored and hidden entries to look at all of them.
     pub is_cut: bool,
 }
 
@@ -97,12 +97,12 @@ impl LeftOutFile {
         Self::new(path, WhyLeftOut::NoProgram)
     }
 
-    /// Whether it is a program that the user may believe to be checked.
+    /// Returns whether it is a program that the user may believe to be checked.
     pub fn is_program(&self) -> bool {
         !matches!(self.why, WhyLeftOut::Excluded | WhyLeftOut::NoProgram)
     }
 
-    /// Whether a list of what is not taken names it, unless all files are asked for.
+    /// Returns whether a list of what is not taken names it, unless all files are asked for.
     pub fn is_listed(&self) -> bool {
         self.why != WhyLeftOut::NoProgram
     }

@@ -121,7 +121,7 @@ fn finish(edges: &[Vec<usize>], start: usize, is_seen: &mut [bool], finished: &m
     }
 }
 
-/// Whether a program may end a main program, or cannot be read.
+/// Returns whether a program may end a main program, or cannot be read.
 pub(crate) fn may_end(input: &Input, disk: &Disk) -> bool {
     match input {
         Input::File(path) => disk

@@ -68,7 +68,7 @@ pub struct ReadAnswers {
     pub answers: Vec<Answer>,
     /// The configuration that keeps what is decided, if anything is.
     pub written: Option<PathBuf>,
-    /// Whether something is decided that is not confirmed, because the build is not known.
+    /// Whether a decision is not confirmed because the build is not known.
     pub lacks_build: bool,
 }
 

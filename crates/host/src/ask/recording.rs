@@ -37,7 +37,7 @@ pub(super) struct RecordedQuestions<'a> {
 struct AskedChannels {
     motion: [Option<Pick>; 2],
     current: Option<Pick>,
-    /// Whether it was recorded after its scaling for the drive.
+    /// Whether the torque was recorded after its scaling for the drive.
     is_scaled: bool,
     state: Option<ChannelIndex>,
     /// Reason why the channels cannot be those of the axis.

@@ -95,7 +95,7 @@ pub struct Commissioning<'a> {
     pub reader: CommissionReader<'a>,
     /// The plant as known beforehand, a preset or a file; without one none is fitted.
     pub plant: Option<&'a str>,
-    /// Whether tuned lists may be shaped below 1 mm/s.
+    /// Permission to shape tuned lists below 1 mm/s.
     pub shaping: Shaping,
     /// The build for which lists are written, if it is known.
     pub build: Option<CncBuild>,

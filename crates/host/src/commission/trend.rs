@@ -32,7 +32,7 @@ pub struct DatedRecordings<'a> {
     pub cycle_s: Option<f64>,
     /// The kind of the recorded torque, if it is known.
     pub torque_kind: Option<TorqueKind>,
-    /// Whether friction compensation was on, if it is known.
+    /// State of friction compensation, if it is known.
     pub compensation: Option<Switched>,
 }
 

@@ -12,7 +12,7 @@ use frictcomp::readings::Alternative;
 /// The answers of a control, from its `message.txt` and what the operator added.
 #[derive(Debug, Clone, Default)]
 pub struct Answers {
-    /// Whether a kind was active, by query; the last answer counts.
+    /// Answers to queries for the activity of a kind; the last answer counts.
     states: BTreeMap<String, bool>,
     /// The error numbers of a case.
     refusals: BTreeMap<String, Vec<String>>,
@@ -80,7 +80,7 @@ impl Answers {
         self.states.len() + self.refusals.len() + self.currents.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

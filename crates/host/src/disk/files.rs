@@ -113,7 +113,7 @@ impl Disk {
         }
     }
 
-    /// Whether a file of the system is missing in a revision.
+    /// Returns whether a file of the system is missing in a revision.
     fn is_absent(&self, path: &Path) -> bool {
         match &self.kind {
             Kind::Revision(revised) => revised.absent.contains(&self.place_of(path)),
@@ -170,7 +170,7 @@ impl Disk {
         }
     }
 
-    /// Whether there is a file.
+    /// Returns whether there is a file.
     pub(crate) fn is_file(&self, path: &Path) -> bool {
         self.entry(path)
             .is_ok_and(|entry| entry == FolderEntry::File)

@@ -166,7 +166,7 @@ impl FileRegistry {
         inputs.files.keys().map(|path| path.to_path_buf()).collect()
     }
 
-    /// Whether a program came from a source that cannot be read again.
+    /// Returns whether a program came from a source that cannot be read again.
     pub fn has_streams(&self) -> bool {
         let inputs = self.inputs();
         inputs.order.iter().any(|path| !path.is_file())

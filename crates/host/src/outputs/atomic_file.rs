@@ -337,7 +337,7 @@ pub(crate) fn take_away_left(beside: &AtomicFile, seen: &mut BTreeSet<PathBuf>) 
     }
 }
 
-/// Whether a name has exactly the form that [`create`] gives.
+/// Returns whether a name has exactly the form that [`create`] gives.
 fn is_unfinished(name: &str) -> bool {
     name.strip_prefix(PREFIX)
         .and_then(|rest| rest.strip_suffix(SUFFIX))

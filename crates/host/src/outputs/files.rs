@@ -257,7 +257,7 @@ pub(crate) fn json_text(value: &impl Serialize) -> Result<String, HostError> {
     Ok(shown_json(&text.map_err(HostError::Output)?).into_owned() + "\n")
 }
 
-/// Whether a path names something that can only be opened, not replaced: a device, a pipe, or an open file of
+/// Returns whether a path names something that can only be opened, not replaced: a device, a pipe, or an open file of
 /// this process.
 fn is_device(path: &Path) -> bool {
     if cfg!(windows) {

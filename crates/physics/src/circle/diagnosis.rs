@@ -165,7 +165,7 @@ fn bulge_of_noise(evidence: &CircleEvidence) -> f64 {
     GREATEST * evidence.noise_um
 }
 
-/// Whether a recording supports what a peak suggests: timing and strength not if there is another residual,
+/// Returns whether a recording supports what a peak suggests: timing and strength not if there is another residual,
 /// friction if it is far larger than that.
 fn is_carried(finding: Finding, glitch: &Glitch, evidence: &CircleEvidence) -> bool {
     /// The ratio of the peak-to-peak value of a shape to its root mean square, doubled.

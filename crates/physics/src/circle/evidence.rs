@@ -116,7 +116,7 @@ impl CircleEvidence {
         [self.other, self.second].into_iter().flatten()
     }
 
-    /// Whether there is a residual that noise does not explain.
+    /// Returns whether there is a residual that noise does not explain.
     pub fn has_other_shape(&self) -> bool {
         self.other.is_some()
     }

@@ -73,7 +73,7 @@ pub enum ShapeTerm {
 }
 
 impl Term {
-    /// Whether the recording supports it.
+    /// Returns whether the recording supports it.
     pub fn is_carried(&self) -> bool {
         self.size_um.abs() > (SIGNIFICANT * self.error_um).max(LEAST_TERM_UM)
     }

@@ -106,7 +106,7 @@ fn best(slowest_s: f64, squares: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     Some(best?.0)
 }
 
-/// Whether a tail that was fitted is one: it explains more than its noise, and has the sign and the size of the
+/// Returns whether a tail that was fitted is one: it explains more than its noise, and has the sign and the size of the
 /// peak. What an axis leaves as it slows down before a reversal is fitted by tails of the opposite sign.
 fn is_tail(found: &Shapes, (axis, peak): (PlaneAxis, f64), squares_before: f64) -> bool {
     let heights = found.tails().heights_um(axis);

@@ -19,7 +19,7 @@ pub struct Switch {
     pub to: State,
     /// The file that holds the block.
     pub file: String,
-    /// Whether that is a file that the program calls.
+    /// Whether the file is one that the program calls.
     pub is_called: bool,
     /// The line on which the block starts, from 1.
     pub line: u32,

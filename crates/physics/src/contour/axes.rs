@@ -51,7 +51,7 @@ pub enum NoContour {
 }
 
 impl MovingAxes {
-    /// Whether a program moves an axis.
+    /// Returns whether a program moves an axis.
     pub fn contains(&self, axis: AxisIndex) -> bool {
         self.0.contains(&axis.get())
     }

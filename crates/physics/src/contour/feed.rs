@@ -72,7 +72,7 @@ impl FeedReached {
     }
 }
 
-/// Whether this share of the cutting time is too large for a verdict on the contour.
+/// Returns whether this share of the cutting time is too large for a verdict on the contour.
 pub(super) fn is_too_slow(share: f64) -> bool {
     share > TOLERATED
 }

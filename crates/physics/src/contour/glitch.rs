@@ -233,7 +233,7 @@ impl ReversalWindow {
     }
 }
 
-/// Whether a path that has turned by this angle in this time is straight.
+/// Returns whether a path that has turned by this angle in this time is straight.
 fn is_straight(age: f64, turn: f64) -> bool {
     turn <= STRAIGHT * (age / WINDOW_S).max(1.0)
 }

@@ -22,7 +22,7 @@ struct PathPoint {
     place: Places,
     /// The change of the direction of the path with the distance here, by axis.
     bend: Places,
-    /// Whether the last turn was to the left: 1, or to the right: -1.
+    /// Direction of the last turn: 1 to the left, -1 to the right.
     side: f64,
     /// Whether the path has a corner here, in any plane.
     is_corner: bool,

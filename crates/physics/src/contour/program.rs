@@ -50,7 +50,7 @@ pub struct ContourPoint<'a> {
     pub space_um: PerRun<f64>,
     /// From the nearest point of the path to the position of the axes of the plane, as programmed, in mm.
     pub error_mm: [f64; 2],
-    /// Whether it counts: in a feed move, with positions of the machine.
+    /// Whether the cycle counts: in a feed move, with positions of the machine.
     pub counts: bool,
 }
 
@@ -77,7 +77,7 @@ pub trait ContourSink {
         let _ = switch;
     }
 
-    /// Whether it takes no more.
+    /// Returns whether it takes no more.
     fn is_closed(&self) -> bool {
         false
     }
@@ -235,8 +235,8 @@ impl<S: ContourSink> ProgramContour<S> {
         moving.map(|(_, limits)| limits)
     }
 
-    /// Whether every motion was driven, with positions of the machine: otherwise an axis may reverse
-    /// more often.
+    /// Returns whether every motion was driven, with positions of the machine: otherwise an axis may reverse more
+    /// often.
     pub fn is_whole(&self) -> bool {
         let is_beside = |it: &ContourObstacle| {
             matches!(
@@ -320,8 +320,7 @@ impl<S: ContourSink> ProgramContour<S> {
         seconds(cycles, self.tracer().options.planner.cycle_s)
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
-    /// known.
+    /// Returns whether a budget stopped a program, as an endless loop does (FC910): the rest is not known.
     pub fn is_cut_short(&self) -> bool {
         self.trace.is_cut_short()
     }
@@ -337,7 +336,7 @@ impl<S: ContourSink> ProgramContour<S> {
         self.trace.left_out_feed()
     }
 
-    /// Whether a drive was unstable; the contour ends there.
+    /// Returns whether a drive was unstable; the contour ends there.
     pub fn is_unstable(&self) -> bool {
         self.tracer().is_unstable
     }

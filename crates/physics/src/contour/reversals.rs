@@ -69,7 +69,7 @@ impl ContourReversal {
         self.glitch_um.programmed - self.glitch_um.all_on
     }
 
-    /// Whether the glitch is known.
+    /// Returns whether the glitch is known.
     pub fn has_figure(&self) -> bool {
         self.figure != GlitchFigure::Missing
     }

@@ -27,7 +27,7 @@ frictcomp::words! {
 }
 
 impl ContourLimits {
-    /// Whether there is a limit.
+    /// Returns whether there is a limit.
     pub fn any(&self) -> bool {
         self.deviation_um.is_some() || self.due_um.is_some()
     }

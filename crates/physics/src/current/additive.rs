@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use super::reading::{Below, Decay, Delay, Reading, Standstill, Start};
 use frictcomp::lists::{FrictionList, TablePoint};
 
-/// Whether friction compensation is on.
+/// State of friction compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Switched {

@@ -11,6 +11,6 @@ pub struct TraceColumns {
     pub positions: Option<Vec<f64>>,
     /// In µm/s or 0.001°/s.
     pub velocities: Option<Vec<f64>>,
-    /// Whether the compensation is on, for every cycle.
+    /// State of the compensation in each cycle.
     pub switched: Vec<Switched>,
 }

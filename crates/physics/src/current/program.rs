@@ -180,8 +180,7 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.undecided()
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
-    /// known.
+    /// Returns whether a budget stopped a program, as an endless loop does (FC910): the rest is not known.
     pub fn is_cut_short(&self) -> bool {
         self.trace.is_cut_short()
     }

@@ -32,7 +32,7 @@ pub struct CommandedRow {
     pub position: f64,
     /// In µm/s or 0.001°/s.
     pub velocity: f64,
-    /// Whether the compensation is on.
+    /// State of the compensation.
     pub switched: Switched,
 }
 

@@ -40,7 +40,7 @@ pub(super) struct SplineSpan {
 struct MovingAxis {
     /// Its place among the axes of the machine.
     place: usize,
-    /// Whether the feed refers to it.
+    /// Whether the feed refers to the axis.
     is_main: bool,
     /// The coefficients of the powers of the parameter.
     cubic: [f64; 4],

@@ -121,12 +121,12 @@ impl Junction {
         }
     }
 
-    /// Whether the axes turn in it while they move.
+    /// Returns whether the axes turn in it while they move.
     pub(super) fn is_kink(self) -> bool {
         matches!(self, Self::Bend { .. } | Self::Corner { .. })
     }
 
-    /// Whether the path must be without acceleration in it.
+    /// Returns whether the path must be without acceleration in it.
     pub(super) fn is_fixed(self) -> bool {
         matches!(self, Self::Corner { .. } | Self::Stop)
     }

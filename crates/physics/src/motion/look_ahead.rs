@@ -120,7 +120,7 @@ impl LookAhead {
         ControlFlow::Continue(())
     }
 
-    /// Whether a kink between feed moves slows the path down, rather than the program.
+    /// Returns whether a kink between feed moves slows the path down, rather than the program.
     fn is_slow(&self, entry: Junction, next: &PathSegment) -> bool {
         let Some(Queued { segment: last, .. }) = self.queue.back() else {
             return false;
@@ -134,7 +134,7 @@ impl LookAhead {
             && entry.velocity() < REACHED * next.feed.min(last.end_velocity)
     }
 
-    /// Whether the budget of cycles is used up.
+    /// Returns whether the budget of cycles is used up.
     pub(super) fn is_over(&self) -> bool {
         self.sampler.is_over()
     }

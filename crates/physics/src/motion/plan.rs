@@ -205,8 +205,8 @@ impl Envelope<'_> {
         Some(stretches.collect())
     }
 
-    /// Whether a profile has its highest velocity in one of the stages next to a transition at which it
-    /// is too fast.
+    /// Returns whether a profile has its highest velocity in one of the stages next to a transition at which it is too
+    /// fast.
     fn peaks_beside(&self, at: usize, way: f64, profile: &VelocityProfile) -> bool {
         let (steady, top) = profile.steady();
         let (before, after) = (&self.stages[at - 1], &self.stages[at]);
@@ -271,7 +271,7 @@ fn bound(stages: &[PlanInput], at: usize) -> f64 {
     own.min(before)
 }
 
-/// Whether the highest velocity of a transition is its bound.
+/// Returns whether the highest velocity of a transition is its bound.
 fn touches(stages: &[PlanInput], velocities: &[f64], at: usize) -> bool {
     velocities[at] >= bound(stages, at) * (1.0 - TOUCH)
 }

@@ -126,7 +126,7 @@ pub struct TrajectoryPlanner {
 /// A difference, in mm or degrees, that is due to rounding and not to a program.
 const NOTHING: f64 = 1e-9;
 
-/// Whether a straight motion goes nowhere.
+/// Returns whether a straight motion goes nowhere.
 fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
     let stays = from
         .iter()
@@ -135,7 +135,7 @@ fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
     stays && !matches!(travel.form, PathForm::Arc(_))
 }
 
-/// Whether the path is known.
+/// Knowledge of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Running {
     /// Path that has not begun, or broke off.

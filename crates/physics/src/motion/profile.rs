@@ -101,7 +101,7 @@ pub(super) fn reach(from: f64, length: f64, bounds: &Bounds) -> f64 {
     low
 }
 
-/// Whether a ramp between two velocities fits into a length.
+/// Returns whether a ramp between two velocities fits into a length.
 pub(super) fn fits(from: f64, to: f64, length: f64, bounds: &Bounds) -> bool {
     Ramp::new(from, to, bounds).way <= length * (1.0 + 1e-9)
 }

@@ -115,8 +115,7 @@ impl<S: TraceSink> ProgramTrace<S> {
         &self.undecided
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
-    /// known.
+    /// Returns whether a budget stopped a program, as an endless loop does (FC910): the rest is not known.
     pub fn is_cut_short(&self) -> bool {
         self.is_cut_short
     }
@@ -155,7 +154,7 @@ impl<S: TraceSink> ProgramTrace<S> {
 /// Most stretches that are named.
 const MAX_UNDECIDED: usize = 10;
 
-/// Whether a message is about blocks that only the machine decides.
+/// Returns whether a message is about blocks that only the machine decides.
 fn is_undecided(said: &Diagnostic) -> bool {
     matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908)
 }

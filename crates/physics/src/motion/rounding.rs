@@ -280,8 +280,8 @@ impl Rounding {
         self.look_ahead.add(segment, sink)
     }
 
-    /// Whether an axis moves the other way in the last block only: a curve through all three blocks may
-    /// pass over its stroke (R11.29).
+    /// Returns whether an axis moves the other way in the last block only: a curve through all three blocks may pass
+    /// over its stroke (R11.29).
     fn is_stroke_between(&self, next: &PathSegment) -> bool {
         let mut blocks = self.blocks.iter().rev();
         let (Some(last), Some(before)) = (blocks.next(), blocks.next()) else {

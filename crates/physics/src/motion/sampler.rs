@@ -131,7 +131,7 @@ impl Sampler {
         self.path_velocity = 0.0;
     }
 
-    /// Whether more cycles than the budget were needed.
+    /// Returns whether more cycles than the budget were needed.
     pub(super) fn is_over(&self) -> bool {
         self.over
     }

@@ -264,7 +264,7 @@ impl PathSegment {
         cut
     }
 
-    /// Whether it is straight.
+    /// Returns whether it is straight.
     pub(super) fn is_straight(&self) -> bool {
         matches!(self.shape, SegmentShape::Line)
     }

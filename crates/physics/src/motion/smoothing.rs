@@ -130,8 +130,8 @@ impl SmoothRun {
         self.last = Some(self.newest());
     }
 
-    /// Whether the span after a vertex can be made: all vertices that it depends on are known and
-    /// final, which the newest may not be.
+    /// Returns whether the span after a vertex can be made: all vertices that it depends on are known and final, which
+    /// the newest may not be.
     pub(super) fn is_ready(&self, span: usize) -> bool {
         self.last.is_some() || span + 4 + WIDEST + AHEAD <= self.newest()
     }

@@ -280,7 +280,7 @@ impl ToolPath {
 }
 
 impl HeldBlock {
-    /// Whether it does not move in the plane.
+    /// Returns whether it does not move in the plane.
     fn stays(&self) -> bool {
         let moves = |step: f64| step.abs() > 0.0;
         !self

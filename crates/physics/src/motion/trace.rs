@@ -22,7 +22,7 @@ pub struct Cause {
     pub number: Option<i64>,
     /// Motion of the axes.
     pub movement: Movement,
-    /// Whether positions are those of the machine (R5.4).
+    /// Frame of the positions (R5.4).
     pub frame: PositionFrame,
     /// Functions on the path or its velocity that the trace does not follow.
     pub simplified: Simplifications,

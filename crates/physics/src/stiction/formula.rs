@@ -53,7 +53,7 @@ impl Formula {
         self.terms.iter().map(|(quantity, _)| *quantity)
     }
 
-    /// Whether it has a quantity.
+    /// Returns whether it has a quantity.
     pub(super) fn has(&self, quantity: Quantity) -> bool {
         self.quantities().any(|it| it == quantity)
     }

@@ -40,8 +40,8 @@ impl StictionParameters {
         self.mp1512 * self.gp_um / 256.0
     }
 
-    /// Whether stiction is compensated at a commanded feed (R8.2). It also requires feed precontrol, which
-    /// only the drive has.
+    /// Returns whether stiction is compensated at a commanded feed (R8.2). It also requires feed precontrol, which only
+    /// the drive has.
     pub fn acts_at(&self, feed_m_per_min: f64) -> bool {
         self.mp1513_m_per_min
             .is_none_or(|most| feed_m_per_min <= most)

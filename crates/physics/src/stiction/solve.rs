@@ -24,7 +24,7 @@ pub struct Solved {
     pub by: Option<&'static str>,
 }
 
-/// Whether stiction is compensated at the commanded feed (R8.2).
+/// Effect of the stiction compensation at the commanded feed (R8.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -45,7 +45,7 @@ pub struct Solution {
     pub values: Vec<Solved>,
     /// The acting `Δs_a` in mm, if the limit cuts it (R8.1).
     pub clipped_to: Option<f64>,
-    /// Whether it acts at the commanded feed.
+    /// Effect at the commanded feed.
     pub effect: FeedEffect,
     /// The guidelines that are not kept.
     pub guidelines: Vec<Guideline>,
@@ -225,7 +225,7 @@ impl State {
         }
     }
 
-    /// Whether some formula has all its values.
+    /// Returns whether some formula has all its values.
     fn is_complete(&self) -> bool {
         FORMULAS
             .iter()

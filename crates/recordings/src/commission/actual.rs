@@ -1,4 +1,4 @@
-//! Whether recorded actual positions are actual ones (R16.14, R16.18).
+//! Check that recorded actual positions are actual ones (R16.14, R16.18).
 
 use serde::{Deserialize, Serialize};
 

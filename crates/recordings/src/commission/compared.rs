@@ -37,21 +37,22 @@ pub struct PlaceCompared {
 }
 
 impl PlaceCompared {
-    /// Whether compensation leaves clearly less than is left without it.
+    /// Returns whether compensation leaves clearly less than is left without it.
     pub fn shows_an_effect(&self) -> bool {
         const LEAST: f64 = 0.05;
         self.on.um < self.off.um * (1.0 - LEAST)
             && self.on.compared_with(&self.off) == GlitchOrder::Smaller
     }
 
-    /// Whether what compensation leaves cannot be told from noise, or from the resolution of positions (R16.14).
+    /// Returns whether what compensation leaves cannot be told from noise, or from the resolution of positions
+    /// (R16.14).
     pub(super) fn leaves_only_noise(&self) -> bool {
         const ERRORS: f64 = 2.0;
         const RESOLUTION: f64 = 0.1;
         self.on.um < (ERRORS * self.on.error_um).max(RESOLUTION)
     }
 
-    /// Whether compensation leaves at most a part of the glitch without it.
+    /// Returns whether compensation leaves at most a part of the glitch without it.
     pub(super) fn leaves_at_most(&self, part: f64) -> bool {
         self.on.um < self.off.um * part
     }
@@ -64,7 +65,7 @@ impl PlaceCompared {
         }
     }
 
-    /// Whether another one is that of the same axis and direction.
+    /// Returns whether another one is that of the same axis and direction.
     pub(super) fn is_as(&self, other: &Self) -> bool {
         self.axis == other.axis && self.direction == other.direction
     }
@@ -193,7 +194,7 @@ impl AtFeed {
         if part <= ON_FEED { 0.0 } else { part }
     }
 
-    /// Whether another recording of the planned feed was driven at about the same feed.
+    /// Returns whether another recording of the planned feed was driven at about the same feed.
     pub(super) fn is_driven_as(&self, other: &Self) -> bool {
         self.feed.total_cmp(&other.feed).is_eq()
             && (other.driven / self.driven - 1.0).abs() < SAME_FEED

@@ -100,8 +100,8 @@ impl ResultsReport {
         round.map_or("off".to_owned(), |(round, _)| format!("on, round {round}"))
     }
 
-    /// Whether every program is recorded, every axis has a list, the lists of the last round are accepted, and no
-    /// recording rejects the plant.
+    /// Returns whether every program is recorded, every axis has a list, the lists of the last round are accepted, and
+    /// no recording rejects the plant.
     pub fn is_complete(&self) -> bool {
         self.missing().is_empty()
             && !self.fitted.is_rejected()

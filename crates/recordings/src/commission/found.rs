@@ -232,7 +232,7 @@ impl FrictionFound {
         }
     }
 
-    /// Whether two recordings of one program show the same friction.
+    /// Returns whether two recordings of one program show the same friction.
     pub fn is_steady_with(&self, other: &Self) -> bool {
         self.apart_from(other).is_some_and(|part| part <= STEADY)
     }
@@ -414,7 +414,7 @@ impl CirclesFound {
         self.at_feed().map_or(f64::INFINITY, |it| it.beside())
     }
 
-    /// Whether other circles of the same plan were driven at the same feed.
+    /// Returns whether other circles of the same plan were driven at the same feed.
     pub fn is_driven_as(&self, other: &Self) -> bool {
         let feeds = self.at_feed().zip(other.at_feed());
         feeds.is_some_and(|(one, other)| one.is_driven_as(&other))

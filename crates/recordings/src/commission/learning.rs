@@ -75,7 +75,7 @@ impl Prediction {
         Self { glitch_um, contact }
     }
 
-    /// Whether the recording misses the prediction by more than max(25 %, 0.5 µm) (R16.9).
+    /// Returns whether the recording misses the prediction by more than max(25 %, 0.5 µm) (R16.9).
     pub fn is_missed_by(&self, recorded_um: f64) -> bool {
         (recorded_um - self.glitch_um).abs() > f64::max(0.25 * self.glitch_um, 0.5)
     }

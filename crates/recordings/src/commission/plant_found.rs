@@ -190,7 +190,7 @@ impl PlantAxis {
         })
     }
 
-    /// Whether its circles show that no list was on in stage 1: the range of the share is about 0 (R16.13).
+    /// Returns whether its circles show that no list was on in stage 1: the range of the share is about 0 (R16.13).
     pub(super) fn is_off_shown(&self) -> bool {
         self.share_off
             .is_some_and(|it| it.low >= -NONE && it.high <= NONE)
@@ -263,14 +263,14 @@ impl ComparedGlitch {
 }
 
 impl RecordedGlitch {
-    /// Whether a list was on, as a word.
+    /// Returns the state of a list as a word.
     pub fn state(&self) -> &'static str {
         if self.list.is_some() { "on" } else { "off" }
     }
 }
 
 impl PlantFound {
-    /// Whether the stiffness of each contact is determined.
+    /// Returns whether the stiffness of each contact is determined.
     pub fn is_determined(&self) -> bool {
         self.axes.iter().all(|it| it.contact.is_determined())
     }
@@ -282,7 +282,7 @@ impl PlantFound {
         feeds
     }
 
-    /// Whether neither the fit nor the tuning has seen a feed.
+    /// Returns whether neither the fit nor the tuning has seen a feed.
     pub fn is_held_out(&self, feed: f64) -> bool {
         self.held_out.iter().any(|it| it.total_cmp(&feed).is_eq())
     }

@@ -61,8 +61,8 @@ impl RecordingOutcome {
         }
     }
 
-    /// Whether it counts for its program: there are no reasons against it, and it was driven at the planned feeds or
-    /// near them. A first pass at 10 % override does not count.
+    /// Returns whether it counts for its program: there are no reasons against it, and it was driven at the planned
+    /// feeds or near them. A first pass at 10 % override does not count.
     pub fn is_used(&self) -> bool {
         self.against().is_empty() && self.reversals().all(|it| it.is_near())
     }

@@ -42,7 +42,7 @@ fn glitch_unit(plan: &Plan) -> &'static str {
 }
 
 impl Round {
-    /// Whether there are no reasons against the lists, and everything that they rest on is shown.
+    /// Returns whether there are no reasons against the lists, and everything that they rest on is shown.
     pub fn is_accepted(&self) -> bool {
         self.not_shown.is_empty() && self.against.as_ref().is_some_and(Vec::is_empty)
     }

@@ -131,7 +131,7 @@ impl StrokesFound {
             .fold(0.0, f64::max)
     }
 
-    /// Whether friction is visible at any reversal.
+    /// Returns whether friction is visible at any reversal.
     pub fn is_seen(&self) -> bool {
         let mut reversals = self.reversals.iter();
         reversals.any(|it| it.glitch > (SEEN * it.error).max(LEAST_SEEN))

@@ -1,4 +1,4 @@
-//! Whether a list was on in one stage, and no part of it in the other (R16.13).
+//! Evidence that a list was on in one stage, and no part of it in the other (R16.13).
 
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::Reading;
@@ -129,8 +129,8 @@ pub fn torque_of_list(
 }
 
 impl StagesOfAxis<'_> {
-    /// Whether all of the list was on in the round: by the torque, otherwise by the fitted plant. A torque that holds
-    /// less proves nothing where a plant does.
+    /// Judges whether all of the list was on in the round: by the torque, otherwise by the fitted plant. A torque that
+    /// holds less proves nothing where a plant does.
     pub(super) fn was_on(&self) -> SwitchedAs {
         if self.torque_shows_on() {
             return SwitchedAs::Shown;
@@ -154,8 +154,8 @@ impl StagesOfAxis<'_> {
         }
     }
 
-    /// Whether no part of the list was on in stage 1: by a recorded state, by a torque that shows the list where it was
-    /// on, or by the fitted plant.
+    /// Judges whether no part of the list was on in stage 1: by a recorded state, by a torque that shows the list where
+    /// it was on, or by the fitted plant.
     pub(super) fn was_off(&self) -> SwitchedAs {
         let axis = self.axis;
         if let Some(words) = self.plant.and_then(PlantAxis::other_friction_off) {
@@ -195,7 +195,7 @@ impl StagesOfAxis<'_> {
         ))
     }
 
-    /// Whether the share of the torque is at least 0.7 often enough, and nowhere below 0.75 for certain.
+    /// Returns whether the share of the torque is at least 0.7 often enough, and nowhere below 0.75 for certain.
     fn torque_shows_on(&self) -> bool {
         const LEAST: f64 = 0.7;
         let shares = self.shares(self.on);

@@ -36,7 +36,7 @@ pub struct EvidenceRecording {
     pub velocities: Option<Vec<f64>>,
     /// The additive current in drive units, on its own clock.
     pub current: Option<Samples>,
-    /// Whether friction compensation is active, 0 or 1, on its own clock.
+    /// State of friction compensation, 0 or 1, on its own clock.
     pub state: Option<Samples>,
     /// The CNC cycle, if it is known.
     pub cycle_s: Option<f64>,
@@ -109,7 +109,7 @@ impl EvidenceRecording {
         motion.into_iter().chain(current).fold(0.0, f64::max)
     }
 
-    /// Whether each CNC cycle was recorded.
+    /// Returns whether each CNC cycle was recorded.
     pub(super) fn has_every_cycle(&self) -> bool {
         self.step_s() <= ONE_CYCLE * self.cycle_s()
     }

@@ -22,7 +22,7 @@ pub(super) struct StrokeSwitch {
 pub(super) struct StrokeOut {
     /// Time, part of the stroke and speed of each cycle until the axis moves back.
     out: Vec<(f64, f64, f64)>,
-    /// Whether compensation was on at its beginning.
+    /// Whether compensation was on at the beginning of the stroke.
     pub(super) begins_on: bool,
     pub(super) switches: Vec<StrokeSwitch>,
 }

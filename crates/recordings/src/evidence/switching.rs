@@ -102,7 +102,7 @@ fn look_ahead(recorded: &EvidenceRecording) -> Result<(Alternative, String), Str
     ))
 }
 
-/// Whether the switches are those of a program, at their places.
+/// Returns whether the switches are those of a program, at their places.
 fn are_at(switches: &[StrokeSwitch], expected: &[(bool, f64)]) -> bool {
     let mut pairs = switches.iter().zip(expected);
     let fits = pairs.all(|(switch, (is_on, part))| {

@@ -153,8 +153,8 @@ fn extreme(index: usize, segment: &Segment, torque: impl Fn(usize) -> f64) -> (f
     (most, found)
 }
 
-/// Whether the torque between the segments, where it is below the limit, changes in most samples
-/// from one to the next.
+/// Returns whether the torque between the segments, where it is below the limit, changes in most samples from one to
+/// the next.
 fn varies_elsewhere(samples: &AxisSamples, segments: &[Segment], limit: f64) -> bool {
     const ENOUGH: usize = 20;
     let is_within = |at: &usize| segments.iter().any(|it| it.samples.contains(at));

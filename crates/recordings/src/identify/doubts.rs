@@ -69,7 +69,7 @@ pub(super) fn check_directions(
     }
 }
 
-/// Whether all segments have one direction; without segments, whether all velocities do.
+/// Returns whether all segments have one direction; without segments, whether all velocities do.
 fn is_one_way(samples: &AxisSamples, segments: &[Segment]) -> bool {
     /// Noise around standstill is a smaller part of the fastest speed.
     const NOISE: f64 = 0.1;
@@ -163,7 +163,7 @@ pub(super) fn missing_rows(times_s: &[f64], step_s: f64) -> Option<TraceFinding>
     })
 }
 
-/// Whether the torque changes so little that it contains no friction.
+/// Returns whether the torque changes so little that it contains no friction.
 pub(super) fn is_still(samples: &AxisSamples, measured: &Measured) -> bool {
     let torques = samples.torques.iter();
     let [low, high] = torques.fold([f64::MAX, f64::MIN], |[low, high], it| {
@@ -278,7 +278,7 @@ fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, 
     )))
 }
 
-/// Whether the torque has the sign of the acceleration, if that is strong enough to show.
+/// Returns whether the torque has the sign of the acceleration, if that is strong enough to show.
 fn accelerates_rightly(samples: &AxisSamples) -> bool {
     /// A correlation that noise does not produce.
     const CLEAR: f64 = 0.2;
@@ -357,7 +357,7 @@ fn against_rated(
     }))
 }
 
-/// Whether the torque contains what compensation adds; for one that does not, compensation was off.
+/// Checks that compensation was off, or that the torque contains what it adds.
 pub(super) fn check_compensation(
     measured: &Measured,
 ) -> Result<Option<TraceFinding>, IdentifyError> {

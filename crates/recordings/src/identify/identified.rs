@@ -141,7 +141,7 @@ impl Identified {
         DirectionBranches::of(&self.pairs)
     }
 
-    /// Whether the offset is less than a hundredth of the friction.
+    /// Returns whether the offset is less than a hundredth of the friction.
     pub fn is_offset_small(&self) -> bool {
         self.offset.abs() < 0.01 * self.level()
     }

@@ -110,7 +110,7 @@ pub enum Contradiction {
 pub struct Measured {
     /// Kind of torque; `None` if it is not known.
     pub kind: Option<TorqueKind>,
-    /// Whether friction compensation was on; `None` if that is not known.
+    /// State of friction compensation; `None` if that is not known.
     pub compensation: Option<Switched>,
     /// The rated torque in the unit of the channel, if it is known.
     pub rated: Option<f64>,

@@ -250,7 +250,7 @@ fn couples(segments: &[Segment], group: &[usize]) -> Vec<(usize, usize)> {
 pub struct Drift {
     /// The part by which friction is larger at the end of the recording than at its beginning.
     pub part: f64,
-    /// Whether it is more than the errors of the visits.
+    /// Whether the change exceeds the errors of the visits.
     pub is_seen: bool,
 }
 

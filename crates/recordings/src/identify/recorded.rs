@@ -18,7 +18,7 @@ pub struct AxisChannels {
     velocity: Option<Pick>,
     position: Option<Pick>,
     torque: Option<Pick>,
-    /// Whether friction compensation was on.
+    /// Channel of the state of friction compensation.
     state: Option<Pick>,
     /// The actual position in addition to the commanded one, or the following error itself.
     followed: Option<(FollowingForm, Pick)>,
@@ -305,7 +305,7 @@ fn followed_of(
     Ok(None)
 }
 
-/// Whether a channel has the short name that implies its unit.
+/// Returns whether a channel has the short name that implies its unit.
 fn is_short(name: &str) -> bool {
     ["v", "x", "torque"]
         .iter()

@@ -55,7 +55,7 @@ impl Segment {
         f64::midpoint(self.from_s, self.to_s)
     }
 
-    /// Whether two segments have the same speed, in any direction, to the extent that noise permits.
+    /// Returns whether two segments have the same speed, in any direction, to the extent that noise permits.
     pub(super) fn is_as_fast_as(&self, other: &Self) -> bool {
         let [one, another] = [self.velocity.abs(), other.velocity.abs()];
         let unsure = 3.0 * self.velocity_error.hypot(other.velocity_error);

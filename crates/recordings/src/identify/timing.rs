@@ -1,5 +1,4 @@
-//! Whether the additive current of a list acted during a recording, and whether it was early or late
-//! (R6.22).
+//! Action of the additive current of a list during a recording, and its timing: early or late (R6.22).
 //!
 //! The total of the torque is friction, whatever supplies it, and the build-up of the loops looks like a
 //! lag: only the following error shows the effect of the list. The output of the loops is linear in the

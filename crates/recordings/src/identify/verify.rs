@@ -44,7 +44,7 @@ pub struct Verified {
     pub one_sided: Option<ScaleRange>,
     /// Whether only motion farther than [`CONTACT_MM`] from the last reversal counts for the scales.
     pub is_away_from_reversals: bool,
-    /// Whether the recording is not what it seems, or friction changes in it (R6.21).
+    /// Whether the recording may be of something else, or friction changes in it (R6.21).
     pub is_doubted: bool,
 }
 
@@ -389,7 +389,7 @@ impl PredictedMotion {
         used
     }
 
-    /// Whether the axis reverses without standstill: only then the timing is visible.
+    /// Returns whether the axis reverses without standstill: only then the timing is visible.
     fn turns_at_once(&self, at: usize) -> bool {
         const LONGEST: usize = 20;
         let moving = |index: usize| self.velocities[index].abs() > self.rest;
@@ -510,12 +510,12 @@ fn regress(
 }
 
 impl Verified {
-    /// Whether the list fits the recorded torque, and nothing makes the recording doubtful.
+    /// Returns whether the list fits the recorded torque, and nothing makes the recording doubtful.
     pub fn fits(&self) -> bool {
         self.agrees() && !self.is_doubted
     }
 
-    /// Whether the list has no fault, and no other list acted.
+    /// Returns whether the list has no fault, and no other list acted.
     pub fn agrees(&self) -> bool {
         self.verdict().is_empty() && !matches!(self.timing, Timing::Other(_))
     }

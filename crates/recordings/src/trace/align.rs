@@ -285,7 +285,7 @@ impl TimedChannel<'_> {
         self.times_s.last().copied().unwrap_or(f64::NEG_INFINITY)
     }
 
-    /// Whether there are samples around a time, not too far from each other.
+    /// Returns whether there are samples around a time, not too far from each other.
     fn covers(&self, time: f64) -> bool {
         let after = self.times_s.partition_point(|&it| it < time);
         match (

@@ -167,7 +167,7 @@ pub(super) fn value(cell: &[u8]) -> (CellValue, Decimals) {
     }
 }
 
-/// Whether a cell begins as numbers do.
+/// Returns whether a cell begins as numbers do.
 pub(super) fn starts_number(cell: &[u8]) -> bool {
     let digits = cell.strip_prefix(b"-").or_else(|| cell.strip_prefix(b"+"));
     match digits.unwrap_or(cell) {
@@ -206,7 +206,7 @@ fn is_no_number(cell: &[u8]) -> bool {
         || cell == "\u{221e}".as_bytes()
 }
 
-/// Whether a switch is on: `on`, `off`, `true`, `1`.
+/// Returns the state of a switch as a number: 1 for `on`, `true` and `1`, 0 for `off`, `false` and `0`.
 pub(super) fn switch(cell: &[u8]) -> Option<f64> {
     let cell = cell.trim_ascii();
     let is = |word: &str| cell.eq_ignore_ascii_case(word.as_bytes());
@@ -219,7 +219,7 @@ pub(super) fn switch(cell: &[u8]) -> Option<f64> {
     }
 }
 
-/// Whether a line is a row of numbers: its first cell is one, and so are at least half of its cells.
+/// Returns whether a line is a row of numbers: its first cell is one, and so are at least half of its cells.
 pub(super) fn is_data(line: &[u8], separator: Option<Separator>) -> bool {
     let is_value = |cell: &[u8]| {
         let cell = cell.trim_ascii();

@@ -67,7 +67,7 @@ pub struct ScopeDrawing {
     pub range: Option<[f64; 2]>,
 }
 
-/// Whether samples contain the factor and the offset of the drawing.
+/// Treatment of the factor and the offset of the drawing in the samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Contains {

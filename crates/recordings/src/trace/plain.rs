@@ -112,7 +112,7 @@ fn named(lines: &[&[u8]], separator: Separator) -> TableColumns {
     }
 }
 
-/// Whether a cell of a row below the names is a unit, in brackets or not, or a dash for none.
+/// Returns whether a cell of a row below the names is a unit, in brackets or not, or a dash for none.
 fn is_unit(cell: &str) -> bool {
     let bare = cell.trim_matches(['[', ']', '(', ')']);
     bare.is_empty() || bare == "-" || Unit::parse(bare).is_some()
@@ -176,7 +176,7 @@ pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> Table
     columns
 }
 
-/// Whether numbers rise as times do: in steps that are alike.
+/// Returns whether numbers rise as times do: in steps that are alike.
 fn counts(numbers: &[f64]) -> bool {
     /// The greatest step as a multiple of the least: a few samples may be missing.
     const ALIKE: f64 = 20.0;
@@ -188,7 +188,7 @@ fn counts(numbers: &[f64]) -> bool {
     numbers.len() < 3 || least > 0.0 && most <= ALIKE * least
 }
 
-/// Whether numbers rise in equal steps from the start of the times, as times do.
+/// Returns whether numbers rise in equal steps from the start of the times, as times do.
 fn counts_like(numbers: &[f64], times: &[f64]) -> bool {
     const ENOUGH: usize = 8;
     /// Ten seconds in units of 100 ns: the greatest distance between the starts of the times of two tasks.

@@ -126,7 +126,7 @@ fn variable(text: &str) -> Option<(ChannelRole, Option<String>)> {
     is_axis_name(rest).then(|| (role, Some(rest.to_uppercase())))
 }
 
-/// Whether a text is the name of an axis, a letter and up to two digits.
+/// Returns whether a text is the name of an axis, a letter and up to two digits.
 fn is_axis_name(text: &str) -> bool {
     let (letter, digits) = text.split_at_checked(1).unwrap_or_default();
     letter.bytes().all(|it| it.is_ascii_alphabetic())
@@ -139,7 +139,7 @@ impl CncObject {
     /// The object group of axes, without the part of the platform.
     const AXES: u32 = 0x2_0300;
 
-    /// Whether it is an object of an axis.
+    /// Returns whether it is an object of an axis.
     pub fn is_of_axis(self) -> bool {
         self.group & 0xF_FFFF == Self::AXES
     }

@@ -101,7 +101,7 @@ fn attributes(above: &[FileLine]) -> impl Iterator<Item = (&'static str, &FileLi
     })
 }
 
-/// Whether channels are described.
+/// Returns whether channels are described.
 pub(super) fn has_attributes(above: &[FileLine]) -> bool {
     separator_of(above).is_some() && attributes(above).next().is_some()
 }
@@ -154,7 +154,7 @@ impl OpenRow {
         Some(row)
     }
 
-    /// Whether a line belongs to the row.
+    /// Returns whether a line belongs to the row.
     pub(super) fn continues(&self, line: &[u8]) -> bool {
         if self.is_quoted {
             return true;
@@ -290,7 +290,7 @@ fn channel(cell: &dyn Fn(&str) -> Option<String>, at: usize) -> Channel {
     }
 }
 
-/// Whether a type of a variable has no decimals.
+/// Returns whether a type of a variable has no decimals.
 fn is_whole(data_type: &str) -> bool {
     let name = data_type.trim().to_uppercase();
     let bare = name.trim_end_matches(|it: char| it.is_ascii_digit());

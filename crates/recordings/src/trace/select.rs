@@ -404,7 +404,7 @@ impl ChannelSelection {
         })
     }
 
-    /// Whether a channel is one of the axis that the user names.
+    /// Returns whether a channel is one of the axis that the user names.
     pub(crate) fn is_of_axis(&self, channel: &Channel) -> bool {
         let Some(axis) = &self.axis else {
             return false;

@@ -269,7 +269,7 @@ impl ChannelTable {
         Ok(())
     }
 
-    /// Whether a row is as wide as the header. Rows of Scope may be short.
+    /// Checks that a row is as wide as the header. Rows of Scope may be short.
     fn check_width(&self, line: u64, cells: usize) -> Result<(), TraceProblem> {
         let columns = self.count;
         let may_be_short = self.layout.rows == RowForm::Ragged;

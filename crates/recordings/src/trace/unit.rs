@@ -58,7 +58,7 @@ pub struct Unit {
     pub quantity: ChannelQuantity,
     /// Factor to the units of lists and traces.
     pub factor: f64,
-    /// Whether it is one of lengths or of angles.
+    /// Kind of motion that the unit measures, if it is one of lengths or of angles.
     pub motion: Option<AxisMotion>,
     /// Whether the result is in drive units; amperes, newtons and newton metres are not.
     pub is_of_the_drive: bool,

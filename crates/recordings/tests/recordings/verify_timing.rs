@@ -1,5 +1,5 @@
-//! Whether a list acted in a recording, and whether it came early or late (R6.22): recordings of drives
-//! that the tests simulate themselves, with lists that are right, early, late, and others.
+//! Action and timing of a list in a recording (R6.22): recordings of drives that the tests simulate themselves, with
+//! lists that are right, early, late, and others.
 
 use frictcomp::lists::FrictionList;
 use frictcomp::lists::TablePoint;

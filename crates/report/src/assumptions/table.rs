@@ -131,7 +131,7 @@ impl TryFrom<String> for When {
 }
 
 impl Assumption {
-    /// Whether a session is known to depend on it.
+    /// Returns whether a session is known to depend on it.
     pub(crate) fn is_met(&self, met: &SessionFacts) -> bool {
         self.when.iter().any(|case| match case {
             When::Always => true,

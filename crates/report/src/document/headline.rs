@@ -8,7 +8,7 @@ use crate::wording::{leading, visible_line};
 use frictcomp::diagnostic::Severity;
 use frictcomp_recordings::identify::TraceFinding;
 
-/// Whether a result is as it should be.
+/// Standing of a result: as it should be or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -40,7 +40,7 @@ impl Standing {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 #[non_exhaustive]
 pub struct Headline {
-    /// Whether the result is as it should be.
+    /// Standing of the result: as it should be or not.
     pub standing: Standing,
     /// The sentences, without a period at the end.
     pub text: String,

@@ -86,7 +86,7 @@ pub(super) struct AxisDigest {
     /// Origin of P-AXIS-00522, in words.
     pub(super) origin: String,
     pub(super) friction: Parameterisation,
-    /// Whether the records list it.
+    /// Whether the records list the axis.
     pub(super) listed: bool,
 }
 

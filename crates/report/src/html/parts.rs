@@ -13,7 +13,7 @@ pub(super) struct HtmlTable<'a> {
     pub(super) columns: &'a [ColumnHeading<'a>],
 }
 
-/// Whether the headings of a table are seen.
+/// Visibility of the headings of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Headings {
     Shown,

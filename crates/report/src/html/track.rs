@@ -83,7 +83,7 @@ impl StateTrack {
         }
     }
 
-    /// Whether it has a state other than that the kind does not exist here.
+    /// Returns whether it has a state other than that the kind does not exist here.
     pub(super) fn is_configured(&self) -> bool {
         let absent = BandState::One(State::Unconfigured);
         self.stretches.iter().any(|stretch| stretch.state != absent)

@@ -71,7 +71,7 @@ formats! {
 }
 
 impl ListingFormat {
-    /// Whether it is for diagnostics only, without records of other kinds.
+    /// Returns whether it is for diagnostics only, without records of other kinds.
     pub fn is_for_diagnostics(self) -> bool {
         self.holds() == Holds::Messages
     }

@@ -99,7 +99,7 @@ impl<W: Write> Listing<W> {
         self.output.finish()
     }
 
-    /// Whether the reader closed the pipe.
+    /// Returns whether the reader closed the pipe.
     pub fn is_closed(&self) -> bool {
         self.output.is_closed()
     }

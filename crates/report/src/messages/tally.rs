@@ -49,7 +49,7 @@ impl ProgramResult {
         }
     }
 
-    /// Whether it is that of an axis.
+    /// Returns whether it is that of an axis.
     pub fn is_of_axis(self) -> bool {
         matches!(
             self,

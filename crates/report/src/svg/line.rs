@@ -274,7 +274,7 @@ impl LineChart {
 }
 
 impl Drawn {
-    /// Whether it has the look of the series before it.
+    /// Returns whether it has the look of the series before it.
     fn belongs_to_another(self) -> bool {
         matches!(self, Self::Held | Self::Points)
     }

@@ -72,7 +72,7 @@ pub struct PlanePoint {
 pub struct PlaneMark {
     /// Where it is, in mm.
     pub place: [f64; 2],
-    /// Whether it has a ring.
+    /// Whether the mark has a ring.
     pub ringed: bool,
     /// Its importance; of several in one place the greatest counts.
     pub weight: f64,

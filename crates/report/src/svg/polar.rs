@@ -15,7 +15,7 @@ pub struct PolarSeries {
     pub name: String,
     /// Its colour: 0 with compensation, 1 without.
     pub look: usize,
-    /// Whether it is drawn finer, as the other way round the circle.
+    /// Line style: finer for the other way round the circle.
     pub stroke: PolarStroke,
     /// Pairs of the angle from the first axis in rad and the radial deviation in µm, in the order
     /// of the motion.

@@ -21,7 +21,7 @@ struct Neighbours {
     least: [f64; 2],
     greatest: [f64; 2],
     last: [f64; 2],
-    /// Whether the curve is interrupted after it.
+    /// Continuation of the curve after them.
     end: CurveEnd,
 }
 

@@ -20,7 +20,7 @@ pub struct ChartAxis {
     pub label: String,
     /// Its division.
     pub spacing: Spacing,
-    /// Whether 0 is on it, whatever the values are.
+    /// Whether the axis contains 0, whatever the values are.
     pub from_zero: bool,
     /// The range in both directions, whatever the values are.
     pub reach: Option<f64>,
@@ -84,7 +84,7 @@ impl ChartAxis {
     }
 }
 
-/// Whether the ends of a scale are round numbers.
+/// Choice of the ends of a scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ends {
     /// Round numbers, so that the first and the last tick are at the ends.
@@ -221,7 +221,7 @@ impl Scale {
         }
     }
 
-    /// Whether a value lies strictly between the ends.
+    /// Returns whether a value lies strictly between the ends.
     pub(super) fn holds(&self, value: f64) -> bool {
         self.low < value && value < self.high
     }

@@ -20,7 +20,7 @@ struct Held {
     codes: String,
     /// The field of the last column.
     branch: Vec<u8>,
-    /// Whether it is written even without another message about it.
+    /// Whether the row is written even without another message about it.
     wanted: bool,
 }
 
@@ -40,7 +40,7 @@ pub struct Csv<W> {
     place: Vec<u8>,
 }
 
-/// Whether the rows have the axis positions.
+/// Columns for the axis positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Positions {

@@ -32,7 +32,7 @@ frictcomp::words! {
 pub struct TimelineOptions {
     /// The shown blocks and kinds, and the look of text.
     pub text: TextOptions,
-    /// Whether rows have the axis positions.
+    /// Columns for the axis positions.
     pub positions: Positions,
 }
 

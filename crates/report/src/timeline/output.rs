@@ -20,7 +20,7 @@ pub trait Report: Sink {
     /// The first error of the writer, except a closed pipe.
     fn finish(&mut self) -> io::Result<()>;
 
-    /// Whether the reader closed the pipe.
+    /// Returns whether the reader closed the pipe.
     fn is_closed(&self) -> bool;
 }
 

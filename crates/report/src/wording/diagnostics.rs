@@ -17,7 +17,7 @@ pub const FALLBACK_WIDTH: usize = 100;
 /// The width of agreed timelines, which is the same for every user.
 const AGREED_WIDTH: usize = 80;
 
-/// Whether text output carries colours.
+/// Colours of text output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Paint {

@@ -25,8 +25,8 @@ pub(crate) fn last_part(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// Whether a text holds a special byte; a blank is not one. Most texts hold none, so that sixteen bytes
-/// are checked without a branch; the last sixteen may overlap those before.
+/// Returns whether a text holds a special byte; a blank is not one. Most texts hold none, so that sixteen bytes are
+/// checked without a branch; the last sixteen may overlap those before.
 #[inline]
 pub(crate) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
     let any_of = |chunk: &[u8; 16]| chunk.map(|byte| u8::from(is_special(byte))) != [0; 16];
@@ -76,7 +76,7 @@ pub fn leading(text: &str) -> Cow<'_, str> {
     shown
 }
 
-/// Whether a CI runner would take a line that begins with this text for a command.
+/// Returns whether a CI runner would take a line that begins with this text for a command.
 pub(crate) fn is_command(text: &str) -> bool {
     let text = text.trim_start();
     text.starts_with("::") || text.starts_with("##")

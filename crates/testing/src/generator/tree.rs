@@ -121,7 +121,7 @@ pub struct CompBlock {
 pub struct CompSwitch {
     /// The axis, by its position.
     pub axis: usize,
-    /// Whether it switches on.
+    /// Whether the command switches on.
     pub is_on: bool,
     /// The kinds that it names; none stands for `OFF_ALL`.
     pub kinds: Vec<&'static str>,
@@ -146,7 +146,7 @@ pub struct SwitchCase {
     pub number: usize,
     /// Its statements.
     pub body: Vec<Statement>,
-    /// Whether `$BREAK` ends it.
+    /// Whether `$BREAK` ends the case.
     pub has_break: bool,
 }
 

@@ -41,7 +41,7 @@ struct Step {
     waits_s: f64,
     /// The state during it.
     is_on: bool,
-    /// Whether the path stops before it, whatever follows.
+    /// Whether the path stops before the step, whatever follows.
     stands_before: bool,
 }
 

@@ -186,7 +186,7 @@ pub(super) fn driven_in<'a>(plan: &'a PlanFile, results: &'a [RecordingResult]) 
     each.collect()
 }
 
-/// Whether a feed equals one of others.
+/// Returns whether a feed equals one of others.
 pub(super) fn has(feeds: &[f64], feed: f64) -> bool {
     feeds.iter().any(|it| it.total_cmp(&feed).is_eq())
 }

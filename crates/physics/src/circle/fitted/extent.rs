@@ -44,7 +44,7 @@ impl Extent {
         }
     }
 
-    /// Whether the range is within a factor of 1.4; otherwise only its lower end is known.
+    /// Returns whether the range is within a factor of 1.4; otherwise only its lower end is known.
     pub fn is_determined(&self) -> bool {
         self.high <= DETERMINED * self.low
     }

@@ -67,7 +67,7 @@ impl Unknowns {
         }))
     }
 
-    /// Whether an unknown is at the end of its search range, or next to it.
+    /// Returns whether an unknown is at the end of its search range, or next to it.
     pub(super) fn is_at_bound(self, at: usize) -> bool {
         self.0[at].abs() > NEXT_TO * BOUNDS[at]
     }

@@ -305,13 +305,13 @@ impl PathRun {
         ways.sum::<f64>().to_degrees()
     }
 
-    /// Whether there is a full turn, even with gaps.
+    /// Returns whether there is a full turn, even with gaps.
     pub(super) fn is_full(&self) -> bool {
         self.covered() >= TAU - self.lacking()
     }
 }
 
-/// Whether the peak of a crossing is between two angles from X+ in the direction of travel.
+/// Returns whether the peak of a crossing is between two angles from X+ in the direction of travel.
 fn is_at_crossing(from: f64, to: f64) -> bool {
     let [before, after] = PEAK;
     let next = ((from - after) / QUARTER).floor() + 1.0;

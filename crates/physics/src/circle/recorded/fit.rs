@@ -91,7 +91,7 @@ impl FittedCircle {
         MOST_MM.min(PART * self.radius)
     }
 
-    /// Whether points lie in every eighth of the turn.
+    /// Returns whether points lie in every eighth of the turn.
     pub(super) fn goes_round(&self, points: &[[f64; 2]]) -> bool {
         const EIGHTHS: f64 = 8.0;
         let mut seen: u8 = 0;

@@ -29,7 +29,7 @@ pub struct CommandedCircle {
 }
 
 impl Recording {
-    /// Whether a number of recordings of such circles can be evaluated together.
+    /// Checks that a number of recordings of such circles can be evaluated together.
     ///
     /// # Errors
     /// There are more than two, or a radius or feed that no circle has.

@@ -86,7 +86,7 @@ pub struct RemainingGlitch {
 }
 
 impl RemainingGlitch {
-    /// Whether compensation makes it worse, by more than the place of the reversal in its cycle does.
+    /// Returns whether compensation makes it worse, by more than the place of the reversal in its cycle does.
     pub fn is_worse(&self) -> bool {
         const PLACE: f64 = 1.02;
         self.glitch_on_um > PLACE * self.glitch_off_um

@@ -29,7 +29,7 @@ pub struct Task {
     pub reading: Reading,
     /// Form of the points of the lists.
     pub points: Points,
-    /// Whether the points below 1 mm/s get a separate shape.
+    /// Separate shape for the points below 1 mm/s.
     pub shaping: Shaping,
     /// The machines for which the list must be good.
     pub aim: TuningAim,
@@ -47,7 +47,7 @@ pub enum TuningAim {
     Robust,
 }
 
-/// Whether the points below 1 mm/s get a separate shape.
+/// Shaping of a list below 1 mm/s.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Shaping {

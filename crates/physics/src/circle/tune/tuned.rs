@@ -44,7 +44,7 @@ pub struct FeedResult {
 }
 
 impl FeedResult {
-    /// Whether compensation makes it worse.
+    /// Returns whether compensation makes it worse.
     pub fn is_worse(&self) -> bool {
         self.glitch_on_um > self.glitch_off_um
     }
@@ -78,7 +78,8 @@ impl TunedAxis {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Robust {
-    /// Whether it gains 5 % or more and costs at most a quarter on the plant; otherwise the other list is kept.
+    /// Whether the robust list gains 5 % or more and costs at most a quarter on the plant; otherwise the other list is
+    /// kept.
     pub is_taken: bool,
     /// The list for the plant alone.
     #[serde(rename = "glitch_plain")]
@@ -105,7 +106,7 @@ pub struct Tuned {
 }
 
 impl Tuned {
-    /// Whether stiction compensation was tuned.
+    /// Returns whether stiction compensation was tuned.
     pub fn is_stiction(&self) -> bool {
         self.axes.iter().any(|axis| axis.stiction().is_some())
     }

@@ -96,12 +96,12 @@ impl SequenceReport {
         Headline::new(standing, text).assuming(self.assumptions.iter().cloned())
     }
 
-    /// Whether a program moves an axis that an earlier one left away from its start-up state.
+    /// Returns whether a program moves an axis that an earlier one left away from its start-up state.
     pub fn has_warnings(&self) -> bool {
         self.axes().any(|axis| axis.left_by.is_some())
     }
 
-    /// Whether a program does not reach its end.
+    /// Returns whether a program does not reach its end.
     pub fn is_cut(&self) -> bool {
         self.steps.iter().any(|step| step.stopped.is_some())
     }

@@ -284,7 +284,7 @@ impl AuditReport {
         hazards.fold(0, u64::saturating_add)
     }
 
-    /// Whether something has to be corrected, or is not known.
+    /// Returns whether something has to be corrected, or is not known.
     pub fn has_warnings(&self) -> bool {
         self.findings().any(AxisFinding::is_worth_a_warning)
     }

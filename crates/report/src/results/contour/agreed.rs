@@ -123,7 +123,7 @@ impl AgreedLine {
         words.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Whether no figure differs by more than the tolerance, in tenths as written.
+    /// Returns whether no figure differs by more than the tolerance, in tenths as written.
     fn is_near(&self, other: &Self, tolerance_um: f64) -> bool {
         let mut pairs = self.figures.iter().zip(&other.figures);
         pairs.all(|(one, other)| (one.um - other.um).abs() <= tolerance_um + 1e-9)

@@ -287,7 +287,7 @@ fn push_beside_the_plane(out: &mut Document<'_>, axes: &[ContourSummary]) {
     }
 }
 
-/// Whether every reversal of a program is counted.
+/// Extent to which the reversals of a program are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Counted {
     All,

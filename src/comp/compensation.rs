@@ -265,8 +265,8 @@ impl Compensation {
         }
     }
 
-    /// A program wrote the parameters of a kind into the machine data: whether the axis is configured for it is open, and
-    /// so is what a command that switches it on does, until a restart of the control (R2.92).
+    /// Records that a program wrote the parameters of a kind into the machine data: until a restart of the control it
+    /// is open whether the axis is configured for the kind, and what a command that switches it on does (R2.92).
     pub(crate) fn rewrite(&mut self, axis: AxisIndex, kind: Kind, changes: &mut Vec<Change>) {
         let state = &mut self.axes[axis.get()];
         changes.extend(state.change(axis, kind, |state| {

@@ -380,7 +380,7 @@ impl Judge<'_> {
         all
     }
 
-    /// FC501 or FC502.
+    /// Reports FC501 or FC502.
     fn miss(&mut self, signal: Signal, place: Place) {
         let is_command = signal == Signal::AdditiveTorque
             && matches!(self.settings.telegram(signal), Telegram::HoldsCommand(_));
@@ -434,7 +434,7 @@ impl Judge<'_> {
         ))
     }
 
-    /// FC504.
+    /// Reports FC504.
     fn ask(&mut self, signal: Signal, reason: &str, place: Option<Place>) {
         let Some(place) = place.or_else(|| self.selector.map(Given::place)) else {
             return;

@@ -239,12 +239,12 @@ impl ChannelAxes {
         self.names.contains_key(name)
     }
 
-    /// The axes of the channel may be exchanged.
+    /// Makes the axes of the channel unknown, since some may have been exchanged.
     pub(crate) fn havoc(&mut self) {
         self.doubtful = true;
     }
 
-    /// The channel receives an axis under a name; `None` for one that is not known.
+    /// Gives the channel an axis under a name; `None` for one that is not known.
     pub(crate) fn request(&mut self, machine: &Machine, name: &str, axis: Option<AxisIndex>) {
         if axis.is_some() && axis == machine.find(name) {
             self.names.remove(name);
@@ -254,7 +254,7 @@ impl ChannelAxes {
         }
     }
 
-    /// The channel gives an axis back; the control does not mind where it does not have it.
+    /// Takes an axis from the channel; the control does not mind where it does not have it.
     pub(crate) fn release(&mut self, machine: &Machine, name: &str) {
         let own = machine.find(name).map(AxisNameMeaning::Axis);
         let released = match self.names.get(name).copied().or(own) {
@@ -299,7 +299,7 @@ impl ChannelAxes {
         })
     }
 
-    /// The names may or may not be those of another way through the program.
+    /// Merges the names of another way through the program, which may be in force instead.
     pub(crate) fn join(&mut self, other: &Self) {
         self.doubtful |= self != other;
     }

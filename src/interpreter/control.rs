@@ -148,7 +148,7 @@ impl ControlState {
         differing
     }
 
-    /// A description of geometry that is open on one way only may be open or not (R2.70).
+    /// Merges a description of geometry: one that is open on one way only may be open or not (R2.70).
     fn join_description(&mut self, other: Option<&Description>) {
         match (self.described.take(), other) {
             (Some(mut mine), Some(theirs)) if mine.opener == theirs.opener => {
@@ -274,7 +274,7 @@ impl ModalCycles {
         }
     }
 
-    /// Another cycle may be in force instead.
+    /// Adds a cycle that may be in force instead.
     pub(crate) fn add(&mut self, cycle: Repeated) {
         self.cycles.push(cycle);
         self.havoc();
@@ -336,7 +336,7 @@ impl<T: PartialEq> SavedItem<T> {
 }
 
 impl SavedConfig {
-    /// Another way may have saved another one.
+    /// Merges the configurations of another way, which may have been saved instead.
     pub(crate) fn join(&mut self, other: &Self) {
         self.axes.join(&other.axes);
         self.links.join(&other.links);
@@ -369,7 +369,7 @@ enum MissingFile {
 }
 
 impl ChangedFiles {
-    /// A file is changed; `None` for one whose name is not known.
+    /// Records a change of a file; `None` for one whose name is not known.
     pub(crate) fn change(&mut self, name: Option<&str>) {
         match name {
             Some(name) => _ = self.names.insert(base_name(name)),
@@ -387,17 +387,17 @@ impl ChangedFiles {
         self.messages = BTreeSet::from([base_name(name)]);
     }
 
-    /// A message is written.
+    /// Records the write of a message to its files.
     pub(crate) fn write_message(&mut self) {
         self.names.extend(self.messages.iter().cloned());
     }
 
-    /// `#FILE EXIST` looked for a file that is not here; `None` for one whose name is not known.
+    /// Records that `#FILE EXIST` looked for a file that is not here; `None` for one whose name is not known.
     pub(crate) fn miss(&mut self, name: Option<&str>) {
         self.missing = name.map_or(MissingFile::Any, |name| MissingFile::Named(base_name(name)));
     }
 
-    /// `#FILE EXIST` found its file.
+    /// Records that `#FILE EXIST` found its file.
     pub(crate) fn find(&mut self) {
         self.missing = MissingFile::Nothing;
     }
@@ -411,7 +411,7 @@ impl ChangedFiles {
         }
     }
 
-    /// The files of another way may be changed, too.
+    /// Merges the changed files of another way.
     pub(crate) fn join(&mut self, other: &Self) {
         self.names.extend(other.names.iter().cloned());
         self.any |= other.any;

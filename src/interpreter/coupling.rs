@@ -131,7 +131,7 @@ impl Couplings {
         self.strays.clear();
     }
 
-    /// An axis that follows another one by such a command may do so, or not; so may these axes.
+    /// Makes the following of axes uncertain, and lets these axes possibly follow others, too.
     pub(crate) fn havoc_followers(&mut self, axes: &[AxisIndex]) {
         let followers = std::mem::take(&mut self.followers);
         let followers = followers.into_values().flatten().map(|(axis, _)| axis);
@@ -395,7 +395,7 @@ impl ControlState {
         self.mark_coupled(changed);
     }
 
-    /// The definition of a group is not known: once it is in force, any axis may be coupled.
+    /// Discards the definition of a group: once it is in force, any axis may be coupled.
     pub(crate) fn forget_coupling(&mut self, group: &str) {
         let changed = self.couplings.forget(group);
         self.mark_coupled(changed);
@@ -456,7 +456,7 @@ impl ControlState {
         self.modal.simplify(Simplification::Coupling, Holds::Off);
     }
 
-    /// Any coupling may be in force, or none.
+    /// Makes all couplings uncertain: any may be in force, or none.
     pub(crate) fn havoc_couplings(&mut self) {
         let changed = self.couplings.havoc();
         self.couplings.havoc_followers(&[]);
@@ -469,7 +469,7 @@ impl ControlState {
         self.mark_coupled(changed);
     }
 
-    /// Any axes may be coupled.
+    /// Couples possibly any axes.
     pub(crate) fn couple_any(&mut self, machine: &Machine) {
         let all = (0..machine.axes.len()).map(AxisIndex::new).collect();
         self.define_coupling(RESTORED, all);

@@ -171,7 +171,7 @@ impl Executor {
         self.axes().main(letter, &self.state.control.modal)
     }
 
-    /// An axis occurs.
+    /// Records the occurrence of an axis.
     #[inline]
     pub(crate) fn see(&mut self, axis: AxisIndex) {
         self.scratch.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
@@ -231,8 +231,7 @@ impl Executor {
         self.state.work.level() > self.work_bound() || self.is_past_all_ways()
     }
 
-    /// The macros of the channel list, which no program takes away (TF5200 Programming manual,
-    /// 208400267).
+    /// Defines the macros of the channel list, which no program takes away (TF5200 Programming manual, 208400267).
     pub(crate) fn define_machine_macros(&mut self) {
         for (name, code) in &self.machine.programs.macros {
             self.state.control.memory.define_macro(name, code);
@@ -345,7 +344,7 @@ impl RunState {
         }
     }
 
-    /// The run goes on only on some of the ways that lead here.
+    /// Restricts the run to some of the ways that lead here.
     pub(crate) fn go_on_with(&mut self, ways: WaySet) {
         self.track.reach = ways;
         let control = &mut self.control;

@@ -198,7 +198,7 @@ impl CallStack {
         self.0.iter()
     }
 
-    /// A program is called.
+    /// Enters a called program.
     pub(crate) fn push(&mut self, frame: CallFrame) {
         self.0.push(frame);
     }

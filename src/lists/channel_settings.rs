@@ -255,7 +255,7 @@ impl ChannelDraft {
         }
     }
 
-    /// A part of a pair of the coupling group 0.
+    /// Reads a part of a pair of the coupling group 0.
     fn pair(&mut self, place: (u32, usize), entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
         let Some(given) = number(entry, diagnostics) else {
             return;
@@ -270,7 +270,7 @@ impl ChannelDraft {
         }
     }
 
-    /// The kind of synchronisation of a function, by its name or as a bit code. One that is not known counts as
+    /// Reads the kind of synchronisation of a function, by its name or as a bit code. One that is not known counts as
     /// acknowledged.
     fn synchronise(
         &mut self,

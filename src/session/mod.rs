@@ -355,13 +355,13 @@ impl Session {
         }
     }
 
-    /// A reset of the channel between two programs (R1.28).
+    /// Resets the channel between two programs (R1.28).
     pub fn reset(&mut self) {
         self.interpreter.reset();
         self.stopped = false;
     }
 
-    /// A restart of the control between two programs (R1.29).
+    /// Restarts the control between two programs (R1.29).
     pub fn restart(&mut self) {
         self.interpreter.here.restart();
         self.stopped = false;

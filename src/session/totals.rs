@@ -194,7 +194,8 @@ impl FeedMoveCounter {
         }
     }
 
-    /// The commands of a block act before its motion (R1.9), so its own motion counts, too.
+    /// Watches the motion of a block after its commands, which act before it (R1.9), so that its own motion counts,
+    /// too.
     #[inline(never)]
     fn watch(&mut self, compensation: &Compensation) {
         let before = std::mem::take(&mut self.watched);

@@ -172,7 +172,8 @@ fn words(text: &str, from: usize) -> impl Iterator<Item = AllowWord<'_>> {
     })
 }
 
-/// `FC499`, `fc4O1`, `P-ERR-1`: letters of a code and a digit after them.
+/// Returns whether a word resembles a code: letters of a code and a digit after them, as in `FC499`, `fc4O1`,
+/// `P-ERR-1`.
 fn looks_like_code(word: &str) -> bool {
     let upper = word.to_ascii_uppercase();
     let number = upper

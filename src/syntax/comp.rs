@@ -109,7 +109,7 @@ impl CompWords<'_> {
         })
     }
 
-    /// One remark per bracket, at its first word that is not in upper case (R1.8).
+    /// Remarks once per bracket on its first word that is not in upper case (R1.8).
     fn lint_case(&self, faults: &mut Vec<Fault>) {
         let known = |word: &str| {
             word.eq_ignore_ascii_case("COMP")

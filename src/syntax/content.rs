@@ -73,7 +73,8 @@ fn markup(text: &str) -> Option<&'static str> {
     }
 }
 
-/// `{"`, `{}`, `[{`, `["`, `[[1`: a block may begin with `[LABEL]`, settings with `[[table]]`.
+/// Returns whether a text begins like JSON: `{"`, `{}`, `[{`, `["`, `[[1`; a block may begin with `[LABEL]`, settings
+/// with `[[table]]`.
 fn is_json(text: &str) -> bool {
     let mut letters = text.chars().filter(|it| !it.is_whitespace());
     match (letters.next(), letters.next(), letters.next()) {
@@ -134,7 +135,8 @@ fn is_remark(after: &str) -> bool {
     after.is_empty() || after.starts_with([' ', '\t', '#', '-', '='])
 }
 
-/// `[machine]`, `[[axis]]`: with a letter in lower case, which jump labels rarely have.
+/// Returns whether a line is the head of a TOML table: `[machine]`, `[[axis]]`, with a letter in lower case, which jump
+/// labels rarely have.
 fn is_table(line: &str) -> bool {
     let line = line
         .split_once('#')

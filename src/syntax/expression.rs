@@ -265,7 +265,7 @@ impl ExpressionLowering<'_> {
         }
     }
 
-    /// Text that has the form of a value, but no known meaning.
+    /// Records text that has the form of a value, but no known meaning.
     fn unread(&mut self, text: &str, span: Span) {
         self.block
             .faults
@@ -317,7 +317,7 @@ impl ExpressionLowering<'_> {
         self.push(node, span);
     }
 
-    /// `PP10` reads P10 to know which parameter is meant.
+    /// Reads the parameter that gives the number of another one: `PP10` reads P10.
     fn inner_parameter(&mut self, pair: Pair<'_, Rule>) {
         let span = self.span(&pair);
         let owner = Owner::Program;

@@ -63,7 +63,7 @@ pub(super) fn command_after_name(code: &str) -> Option<Fault> {
     Some(fault.with_help("write the command in a separate block"))
 }
 
-/// FC414 or FC211 for each axis word of a block that has no value (R18.7).
+/// Reports FC414 or FC211 for each axis word of a block that has no value (R18.7).
 pub(super) fn words_without_value(text: &str, block: &mut Block) {
     if !block.all_words().any(|word| word.value.is_none()) {
         return;

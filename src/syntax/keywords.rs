@@ -108,7 +108,7 @@ pub(crate) fn is_statement(text: &str) -> bool {
         .any(|known| known[1..].eq_ignore_ascii_case(word))
 }
 
-/// A letter with a number, `M3`.
+/// Returns whether a word is one of the letters with a number, `M3`.
 fn numbered(upper: &str, letters: &[char]) -> bool {
     let number = upper.strip_prefix(letters);
     number.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))

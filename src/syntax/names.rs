@@ -200,7 +200,7 @@ impl NameSearch<'_> {
         self.add(named, NameRole::Use, (span.of(self.text).to_owned(), span));
     }
 
-    /// The labels that a statement names, in their order.
+    /// Adds the labels that a statement names, in their order.
     fn targets(&mut self, targets: [Option<&BlockReference>; 2], statement: Span) {
         let mut from = statement.range().start;
         for target in targets.into_iter().flatten() {

@@ -115,12 +115,12 @@ pub fn code_words(line: &str) -> impl Iterator<Item = &str> {
     code_stretches(line).flat_map(move |code| code.split(move |it| !is_part(it)))
 }
 
-/// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
+/// Returns whether a character is a blank, a tab, or the NUL and ETX that some editors leave (R2.1).
 pub(super) fn is_blank(c: char) -> bool {
     c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
 }
 
-/// A control character that editors leave at the end of a file; within a block it is not part
+/// Returns whether a byte is a control character that editors leave at the end of a file; within a block it is not part
 /// of the language (R2.1, R9.94).
 fn is_control(byte: u8) -> bool {
     matches!(byte, 0 | 3 | 0x1a)

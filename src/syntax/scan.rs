@@ -316,7 +316,8 @@ impl FlowScan {
         self.found
     }
 
-    /// `L` alone with a separator after it, outside a comment; a piece that ends before that is taken as one.
+    /// Returns whether the text has `L` alone with a separator after it, outside a comment; a piece that ends before
+    /// that is taken as one.
     fn calls_program(before: &[u8], after: &[u8]) -> bool {
         let is_alone = before.last().is_none_or(|byte| !byte.is_ascii_alphabetic());
         let is_followed = after
@@ -337,7 +338,7 @@ impl FlowScan {
         memchr::memchr(b';', line).is_some() || opened > memchr::memrchr(b')', line)
     }
 
-    /// `#IF`; a piece that ends before that is taken as one.
+    /// Returns whether the text is `#IF`; a piece that ends before that is taken as one.
     fn opens_branch(after: &[u8]) -> bool {
         let letters = after.iter().zip(b"IF");
         letters
@@ -345,7 +346,7 @@ impl FlowScan {
             .all(|(found, letter)| found.eq_ignore_ascii_case(letter))
     }
 
-    /// `%L` with a separator after it; a piece that ends before that is taken as one.
+    /// Returns whether the text is `%L` with a separator after it; a piece that ends before that is taken as one.
     fn opens_subprogram(after: &[u8]) -> bool {
         let mut rest = after.iter().skip_while(|byte| matches!(byte, b' ' | b'\t'));
         match (rest.next(), rest.next()) {

@@ -374,8 +374,8 @@ pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
 
-    /// Asked before the record of a quiet block, as most are: it switches nothing, nothing is said on it, and its axes have
-    /// moved before. Returns whether the record is to follow.
+    /// Returns whether the record of a quiet block is to follow. Most blocks are quiet: they switch nothing, nothing is
+    /// said on them, and their axes have moved before.
     fn takes_quiet(&mut self) -> bool {
         true
     }

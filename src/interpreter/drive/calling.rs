@@ -277,7 +277,7 @@ impl OtherPaths {
         ControlFlow::Continue(())
     }
 
-    /// The running program comes back to the one that called it.
+    /// Returns the running program to the one that called it.
     fn come_back_from_call(&mut self, here: &mut Executor) {
         let called = here.called().filter(|_| !self.call_effects.is_empty());
         here.leave();
@@ -294,7 +294,7 @@ impl OtherPaths {
         }
     }
 
-    /// The running program is left for another place than the block after its call.
+    /// Leaves the running program for another place than the block after its call.
     fn leave_for_elsewhere(&mut self, here: &mut Executor) {
         if let Some(called) = here.called() {
             self.call_effects.remove(called);

@@ -68,8 +68,8 @@ impl Interpreter {
         &self.here.offered
     }
 
-    /// The next such condition has one of the answers that are [`offered`](Self::offered), by its place
-    /// among them; after a second call, so has the one after it.
+    /// Answers the next such condition with one of the answers that are [`offered`](Self::offered), by its place among
+    /// them; a second call answers the one after it.
     pub fn choose(&mut self, place: usize) {
         self.here.chosen.push_back(place);
     }
@@ -262,9 +262,9 @@ impl Interpreter {
 }
 
 impl Interpreter {
-    /// A reset of the channel (R1.28): the compensation stays as it is, or returns to its start-up
-    /// state, depending on the reading; kinds with manual activation are switched off in any case. Couplings and
-    /// exchanged axes end with it, unless the channel list says otherwise.
+    /// Resets the channel (R1.28): the compensation stays as it is, or returns to its start-up state, depending on the
+    /// reading; kinds with manual activation are switched off in any case. Couplings and exchanged axes end with it,
+    /// unless the channel list says otherwise.
     pub fn reset(&mut self) {
         let control = &mut self.here.state.control;
         control.end_exchange(ProgramStop::Reset, &self.here.machine.channel);
@@ -276,8 +276,8 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// If the state before the start of the control is not known, friction compensation is unknown where
-    /// the machine is read as keeping it (R1.29).
+    /// Makes friction compensation unknown if the state before the start of the control is not known and the machine is
+    /// read as keeping it (R1.29).
     pub(crate) fn havoc_start(&mut self) {
         if self.machine.readings.takes_second(Question::Restart) {
             self.havoc_any_axis(KindSet::of(Kind::Frict));

@@ -162,7 +162,7 @@ impl OtherPaths {
 }
 
 impl RunState {
-    /// A condition that is asked on some ways only is reported as such, whatever its own answer.
+    /// Reports a condition that is asked on some ways only as such, whatever its own answer.
     pub(crate) fn limit_to_reach(&self, said: &mut Diagnostic, condition: Option<u32>) {
         let mut reach = self.track.reach.clone();
         if let Some(own) = condition {
@@ -437,7 +437,7 @@ impl RunState {
 }
 
 impl OtherPaths {
-    /// The ways part after the block that asked.
+    /// Parts the ways after the block that asked.
     #[cold]
     pub(crate) fn take_sides(
         &mut self,
@@ -457,7 +457,7 @@ impl OtherPaths {
         }
     }
 
-    /// The ways that jump part from the one on which the block itself leads elsewhere, which goes on.
+    /// Parts the ways that jump from the one on which the block itself leads elsewhere, which goes on.
     #[cold]
     pub(crate) fn take_jumps(&mut self, here: &mut Executor, finder: &mut dyn Finder) {
         let sides = std::mem::take(&mut here.sides);

@@ -212,7 +212,8 @@ impl Interpreter {
         ControlFlow::Continue(())
     }
 
-    /// M17 ended the program: FC310 if it has M30 farther down; a subprogram run by itself ends as it should.
+    /// Reports FC310 for a program that M17 ended if it has M30 farther down; a subprogram run by itself ends as it
+    /// should.
     fn look_after_return(&mut self, lines: &mut Option<MainLines<'_>>) {
         let Some(lines) = lines.take() else {
             return;

@@ -336,8 +336,8 @@ impl OtherPaths {
         }
     }
 
-    /// The innermost loop begins a new pass: what is kept of loops in it is of the last one, unless only the machine
-    /// ends it.
+    /// Drops what is kept of loops inside the innermost loop, which begins a new pass: it belongs to the last pass,
+    /// unless only the machine ends the loop.
     fn drop_heads_in_known_loop(&mut self, state: &RunState) {
         let last = state.track.loops.last();
         let Some(known) = last.filter(|_| !self.loop_heads.is_empty()) else {
@@ -374,7 +374,7 @@ impl OtherPaths {
 }
 
 impl RunState {
-    /// The innermost loop begins anew: the passes so far prove nothing.
+    /// Discards the proofs of earlier passes, since the innermost loop begins anew.
     fn forget_passes(&mut self) {
         if let Some(known) = self.track.loops.last_mut() {
             known.mark = None;

@@ -334,8 +334,8 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// P-ERR-21500 to 21502: the text ends while the control skips it for a false `$IF` without `$ENDIF` (R2.103).
-    /// Returns whether the run stops there.
+    /// Reports P-ERR-21500 to 21502: the text ends while the control skips it for a false `$IF` without `$ENDIF`
+    /// (R2.103). Returns whether the run stops there.
     #[cold]
     pub(crate) fn ends_in_open_if(&mut self) -> bool {
         let Some(frame) = self.state.control.frames.running_mut() else {
@@ -394,7 +394,7 @@ impl Executor {
         }
     }
 
-    /// The messages on the blocks of a file, each program that is never run before its blocks.
+    /// Reports the messages on the blocks of a file, each program that is never run before its blocks.
     fn check_unexecuted_of(
         &self,
         unit: &SourceUnit,
@@ -494,7 +494,7 @@ impl Executor {
     }
 }
 
-/// FC490 or FC491 for each comment, and the faults of lines outside blocks, down to a line.
+/// Gathers FC490 or FC491 for each comment, and the faults of lines outside blocks, down to a line.
 pub(crate) fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
     let lines = lost.remarks.iter().flat_map(Remark::lines);
     for (text, line) in lines.take_while(|(_, line)| *line <= until) {

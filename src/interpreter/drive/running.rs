@@ -514,7 +514,7 @@ impl Executor {
         self.state.track.shadow.moved.extend(axes);
     }
 
-    /// The axes that shadows moved stand at an unknown position.
+    /// Makes the position of the axes unknown that shadows moved.
     #[cold]
     fn take_moves_of_shadows(&mut self) {
         for axis in std::mem::take(&mut self.state.track.shadow.moved) {
@@ -676,7 +676,7 @@ impl Executor {
         work.diagnostics.append(&mut work.of_some_ways);
     }
 
-    /// The machine may change values between the questions of blocks.
+    /// Invalidates values that the machine may change between the questions of blocks.
     #[inline]
     fn outdate_readings(&mut self, at: &BlockContext<'_>) {
         if !self.state.track.readings.is_empty() {

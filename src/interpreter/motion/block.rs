@@ -89,12 +89,12 @@ impl BlockMotion {
         });
     }
 
-    /// A word of an axis that the machine does not have.
+    /// Records a word of an axis that the machine does not have.
     pub(crate) fn lack(&mut self, name: String, span: Span) {
         self.lacking.push((name, span));
     }
 
-    /// An axis moves, or may, without a word of its own.
+    /// Records an axis that moves, or may, without a word of its own.
     pub(crate) fn also_move(&mut self, moved: MovedAxis) {
         self.also.push(moved);
     }
@@ -117,18 +117,18 @@ impl BlockMotion {
         }
     }
 
-    /// The axis words move otherwise than the G functions in force say.
+    /// Sets the motion of the axis words, which differs from that of the G functions in force.
     pub(crate) fn move_as(&mut self, row: MotionEffect) {
         self.row = Some(row);
         self.rests.set(true);
     }
 
-    /// The axes come to rest, or may.
+    /// Records that the axes come to rest, or may.
     pub(crate) fn rest(&self) {
         self.rests.set(true);
     }
 
-    /// The block is G04 or `#TIME`.
+    /// Marks the block as G04 or `#TIME`.
     pub(crate) fn dwell(&mut self) {
         self.dwells = true;
     }
@@ -239,24 +239,24 @@ impl BlockMotion {
         repeated
     }
 
-    /// The axis words move nothing.
+    /// Takes the motion from the axis words.
     pub(crate) fn drop_words(&mut self) {
         self.words.clear();
     }
 
-    /// The control stops before the block moves.
+    /// Records that the control stops before the block moves.
     pub(crate) fn stop(&mut self) {
         self.words.clear();
         self.also.clear();
     }
 
-    /// The words of the block describe geometry.
+    /// Drops all words of the block, since they describe geometry.
     pub(crate) fn drop_all(&mut self) {
         self.words.clear();
         self.geometry = None;
     }
 
-    /// The block before was executed on another way.
+    /// Discards the block before, since it was executed on another way.
     pub(crate) fn forget_last(&mut self) {
         self.words.clear();
         self.last_words.clear();
@@ -341,7 +341,7 @@ impl BlockMotion {
         !self.also.is_empty() || !self.words.is_empty() && words.move_axes()
     }
 
-    /// In manual mode the operator moves axes.
+    /// Leaves the motion of axes to the operator in manual mode.
     fn leave_to_operator(&mut self, row: MotionEffect, setting: MotionSetting<'_>) {
         let words = self.words.iter().map(|it| (it.axis, it.span));
         let mut axes: Vec<_> = words.collect();
@@ -359,7 +359,7 @@ impl BlockMotion {
         }
     }
 
-    /// A motion word in a rotated or transformed frame moves its other axes, too.
+    /// Moves the other axes, too, in a rotated or transformed frame.
     fn move_in_frame(&mut self, setting: MotionSetting<'_>) {
         let of_words = self.words.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;

@@ -189,7 +189,7 @@ impl Modal {
         }
     }
 
-    /// A command or function that a commanded trace does not follow in full.
+    /// Records a command or function that a commanded trace does not follow in full.
     pub(crate) fn simplify(&mut self, what: Simplification, holds: Holds) {
         self.simplified = match holds {
             Holds::On => self.simplified.union(what.into()),
@@ -231,7 +231,7 @@ impl Modal {
         self.simplify(Simplification::Slope, holds);
     }
 
-    /// Something may have been put into force: its rounding is not known.
+    /// Records a simplification that may have been put into force: its rounding is not known.
     fn perhaps_simplify(&mut self, what: Simplification) {
         self.simplify(what, Holds::On);
         match what {
@@ -290,8 +290,8 @@ impl Modal {
         }
     }
 
-    /// `#MCS ON` suspends all offsets until `#MCS OFF`. Positions programmed after either of them
-    /// are not certainly machine positions any more.
+    /// Suspends all offsets at `#MCS ON` until `#MCS OFF`. Positions programmed after either of them are not certainly
+    /// machine positions any more.
     fn machine_coordinates(&mut self, name: &str, switch: OnOff) {
         if switch == OnOff::Off {
             if let Some(references) = self.suspended.take() {
@@ -357,14 +357,14 @@ impl Modal {
         start.zip(word).map(|(start, word)| start + word)
     }
 
-    /// Positions are in program coordinates from here on.
+    /// Records that positions are in program coordinates from here on.
     pub(crate) fn note_transformed(&mut self, name: &str) {
         if !self.transformed.contains(name) {
             self.transformed.insert(name.to_owned());
         }
     }
 
-    /// A step of the coordinate chain, with this state after it, may or may not have been executed.
+    /// Merges the state after a step of the coordinate chain that may or may not have been executed.
     fn havoc_chain(&mut self, after: Self) {
         if after != *self {
             if after.references != self.references {
@@ -416,7 +416,7 @@ impl Modal {
         self.functions.tool_data = number.and_then(|it| u32::try_from(it).ok());
     }
 
-    /// The groups in which two states differ, or may, become unknown.
+    /// Makes the groups unknown in which two states differ, or may.
     fn join_functions(&mut self, other: &Self) {
         let data = &mut self.functions.tool_data;
         *data = data.filter(|_| *data == other.functions.tool_data);
@@ -453,7 +453,7 @@ impl Modal {
         }
     }
 
-    /// G92: offsets for the absolute coordinates that follow; in G91 they add to those in force
+    /// Sets the offsets of G92 for the absolute coordinates that follow; in G91 they add to those in force
     /// (PM/206145291). The axes do not move.
     pub(crate) fn set_references(&mut self, words: &[AxisWord]) {
         let scale = self.scale();
@@ -479,7 +479,7 @@ impl Modal {
         self.positions[axis.get()] = None;
     }
 
-    /// Any word may have been executed.
+    /// Makes all modal words unknown.
     pub(crate) fn havoc_words(&mut self) {
         self.havoc_g(None);
         self.havoc_feeds();
@@ -488,7 +488,7 @@ impl Modal {
         self.radius = None;
     }
 
-    /// A G function that may or may not have been executed; `None` for one that is not known.
+    /// Records a G function that may or may not have been executed; `None` for one that is not known.
     pub(crate) fn havoc_g(&mut self, number: Option<i64>) {
         let Some(number) = number.and_then(|number| u32::try_from(number).ok()) else {
             self.functions.unknown = Group::ALL.into_iter().collect();
@@ -562,7 +562,7 @@ impl Modal {
         }
     }
 
-    /// A feed word, in the unit of the mode in force.
+    /// Sets the feed of the mode in force, in its unit.
     #[inline]
     pub fn set_feed(&mut self, value: Option<f64>) {
         if !self.is_known(Group::Feed) {
@@ -583,7 +583,7 @@ impl Modal {
         self.functions.feeds[place] = value.map(|value| ProgrammedFeed { value, unit_mm });
     }
 
-    /// Any feed may have been programmed.
+    /// Makes all feeds unknown.
     fn havoc_feeds(&mut self) {
         self.functions.feeds = [None; 4];
         self.functions.perhaps_give_feeds();
@@ -780,12 +780,12 @@ impl GFunctions {
         self.feeds[self.feed_place()].map(|feed| feed.value)
     }
 
-    /// The mode in force has a feed that the program does not say.
+    /// Records that the mode in force has a feed that the program does not give.
     pub(crate) fn give_feed(&mut self) {
         self.lacking.give(self.feed_place());
     }
 
-    /// Any mode may have a feed that the program does not say.
+    /// Records that any mode may have a feed that the program does not give.
     pub(crate) fn perhaps_give_feeds(&mut self) {
         self.lacking = LackingFeeds::default();
     }
@@ -832,7 +832,7 @@ impl Modal {
         }
     }
 
-    /// The end of a cycle.
+    /// Restores the saved words at the end of a cycle.
     pub(crate) fn restore(&mut self, saved: &Saved) {
         if self.functions.offset != saved.functions.offset {
             self.havoc_positions();

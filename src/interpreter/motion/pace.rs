@@ -110,18 +110,18 @@ impl Pace {
         plain.then_some(unit * length)
     }
 
-    /// An S word of the main spindle.
+    /// Sets the speed of the main spindle by an S word.
     pub(crate) fn speed(&mut self, value: Option<f64>) {
         self.spindle.speed_per_min = value.filter(|_| !self.spindle.cuts);
     }
 
-    /// G96, G97: the meaning of S.
+    /// Sets the meaning of S: G96, G97.
     pub(crate) fn cut(&mut self, cuts: bool) {
         self.spindle.cuts = cuts;
         self.spindle.speed_per_min = None;
     }
 
-    /// An M function of the main spindle.
+    /// Executes an M function of the main spindle.
     pub(crate) fn m(&mut self, number: i64) {
         match number {
             3 | 4 => self.spindle.stands = false,
@@ -130,7 +130,7 @@ impl Pace {
         }
     }
 
-    /// Another spindle became the main one, or the speed may be any.
+    /// Makes the spindle speed unknown: another spindle became the main one, or the speed may be any.
     pub(crate) fn havoc_spindle(&mut self) {
         self.spindle = Spindle::default();
     }
@@ -149,7 +149,7 @@ impl Pace {
         }
     }
 
-    /// `#OVERRIDE`: changes the overrides that it names.
+    /// Changes the overrides that `#OVERRIDE` names.
     pub(crate) fn override_path(&mut self, change: impl FnOnce(&mut Factors)) {
         change(&mut self.overrides.get_or_insert_default().path);
     }
@@ -160,7 +160,7 @@ impl Pace {
         change(overrides.axes.entry(axis.get()).or_default());
     }
 
-    /// G129: the weight of rapid motions.
+    /// Sets the weight of rapid motions by G129.
     pub(crate) fn weigh_rapid(&mut self, weight: Option<f64>) {
         self.overrides.get_or_insert_default().rapid.rapid = weight;
     }
@@ -293,19 +293,19 @@ impl LackingFeeds {
         }
     }
 
-    /// The mode at a place has a feed from here on.
+    /// Gives the mode at a place a feed from here on.
     pub(crate) fn give(&mut self, place: usize) {
         self.certain &= !(1 << place);
         self.possible &= !(1 << place);
     }
 
-    /// The mode at a place has the feed 0 from here on.
+    /// Gives the mode at a place the feed 0 from here on.
     pub(crate) fn take(&mut self, place: usize) {
         self.certain |= 1 << place;
         self.possible |= 1 << place;
     }
 
-    /// Another way reaches the same block.
+    /// Merges another way that reaches the same block.
     pub(crate) fn join(&mut self, other: Self) {
         self.certain &= other.certain;
         self.possible |= other.possible;

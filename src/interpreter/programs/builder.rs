@@ -445,7 +445,7 @@ impl Builder {
         });
     }
 
-    /// FC208: a block between `$SWITCH` and its first `$CASE`, which no value reaches.
+    /// Reports FC208: a block between `$SWITCH` and its first `$CASE`, which no value reaches.
     fn before_cases(&mut self, block: &Block, at: Statement<'_>) {
         let Some(open) = self.open.last_mut() else {
             return;
@@ -517,7 +517,7 @@ impl Builder {
         self.index.links.insert(at.entry, links);
     }
 
-    /// The innermost open control block of certain kinds.
+    /// Returns the innermost open control block of certain kinds.
     fn innermost(&self, wanted: impl Fn(ControlBlock) -> bool) -> Option<usize> {
         let innermost = self.open.last()?.innermost;
         let kinds = ControlBlock::ALL.into_iter().filter(|kind| wanted(*kind));

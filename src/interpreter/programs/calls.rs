@@ -141,7 +141,7 @@ impl Sites<'_> {
         });
     }
 
-    /// A macro of the channel list, whose code is in no program.
+    /// Adds a macro of the channel list, whose code is in no program.
     fn configured_macro(&mut self, name: &str) {
         let macros = &self.programs.macros;
         if let Some((_, code)) = macros.iter().find(|(it, _)| it == name) {
@@ -157,7 +157,7 @@ impl Sites<'_> {
         }
     }
 
-    /// The calls of a block, without those of its macros.
+    /// Adds the calls of a block, without those of its macros.
     fn own(&mut self, block: &Block, text: &str) {
         for word in block.all_words() {
             self.word(word);
@@ -212,7 +212,7 @@ impl Sites<'_> {
         }
     }
 
-    /// A function, whose number is `None` where it is known only at run time.
+    /// Adds a function, whose number is `None` where it is known only at run time.
     fn function(&mut self, letter: char, number: Option<i64>) {
         if self.by_word.is_empty() {
             return;

@@ -100,7 +100,7 @@ impl ExternalVariables {
         self.names.is_own(name) || self.initialised.is_some() && self.names.may_change(name)
     }
 
-    /// Two ways meet: a variable may have the values that the program set on either.
+    /// Merges another way: a variable may have the values that the program set on either.
     pub(crate) fn join(&mut self, other: &Self) {
         for name in self.held.differing(&other.held) {
             let both = [&*self, other].map(|it| it.held_or_initial(&name));
@@ -203,7 +203,7 @@ impl Memory {
         self.externals.names.may_change(name) && self.given.get(name).is_none()
     }
 
-    /// The program has set a variable, which keeps its value until the PLC acts.
+    /// Holds the value of a variable that the program has set, until the PLC acts.
     pub(crate) fn hold(&mut self, name: &VariableName, at: SetAt) {
         if let Some(known) = self.known(name)
             && self.externals.names.may_change(name)
@@ -223,7 +223,7 @@ impl Memory {
         held.or(initialised)
     }
 
-    /// The PLC may write variables. Returns those of them that were held.
+    /// Lets the PLC write variables, and returns those of them that were held. Returns those of them that were held.
     pub(crate) fn let_change(
         &mut self,
         is_it: impl Fn(&VariableName) -> bool,
@@ -274,7 +274,7 @@ impl Memory {
         }
     }
 
-    /// The PLC may write every variable that `#INIT V.E.` set.
+    /// Ends `#INIT V.E.`: the PLC may write every variable that it set.
     pub(crate) fn end_initialisation(&mut self) {
         self.externals.initialised = None;
     }

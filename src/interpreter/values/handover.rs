@@ -101,7 +101,7 @@ impl VariableUse {
         self.written.add(&other.written);
     }
 
-    /// Anything may be written: the effect of the program is unknown.
+    /// Records that anything may be written: the effect of the program is unknown.
     pub(crate) fn write_anything(&mut self) {
         self.written.anything = true;
     }
@@ -113,7 +113,7 @@ impl VariableUse {
         }
     }
 
-    /// A value is written, or may be.
+    /// Records that a value is written, or may be.
     pub(crate) fn write(&mut self, location: &Location, value: &Value) {
         match location {
             Location::Parameter(Owner::Program, _) => {
@@ -129,7 +129,8 @@ impl VariableUse {
         }
     }
 
-    /// A variable, or an element of an array, of which no value is followed from program to program.
+    /// Records the write of a variable, or of an element of an array, of which no value is followed from program to
+    /// program.
     pub(crate) fn write_name(&mut self, name: &VariableName, value: &Value) {
         let whole = Location::named(name.at(Subscripts::default()));
         if !self.outlives(&whole) {

@@ -268,7 +268,7 @@ impl fmt::Display for Unknown {
 }
 
 impl fmt::Debug for Unknown {
-    /// Its words, as a text.
+    /// Writes its words as a text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:?}", self.to_string())
     }

@@ -152,7 +152,7 @@ impl Memory {
         }
     }
 
-    /// A variable or an array is found: of an array no element is known but those that the user gave.
+    /// Adds a variable or an array that is found: of an array no element is known but those that the user gave.
     fn find_variable(&mut self, name: &VariableName, value: Value) {
         if let Value::Unknown(cause) = &value {
             self.variables.havoc_elements(name.array(), cause);
@@ -184,7 +184,7 @@ impl Memory {
         self.is_found(location) || !(holds || names.get(location.name().array()).is_some())
     }
 
-    /// A value from the user (R2.36). Values that programs write take precedence.
+    /// Sets a value given by the user (R2.36). Values that programs write take precedence.
     pub(crate) fn give(&mut self, name: VariableName, value: Value) {
         if !self.is_written(&name) {
             self.set_variable(&name, value.clone());
@@ -229,7 +229,7 @@ impl Memory {
         }
     }
 
-    /// A variable is not any more as an earlier program left it.
+    /// Records that a variable is no longer as an earlier program left it.
     fn lose_found(&mut self, name: &VariableName) {
         if !self.found.is_empty() {
             self.found.remove(&Location::named(name.clone()));
@@ -269,8 +269,8 @@ impl Memory {
         })
     }
 
-    /// A variable was declared that existed before. Whether the start value replaces its present value is not
-    /// documented, so it is unknown where the two differ (R2.34); the user's value decides.
+    /// Records the declaration of a variable that existed before. Whether the start value replaces its present value is
+    /// not documented, so it is unknown where the two differ (R2.34); the user's value decides.
     pub(crate) fn declare_anew(&mut self, name: &VariableName, before: &NamedVariable) {
         let cause = Unknown::text(name.array());
         self.variables.join_name(name.array(), before, &cause);
@@ -296,7 +296,7 @@ impl Memory {
         self.declared(name).declare_array(name.array(), array);
     }
 
-    /// A variable was declared with a type, where that is certain.
+    /// Records the certain declaration of a variable with a type.
     pub(crate) fn set_declared(&mut self, name: &VariableName, kind: ValueType) {
         let names = self.declared(name);
         names.set_declared(
@@ -389,7 +389,7 @@ impl Memory {
         }
     }
 
-    /// Some element of an array was written, but it is not known which: none is known any more.
+    /// Makes all elements of an array unknown, since it is not known which one was written.
     pub(crate) fn havoc_elements(&mut self, name: &VariableName, cause: &Unknown) {
         let array = name.array();
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
@@ -400,7 +400,7 @@ impl Memory {
         }
     }
 
-    /// Some P parameter was written, but it is not known which: none is known any more.
+    /// Makes all P parameters unknown, since it is not known which one was written.
     fn havoc_parameters(&mut self, cause: &Unknown) {
         self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
@@ -424,7 +424,7 @@ impl Memory {
         }
     }
 
-    /// A missing program may have written what the run never wrote.
+    /// Records that a missing program may have written what the run never wrote.
     pub(crate) fn miss(&mut self, cause: &Unknown) {
         self.lost.get_or_insert_with(|| cause.clone());
         self.unknown_names.get_or_insert_with(|| cause.clone());
@@ -580,15 +580,15 @@ impl Memory {
         }
     }
 
-    /// A macro may have been defined, or redefined (R2.51).
+    /// Records that a macro may have been defined, or redefined (R2.51).
     pub(crate) fn havoc_macro(&mut self, name: &str, cause: &Unknown) {
         if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
     }
 
-    /// Any of the macros may have been taken away, or redefined, except for those that `stays`
-    /// names with their code.
+    /// Records that any of the macros may have been taken away, or redefined, except for those that `stays` names with
+    /// their code.
     pub(crate) fn havoc_macros(&mut self, cause: &Unknown, stays: impl Fn(&str, &str) -> bool) {
         let goes = |(name, code): &(&String, &Value)| match code {
             Value::Text(code) => !stays(name, code),

@@ -375,7 +375,7 @@ impl VariableNames {
     }
 }
 
-/// The value on two ways: unknown where they differ.
+/// Joins the values of two ways: unknown where they differ.
 pub(crate) fn join_value(mine: &mut Option<Value>, theirs: Option<&Value>, cause: &Unknown) {
     let joined = match (mine.as_ref(), theirs) {
         (Some(Value::Unknown(_)), _) => return,

@@ -78,7 +78,7 @@ impl From<&crate::machine::Setting> for Value {
     }
 }
 
-/// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
+/// Returns whether both values count as equal: they differ by less than 0.001 (R2.40; PM/206908427).
 pub(crate) fn same_case(wanted: &Value, value: &Value) -> bool {
     match (wanted, value) {
         (Value::Number(wanted), Value::Number(value)) => (wanted - value).abs() < 0.001,

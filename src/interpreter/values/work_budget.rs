@@ -69,7 +69,7 @@ impl WorkBudget {
         self.ways.get()
     }
 
-    /// A program begins.
+    /// Resets the work on ways at the start of a program.
     pub(crate) fn begin_ways(&self) {
         self.ways.set(0);
     }
@@ -94,7 +94,7 @@ impl WorkBudget {
         }
     }
 
-    /// A block was executed again; `before` is all work before it.
+    /// Counts a block that was executed again; `before` is all work before it.
     #[inline]
     pub(crate) fn repeat(&mut self, weight: u64, said: u64, before: u64) {
         let work = self.spent.get().saturating_sub(before);

@@ -273,7 +273,7 @@ impl History {
         history
     }
 
-    /// A program begins: it finds the states that the one before it left.
+    /// Begins a program, which finds the states that the one before it left.
     pub(crate) fn begin_program(&mut self) {
         self.change_all(|kind| {
             kind.found = None;
@@ -281,7 +281,7 @@ impl History {
         });
     }
 
-    /// A command switches kinds of an axis: on this way it is the last one.
+    /// Records that a command switches kinds of an axis: on this way it is the last one.
     pub(crate) fn switch(&mut self, axis: AxisIndex, selection: Selection, site: BlockSite) {
         let mut switched = KindHistory {
             found: Some(WaySet::never()),
@@ -294,7 +294,7 @@ impl History {
         }
     }
 
-    /// A block may have switched kinds of an axis.
+    /// Records that a block may have switched kinds of an axis.
     pub(crate) fn doubt(
         &mut self,
         (axis, kinds): (AxisIndex, KindSet),
@@ -307,7 +307,7 @@ impl History {
         }
     }
 
-    /// Something other than a command sets kinds of an axis.
+    /// Records that something other than a command sets kinds of an axis.
     pub(crate) fn set(&mut self, axis: AxisIndex, kinds: KindSet) {
         let set = Arc::new(KindHistory {
             found: Some(WaySet::never()),
@@ -318,12 +318,12 @@ impl History {
         }
     }
 
-    /// A restart of the control comes after all blocks.
+    /// Forgets the places of all commands, since a restart of the control comes after all blocks.
     pub(crate) fn forget_sites(&mut self) {
         self.change_all(|kind| kind.sites = Default::default());
     }
 
-    /// The states of kinds of an axis are known, or may be any on any way.
+    /// Ends the distinction of ways by the states of kinds of an axis, which are known, or may be any on any way.
     pub(crate) fn close(&mut self, axis: AxisIndex, kinds: KindSet) {
         for kind in kinds.iter() {
             if self.states(axis, kind).is_some() {
@@ -332,12 +332,12 @@ impl History {
         }
     }
 
-    /// The states of all kinds of all axes are known, or may be any on any way.
+    /// Ends the distinction of ways by the states of all kinds of all axes.
     pub(crate) fn close_all(&mut self) {
         self.change_all(|kind| kind.states = None);
     }
 
-    /// A kind of an axis has either state, each on its ways.
+    /// Gives a kind of an axis either state, each on its ways.
     pub(crate) fn open(&mut self, axis: AxisIndex, kind: Kind, split: Split) {
         self.change((axis, kind), |it| it.states = Some(split));
     }
@@ -409,7 +409,7 @@ impl History {
         repeated
     }
 
-    /// The run continues on some ways only: whatever they all agree on is known.
+    /// Restricts the history to some ways: whatever they all agree on is known.
     pub(crate) fn narrow(&mut self, ways: &WaySet, compensation: &mut Compensation) {
         let known: Vec<(AxisKind, Membership)> = self
             .open_kinds()
@@ -421,7 +421,7 @@ impl History {
         }
     }
 
-    /// A condition is asked again.
+    /// Forgets the answer to a condition, which is asked again.
     pub(crate) fn havoc(&mut self, condition: u32) {
         for kind in self.0.values_mut() {
             if kind
@@ -526,7 +526,7 @@ pub(crate) struct BlockSite {
 }
 
 impl PartialEq for BlockSite {
-    /// A block that a loop repeats counts as equal.
+    /// Compares two blocks; one that a loop repeats counts as equal.
     fn eq(&self, other: &Self) -> bool {
         self.place == other.place
     }

@@ -39,7 +39,7 @@ pub(crate) struct OtherPaths {
 }
 
 impl OtherPaths {
-    /// The paths on which the run goes on elsewhere than after a block that it passes over wait there.
+    /// Lets the paths wait on which the run goes on elsewhere than after a block that it passes over.
     #[inline]
     pub(crate) fn let_leave(&mut self, here: &mut Executor) {
         if !here.scratch.left.is_empty() {
@@ -97,7 +97,7 @@ impl WaitingPaths {
         std::mem::take(&mut self.0)
     }
 
-    /// A way waits, after those that wait at the same block.
+    /// Adds a way that waits, after those that wait at the same block.
     pub(crate) fn push(&mut self, path: Path) {
         let frames = &path.control.frames;
         let is_later = |it: &Path| frames.order_of_execution(&it.control.frames).is_lt();
@@ -314,7 +314,7 @@ impl CallEffect {
         Arrival::Grown
     }
 
-    /// A way comes back from the last call.
+    /// Takes back a way that comes from the last call.
     pub(crate) fn come_back(&mut self, way: Path, cause: &Unknown) {
         match &mut self.exit {
             Some(exit) => _ = exit.join(way, cause),

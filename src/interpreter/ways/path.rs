@@ -107,7 +107,7 @@ impl ValueBefore {
 }
 
 impl AssumedValues {
-    /// A value that applies on this way from here on.
+    /// Assumes a value that applies on this way from here on.
     pub(crate) fn assume(&mut self, memory: &mut Memory, target: &Location, value: Value) {
         let before = match target {
             Location::Parameter(Owner::Program, index) => {
@@ -194,7 +194,7 @@ fn value_of(memory: &Memory, target: &Location) -> Option<Value> {
 }
 
 impl RunTrack {
-    /// A value is written: conclusions about it from conditions no longer apply.
+    /// Drops conclusions from conditions about a value that is written.
     #[inline]
     pub(crate) fn write(&mut self, location: &Location, memory: &mut Memory) {
         if !self.readings.is_empty() {
@@ -215,14 +215,14 @@ impl RunTrack {
             .retain(|asked| !asked.meaning.reads.contains(location));
     }
 
-    /// Anything may be written.
+    /// Drops all conclusions, since anything may be written.
     pub(crate) fn write_anything(&mut self, memory: &mut Memory) {
         self.assumed.undo(memory);
         self.asked.clear();
         self.readings.clear();
     }
 
-    /// Another program runs, with its own parameters and variables.
+    /// Drops conclusions about the parameters and variables of the level, since another program runs.
     pub(crate) fn change_level(&mut self, depth: usize) {
         let is_own = |target: &Location| match target {
             Location::Parameter(owner, _) => *owner == Owner::Call,
@@ -235,7 +235,7 @@ impl RunTrack {
         self.open_loops.retain(|(of, ..)| *of <= depth);
     }
 
-    /// Another way reaches the same block.
+    /// Merges another way that reaches the same block.
     fn join(&mut self, other: &Self) {
         let Self {
             loops,
@@ -372,7 +372,7 @@ impl Path {
 }
 
 impl RunState {
-    /// An error ends a way. Ways that it ends at one block, in passes of a loop, are kept as one.
+    /// Ends a way by an error. Ways that it ends at one block, in passes of a loop, are kept as one.
     pub(crate) fn end_way(&mut self, way: EndedPath) {
         let mut ended = self.ended.iter_mut().rev();
         let is_same = |it: &&mut EndedPath| {
@@ -575,7 +575,7 @@ pub(crate) struct Shadow {
 }
 
 impl Shadow {
-    /// Another way reaches the same block: they are followed if one of them is.
+    /// Merges another way that reaches the same block: they are followed if one of them is.
     pub(crate) fn join(&mut self, other: &Self) {
         if other.until.is_none() {
             self.until = None;
@@ -597,8 +597,8 @@ impl RunTrack {
         self.shadow.moves_alone || !self.shadow.moved.is_empty()
     }
 
-    /// A shadow that has come to the block at which the sides of its question meet is followed again, and so is the last
-    /// way that is left.
+    /// Follows a shadow again that has come to the block at which the sides of its question meet, and so the last way
+    /// that is left.
     #[inline]
     pub(crate) fn follow_again(&mut self, frames: &CallStack, is_last: bool) {
         let Some(meeting) = self.shadow.until else {

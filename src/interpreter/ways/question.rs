@@ -298,7 +298,8 @@ impl RememberedConditions {
         clashes
     }
 
-    /// The program waits for values to change, or may: it asks again in a loop.
+    /// Drops the conditions that read a value for whose change the program waits; without a condition that asks for it,
+    /// all of them.
     pub(crate) fn wait_for(&mut self, asking: Option<&Asking>) {
         match asking {
             None => self.0.clear(),
@@ -315,7 +316,7 @@ impl RememberedConditions {
         }
     }
 
-    /// The program writes a value.
+    /// Drops the conditions that read a value that the program writes.
     pub(crate) fn write(&mut self, location: &Location) {
         match location {
             Location::Elements(_) | Location::Parameters => {
@@ -325,12 +326,12 @@ impl RememberedConditions {
         }
     }
 
-    /// The control does something: moves, changes tools.
+    /// Drops the conditions that an action of the control may change: a motion, a tool change.
     pub(crate) fn act(&mut self) {
         self.0.retain(|it| it.writer != Writer::Control);
     }
 
-    /// Some values differ from here on.
+    /// Drops the conditions that read any of the values that differ from here on.
     pub(crate) fn havoc(&mut self, is_other: impl Fn(&Location) -> bool) {
         self.0.retain(|it| !it.meaning.reads.iter().any(&is_other));
     }
@@ -348,7 +349,7 @@ impl RememberedConditions {
         self.0.iter().map(|it| it.condition)
     }
 
-    /// Two ways meet: a condition that only one of them asked counts if the other names no answer to it.
+    /// Merges another way: a condition that only one of them asked counts if the other names no answer to it.
     pub(crate) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
         let [mine, theirs] = named;
         let is_only_mine = |it: &Arc<RememberedCondition>| !theirs.contains(&it.condition);

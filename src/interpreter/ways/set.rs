@@ -163,7 +163,7 @@ impl WaySet {
         self
     }
 
-    /// The ways on which at least one of both holds.
+    /// Adds the ways on which the other one holds.
     pub(crate) fn or(&mut self, other: &Self) {
         if !self.is_always() {
             let mut either = Reduction::of_reduced(std::mem::take(&mut self.0));

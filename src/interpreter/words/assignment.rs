@@ -50,7 +50,7 @@ impl Executor {
         Ok(())
     }
 
-    /// P-ERR-20933: a `V.CYC.` variable of an outer level is deleted (R2.102).
+    /// Reports P-ERR-20933: a `V.CYC.` variable of an outer level is deleted (R2.102).
     fn refuse_outer(
         &mut self,
         name: &VariableName,
@@ -69,7 +69,7 @@ impl Executor {
         Ok(())
     }
 
-    /// P-ERR-21772: a `V.I.` array is declared with other dimensions than it has (R2.102).
+    /// Reports P-ERR-21772: a `V.I.` array is declared with other dimensions than it has (R2.102).
     fn refuse_other_shape(
         &mut self,
         name: &VariableName,
@@ -169,7 +169,7 @@ impl Executor {
         held.unwrap_or_else(|| Value::Unknown(Unknown::text(name.array())))
     }
 
-    /// FC328: a `V.I.` variable that may exist is declared with a value (R2.102).
+    /// Reports FC328: a `V.I.` variable that may exist is declared with a value (R2.102).
     fn warn_kept(
         &mut self,
         name: &VariableName,
@@ -185,7 +185,7 @@ impl Executor {
         }
     }
 
-    /// P-ERR-20909: a variable is declared again in its level (R2.102).
+    /// Reports P-ERR-20909: a variable is declared again in its level (R2.102).
     fn refuse_second(
         &mut self,
         name: &VariableName,
@@ -262,7 +262,7 @@ impl Executor {
 }
 
 impl RunState {
-    /// Something is declared or deleted.
+    /// Records that something is declared or deleted.
     fn write_anything(&mut self) {
         let (control, track) = (&mut self.control, &mut self.track);
         track.write_anything(&mut control.memory);
@@ -510,7 +510,7 @@ impl Executor {
         }
     }
 
-    /// FC322: the effect of an assignment to such a variable is not known.
+    /// Reports FC322: the effect of an assignment to such a variable is not known.
     pub(crate) fn warn_own(&mut self, place: Option<&Denoted>, span: Span, at: &BlockContext<'_>) {
         let Some(name) = place.and_then(Denoted::variable) else {
             return;
@@ -535,7 +535,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// Something may have written such a variable: its value is not known any more.
+    /// Makes such a variable unknown, since something may have written it.
     fn havoc_own(&mut self, own: OwnVariable) {
         match own {
             OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
@@ -613,7 +613,7 @@ impl Executor {
         Ok(value)
     }
 
-    /// FC328: no program of the run declares a `V.I.` variable (R2.102).
+    /// Reports FC328: no program of the run declares a `V.I.` variable (R2.102).
     fn miss_internal(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         let what = format!("no program of this run declares `{name}`");
         self.may_refuse(20392, &what, span, at);
@@ -709,8 +709,8 @@ impl Executor {
 }
 
 impl Executor {
-    /// FC412, FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and a `V.E.`
-    /// variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
+    /// Reports FC412 or FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and
+    /// a `V.E.` variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
     fn read_flushes(&mut self, name: &VariableName, at: &BlockContext<'_>) {
         // One answer holds for all elements of an array.
         let written = name.array().to_owned();

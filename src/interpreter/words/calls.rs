@@ -228,7 +228,7 @@ impl Executor {
         })
     }
 
-    /// FC329: other files have the name of the called program (R2.108).
+    /// Reports FC329: other files have the name of the called program (R2.108).
     fn tell_others(
         &mut self,
         wanted: &WantedCall,
@@ -255,7 +255,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// FC902: the program that is called may be another one on the machine (R2.108).
+    /// Reports FC902: the program that is called may be another one on the machine (R2.108).
     fn call_unknown(&mut self, wanted: &WantedCall, why: &str, at: &BlockContext<'_>) {
         let cause = Unknown::Program(wanted.missing());
         self.havoc_by_call(&cause);
@@ -268,7 +268,8 @@ impl Executor {
         self.tell_once(&cause, "call", fault, at);
     }
 
-    /// P-ERR-21381: a cycle is called while a modal one is in force (R2.104). Returns whether that stops the program.
+    /// Reports P-ERR-21381: a cycle is called while a modal one is in force (R2.104). Returns whether that stops the
+    /// program.
     fn is_refused_in_cycle(&mut self, span: Span, at: &BlockContext<'_>) -> bool {
         let cycles = self.state.control.cycles.known();
         if cycles.is_empty() {
@@ -291,7 +292,7 @@ impl Executor {
         true
     }
 
-    /// A program that only the machine has (R2.83): whatever it may change is unknown after it.
+    /// Passes over a program that only the machine has (R2.83): whatever it may change is unknown after it.
     fn pass_over_external(&mut self, wanted: WantedCall, at: &BlockContext<'_>) {
         let program = wanted.missing();
         let name = wanted.name;
@@ -335,7 +336,7 @@ impl Executor {
         }
     }
 
-    /// FC325: no program is known for a word that calls one; once per word and program (R2.94).
+    /// Reports FC325: no program is known for a word that calls one; once per word and program (R2.94).
     fn warn_without_program(&mut self, word: &str, then: &str, span: Span, at: &BlockContext<'_>) {
         if !self.state.is_new_word(word) {
             return;
@@ -686,8 +687,8 @@ fn not_kept(name: &LabelName, span: Span, then: &str) -> Fault {
 }
 
 impl BlockScratch {
-    /// FC317: the control warns and returns to the main program (PM/206781707). A subprogram that is
-    /// run by itself is not a main program.
+    /// Reports FC317: the control warns and returns to the main program (PM/206781707). A subprogram that is run by
+    /// itself is not a main program.
     fn warn_too_many_jumps(&mut self, number: u32, here: u32, span: Span, at: &BlockContext<'_>) {
         if here == 0 || number <= here {
             return;

@@ -19,7 +19,7 @@ use crate::syntax::ast::{Argument, BracketArguments, Hash};
 use crate::text::Span;
 
 impl Executor {
-    /// The control does not change a group that is in force.
+    /// Defines a coupling group; the control does not change one that is in force.
     pub(crate) fn define_coupling(
         &mut self,
         by: MembersBy,
@@ -108,7 +108,7 @@ impl Executor {
         }
     }
 
-    /// `#GEAR LINK [TARGET=X AX1=Y NUM1=1 DENOM1=2]` (PM/546229387), `#CAXTRACK ON [AX=C]`.
+    /// Links a gear: `#GEAR LINK [TARGET=X AX1=Y NUM1=1 DENOM1=2]` (PM/546229387), `#CAXTRACK ON [AX=C]`.
     fn link_gear(&mut self, arguments: &BracketArguments, switch: OnOff, at: &BlockContext<'_>) {
         let axes = self.axes();
         let after = |key| {
@@ -139,7 +139,7 @@ impl Executor {
         }
     }
 
-    /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531).
+    /// Couples an axis to its master by `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531).
     pub(crate) fn gear_in(
         &mut self,
         axis: AxisIndex,
@@ -249,8 +249,7 @@ impl Executor {
         }
     }
 
-    /// Friction compensation of an axis is that of the start of the control, where the machine is read
-    /// so.
+    /// Returns friction compensation of an axis to that of the start of the control, where the machine is read so.
     pub(crate) fn return_to_start(&mut self, axis: AxisIndex) {
         let start = self.machine.compensation();
         let kinds = KindSet::of(Kind::Frict);
@@ -262,7 +261,7 @@ impl Executor {
             .return_to(&start, (axis, kinds), changes);
     }
 
-    /// FC328: an axis or a name is asked for twice, or a name that the channel has (R2.106).
+    /// Reports FC328: an axis or a name is asked for twice, or a name that the channel has (R2.106).
     fn check_request<'n>(
         &mut self,
         name: &'n str,
@@ -289,7 +288,7 @@ impl Executor {
         }
     }
 
-    /// FC902: the axes of the machine have no numbers, so that the meaning of a name is not known (R2.106).
+    /// Reports FC902: the axes of the machine have no numbers, so that the meaning of a name is not known (R2.106).
     fn say_without_number(&mut self, name: &str, at: &BlockContext<'_>) {
         if self.machine.axes.iter().all(|axis| axis.number.is_some()) {
             return;

@@ -252,7 +252,7 @@ impl Executor {
         after
     }
 
-    /// P-ERR-20375: an `$IF` has no `$ENDIF`.
+    /// Reports P-ERR-20375: an `$IF` has no `$ENDIF`.
     fn warn_unclosed(&mut self, span: Span, at: &BlockContext<'_>) {
         let message = "this `$IF` has no `$ENDIF`: where its condition is true the control goes on with a warning, where it is \
                        false it skips the rest of the text and stops at its end";
@@ -445,7 +445,7 @@ impl Executor {
         }
     }
 
-    /// P-ERR-21480, FC328: the control refuses a jump within a loop (R2.103).
+    /// Reports P-ERR-21480 or FC328: the control refuses a jump within a loop (R2.103).
     pub(crate) fn check_jump(
         &mut self,
         to: EntryIndex,

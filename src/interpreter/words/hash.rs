@@ -93,7 +93,8 @@ impl Executor {
         Ok(())
     }
 
-    /// FC328, P-ERR-51081: a command that flushes the channel where the control refuses that (R2.109, R2.111).
+    /// Reports FC328 or P-ERR-51081: a command that flushes the channel where the control refuses that (R2.109,
+    /// R2.111).
     fn check_flushing(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let command = hash.command;
         if command.has(FurtherWord::Continue) {
@@ -110,7 +111,7 @@ impl Executor {
         Ok(())
     }
 
-    /// `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
+    /// Executes `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
     fn skip_backward(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if hash.command.has(FurtherWord::On) && hash.brackets.has("SIMULATE", at.text) {
             let what = "`#OPTIONAL EXECUTION ON` has `APPROACH SIMULATE`";
@@ -138,7 +139,7 @@ impl Executor {
         )))
     }
 
-    /// A command that is passed over, apart from its effects on what is followed.
+    /// Passes over a command, apart from its effects on what is followed.
     fn pass_over_command(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let (command, name) = (hash.command, hash.name.as_str());
         self.state.control.modal.hash(command);
@@ -210,7 +211,7 @@ impl Executor {
         }
     }
 
-    /// FC902: the effect of the command is not documented, so states became unknown.
+    /// Reports FC902: the effect of the command is not documented, so states became unknown.
     fn say_undescribed(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let doubted = self.scratch.doubted.iter();
         let names = doubted.map(|(axis, _)| format!("`{}`", self.machine.axis(*axis).name));
@@ -234,7 +235,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// FC314: the whole axis list is transferred again (R2.92).
+    /// Reports FC314: the whole axis list is transferred again (R2.92).
     fn write_machine_data(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let lost = self.transferred(hash, at);
         let enables = enables(&hash.brackets, at.text);
@@ -292,7 +293,8 @@ impl Executor {
         self.scratch.messages.diagnostics.push(diagnostic);
     }
 
-    /// The program writes a parameter of the friction compensation of an axis: what `COMP ON` does from here on is open.
+    /// Makes the effect of `COMP ON` uncertain, since the program writes a parameter of the friction compensation of an
+    /// axis.
     fn rewrite_friction(&mut self, axis: AxisIndex, enables: bool) {
         let compensation = &mut self.state.control.compensation;
         if enables || compensation.is_configured(axis, Kind::Frict) {
@@ -302,7 +304,7 @@ impl Executor {
         }
     }
 
-    /// `#RT WHILE` runs as long as its condition on a real-time variable holds (tf5261, 783727499).
+    /// Opens a loop `#RT WHILE`, which runs as long as its condition on a real-time variable holds (tf5261, 783727499).
     fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>) {
         let whole = self.position().current_block();
         if !whole.is_empty() {
@@ -313,7 +315,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// The running cycle keeps its changes to G functions and feed.
+    /// Lets the running cycle keep its changes to G functions and feed.
     fn retain_cycle_changes(&mut self) {
         if let Some(frame) = self.frames.cycle_mut() {
             frame.restores = None;
@@ -322,7 +324,8 @@ impl ControlState {
 }
 
 impl Executor {
-    /// The condition holds after the block, and its plain conclusions are held as values that the program set.
+    /// Executes a wait: the condition holds after the block, and its plain conclusions are held as values that the
+    /// program set.
     pub(crate) fn wait_for(
         &mut self,
         hash: &Hash,
@@ -361,7 +364,7 @@ impl Executor {
         Ok(())
     }
 
-    /// FC909: nothing that the condition reads can change while the program waits.
+    /// Reports FC909: nothing that the condition reads can change while the program waits.
     fn wait_for_ever(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let condition = hash.code(at.text);
         let condition = condition.trim();
@@ -402,7 +405,7 @@ impl Executor {
         }
     }
 
-    /// The result of `#FILE EXIST`: 1 for a file that is here. One that is not here may be on the machine.
+    /// Sets the result of `#FILE EXIST`: 1 for a file that is here. One that is not here may be on the machine.
     #[cold]
     pub(crate) fn look_for_file(
         &mut self,

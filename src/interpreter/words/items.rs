@@ -245,8 +245,8 @@ impl Executor {
         }
     }
 
-    /// A condition that cannot be computed: what depends on it is unknown, and is not reported again
-    /// (R2.51, R2.71).
+    /// Reports a condition that cannot be computed: what depends on it is unknown, and is not reported again (R2.51,
+    /// R2.71).
     fn undecidable(&mut self, fault: Fault, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if self.options.stop == StopPolicy::FirstError {
             return Err(Box::new(fault));
@@ -256,7 +256,7 @@ impl Executor {
         Ok(())
     }
 
-    /// A macro in place of words: its code is a separate block, executed here (R2.35).
+    /// Executes the code of a macro in place of words, as a separate block (R2.35).
     fn expand(&mut self, span: Span, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let name = unquoted(span.of(at.text));
         let code = match self.state.control.memory.macro_code(name) {

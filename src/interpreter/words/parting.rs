@@ -40,7 +40,7 @@ enum ConditionalJump {
 }
 
 impl Executor {
-    /// The run parts at a condition: where it holds and where it does not. Whether it can.
+    /// Parts the run at a condition: where it holds and where it does not. Returns whether it can be parted.
     pub(crate) fn part_at(
         &mut self,
         condition: Operand,
@@ -147,7 +147,7 @@ impl Executor {
         }
     }
 
-    /// The same where the counter of a `$FOR` decides.
+    /// Parts the run in the same way where the counter of a `$FOR` decides.
     pub(crate) fn part_at_count(
         &mut self,
         (cause, statement): (&Unknown, &str),
@@ -166,7 +166,7 @@ impl Executor {
         self.part(question, goals.into(), at)
     }
 
-    /// The run parts at `$IF … $GOTO`.
+    /// Parts the run at `$IF … $GOTO`.
     pub(crate) fn part_at_jump(
         &mut self,
         condition: Operand,
@@ -208,7 +208,7 @@ impl Executor {
         self.part_at(condition, doubt, asked, [goal, Goal::block(next)], at)
     }
 
-    /// The run parts at a `$IF … $GOTO` whose condition cannot be computed.
+    /// Parts the run at a `$IF … $GOTO` whose condition cannot be computed.
     pub(crate) fn part_at_undecided_jump(
         &mut self,
         (cause, place): (Unknown, Span),
@@ -221,7 +221,7 @@ impl Executor {
         }
     }
 
-    /// The run parts at a question of which only the value that decides is known.
+    /// Parts the run at a question of which only the value that decides is known.
     fn part_by_cause(
         &mut self,
         kind: ConditionKind,
@@ -240,7 +240,7 @@ impl Executor {
         self.part(question, goals, at);
     }
 
-    /// The run parts at a `$SWITCH` whose cases are not known, or at such a case: it may go on at each of them.
+    /// Parts the run at a `$SWITCH` whose cases are not known, or at such a case: it may go on at each of them.
     pub(crate) fn part_at_unknown_case(
         &mut self,
         flow: &Flow,
@@ -315,7 +315,7 @@ impl Executor {
         matches!(jump, ConditionalJump::To(goal, _) if goal.labels.is_none() && goal.to < next)
     }
 
-    /// The run parts where a jump computes its target: one way for each label that it may mean.
+    /// Parts the run where a jump computes its target: one way for each label that it may mean.
     pub(crate) fn part_at_target(
         &mut self,
         target: &BlockReference,
@@ -371,7 +371,7 @@ impl Executor {
         self.part(question, goals, at);
     }
 
-    /// FC902: a jump that may go to any label of its program, on ways that are not told apart.
+    /// Reports FC902: a jump that may go to any label of its program, on ways that are not told apart.
     fn tell_any_label(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
         if self.scratch.read.unread.get() {
             return;
@@ -384,7 +384,7 @@ impl Executor {
         self.tell_once(cause, "label", fault, at);
     }
 
-    /// The run parts where a probe answers, or does not (R2.91).
+    /// Parts the run where a probe answers, or does not (R2.91).
     pub(crate) fn part_at_probe(&mut self, place: Span, at: &BlockContext<'_>) {
         let Some((goal, span)) = self.possible_jump(place, at) else {
             return;
@@ -401,7 +401,8 @@ impl Executor {
         self.part(question, goals, at);
     }
 
-    /// An M function of which only the machine knows the number may end the program or return from it.
+    /// Parts the run at an M function of which only the machine knows the number: it may end the program or return from
+    /// it.
     pub(crate) fn part_at_unknown_m(&mut self, span: Span, at: &BlockContext<'_>) {
         let question = |what: &str| MachineQuestion {
             kind: ConditionKind::Stop,
@@ -705,8 +706,9 @@ impl Executor {
     }
 }
 
-/// G310 measures, and `$GOTO` in its block is taken if the probe answers (TF5200 Programming manual,
-/// 206197003). Its effect with the other measuring functions is not documented; they wait for the probe, too.
+/// Returns whether a G function measures. With G310, `$GOTO` in its block is taken if the probe answers (TF5200
+/// Programming manual, 206197003). Its effect with the other measuring functions is not documented; they wait for the
+/// probe, too.
 fn measures(number: f64) -> bool {
     GFunction::of_value(number).is_some_and(GFunction::is_measuring)
 }

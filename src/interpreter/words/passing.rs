@@ -323,7 +323,7 @@ impl EffectReader<'_> {
         }
     }
 
-    /// A word of an axis, or one that stays in force.
+    /// Adds a word of an axis, or one that stays in force.
     fn axis_word(&mut self, name: &str) {
         let control = &self.run.state.control;
         match self.run.axes().named(name) {
@@ -361,7 +361,7 @@ impl EffectReader<'_> {
         }
     }
 
-    /// The code of a macro, once however often it is used: macros that use each other would be read endlessly.
+    /// Adds the code of a macro, once however often it is used: macros that use each other would be read endlessly.
     fn expand(&mut self, used: Span, at: &BlockContext<'_>) {
         let name = unquoted(used.of(at.text)).trim().to_owned();
         if !self.effects.used_macros.insert(name.clone()) {
@@ -401,7 +401,7 @@ impl EffectReader<'_> {
         }
     }
 
-    /// The possible targets of an assignment. A place that has to be computed may be different each time.
+    /// Adds the possible targets of an assignment. A place that has to be computed may be different each time.
     fn assigns(&mut self, place: Expression, at: &BlockContext<'_>) {
         let Some(root) = place.end.checked_sub(1) else {
             return;
@@ -528,7 +528,7 @@ impl Executor {
         blocks.end
     }
 
-    /// The run may go on at another block than the one after those that are passed over.
+    /// Lets the run possibly go on at another block than the one after those that are passed over.
     fn perhaps_leave(&mut self, exit: EntryIndex, after: EntryIndex, unit: usize) {
         let mut way = Path {
             control: self.state.control.clone(),
@@ -729,7 +729,7 @@ impl Executor {
         ends
     }
 
-    /// The program may end at a block in the state in which it goes on.
+    /// Lets the program possibly end at a block in the state in which it goes on.
     fn may_end_at(&mut self, place: Option<Place>, by: EndedBy) {
         if by == EndedBy::Error && self.options.stop == StopPolicy::KeepGoing {
             return;
@@ -750,7 +750,7 @@ impl Executor {
         self.version += 1;
     }
 
-    /// The program ends at the block on some ways.
+    /// Ends the program at the block on some ways.
     pub(crate) fn end_on(&mut self, ways: WaySet, at: &BlockContext<'_>) {
         let here = (self.state.control.clone(), self.state.track.clone());
         self.state.go_on_with(ways);
@@ -780,7 +780,7 @@ impl Executor {
         named.collect()
     }
 
-    /// FC901: a control block that cannot be followed is passed over, which leaves kinds unknown.
+    /// Reports FC901: a control block that cannot be followed is passed over, which leaves kinds unknown.
     fn tell_passed(&mut self, cause: &Unknown, before: &[KindSet], mut said: Diagnostic) {
         let named = self.newly_unknown(before);
         let is_new = !named.is_empty()

@@ -128,8 +128,8 @@ pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayA
 }
 
 impl Executor {
-    /// The run parts at a question: one way for each answer. A further question of a block is asked where the answers to
-    /// those before it let the run go on. Returns whether it parts; it does not where one way is followed that the
+    /// Parts the run at a question: one way for each answer. A further question of a block is asked where the answers
+    /// to those before it let the run go on. Returns whether it parts; it does not where one way is followed that the
     /// program itself decides, unless the PLC interferes.
     pub(crate) fn part(
         &mut self,
@@ -354,7 +354,7 @@ impl Executor {
         }
     }
 
-    /// The states of a kind on the ways that lead here: a test of it tells them apart (R14.1).
+    /// Parts the states of a kind on the ways that lead here: a test of it tells them apart (R14.1).
     pub(crate) fn part_by_state(
         &mut self,
         (axis, kind): (AxisIndex, Kind),
@@ -512,7 +512,7 @@ impl Executor {
         self.join_earlier(condition, before);
     }
 
-    /// The states are those of an earlier block where a condition does not hold.
+    /// Joins the states of an earlier block where a condition does not hold.
     pub(crate) fn join_earlier(&mut self, condition: u32, earlier: &EarlierStates) {
         let reach = &self.state.track.reach;
         let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
@@ -650,7 +650,7 @@ impl Executor {
         }
     }
 
-    /// The PLC acts by design: every value that the program shares with it may be another one.
+    /// Lets the PLC act by design: every value that the program shares with it may be another one.
     #[inline]
     pub(crate) fn let_plc_act(&mut self) {
         let RunState { control, track, .. } = &self.state;
@@ -660,7 +660,7 @@ impl Executor {
         }
     }
 
-    /// The PLC may write variables.
+    /// Lets the PLC write variables.
     #[cold]
     pub(crate) fn let_plc_write(&mut self, is_it: impl Fn(&VariableName) -> bool) {
         let RunState { control, track, .. } = &mut self.state;
@@ -727,8 +727,8 @@ impl Executor {
         self.value(condition, at)
     }
 
-    /// A value of the machine has another answer each time: what earlier conditions said of those that this one asks for
-    /// does not decide it (R14.1).
+    /// Asks a condition on a value of the machine anew, which has another answer each time: what earlier conditions
+    /// said of the values that this one asks for does not decide it (R14.1).
     fn ask_anew(&mut self, condition: Operand, at: &BlockContext<'_>) {
         let RunState { control, track, .. } = &mut self.state;
         if let Operand::Expression(expression) = condition

@@ -51,7 +51,7 @@ pub(crate) enum StopScope {
 }
 
 impl Executor {
-    /// The program reports an error of its own. With the class 0 it goes on.
+    /// Executes an error that the program reports by itself. With the class 0 it goes on.
     pub(crate) fn report_error(
         &mut self,
         hash: &Hash,
@@ -117,7 +117,7 @@ impl Executor {
         Ok(())
     }
 
-    /// An error ends the program where the first answer to a question is given. Returns whether it ends on all ways.
+    /// Ends the program by an error where the first answer to a question is given. Returns whether it ends on all ways.
     pub(crate) fn refused_where(
         &mut self,
         question: MachineQuestion,
@@ -165,7 +165,7 @@ impl Executor {
         })
     }
 
-    /// An error ends the program at the block, or it goes on, which only the machine knows: both ways are followed.
+    /// Follows both ways where only the machine knows whether an error ends the program at the block.
     pub(crate) fn perhaps_stop(
         &mut self,
         (error, scope): (Unknown, StopScope),
@@ -193,8 +193,8 @@ impl Executor {
         self.perhaps_end(ways, AfterError::Reset, at);
     }
 
-    /// The program ends here on some ways that lead to the block, and goes on on the others. Returns whether it ends on
-    /// all ways.
+    /// Ends the program here on some ways that lead to the block, and lets it go on on the others. Returns whether it
+    /// ends on all ways.
     fn perhaps_end(
         &mut self,
         [ends, goes_on]: [WaySet; 2],
@@ -267,7 +267,7 @@ impl PossibleRefusal {
 }
 
 impl Executor {
-    /// FC328: the control may refuse the block with an error; once a program for each text.
+    /// Reports FC328: the control may refuse the block with an error; once a program for each text.
     #[cold]
     pub(crate) fn may_refuse(
         &mut self,
@@ -281,7 +281,7 @@ impl Executor {
         self.may_refuse_with(refusal, what, asked, span, at);
     }
 
-    /// FC328: something flushes the channel where the control may refuse that (R2.111).
+    /// Reports FC328: something flushes the channel where the control may refuse that (R2.111).
     pub(crate) fn check_flush(
         &mut self,
         flushes: Flushes,
@@ -308,7 +308,7 @@ impl Executor {
         self.may_refuse_with(refusal, &what, asked, span, at);
     }
 
-    /// FC328 for a variable that no `#VAR` declares: the control has one answer for all of them (R2.102).
+    /// Reports FC328 for a variable that no `#VAR` declares: the control has one answer for all of them (R2.102).
     #[cold]
     pub(crate) fn miss_declaration(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         let what = format!("`{name}` is written without a declaration in `#VAR`");
@@ -398,8 +398,8 @@ impl MentionedUnknowns {
 }
 
 impl Executor {
-    /// An error ends some of the ways that lead to the block: they end the program here. With
-    /// [`StopPolicy::KeepGoing`] nothing does, as if the failing command were not there (R9.20).
+    /// Ends some of the ways that lead to the block by an error, and with them the program. With
+    /// [`StopPolicy::KeepGoing`] they continue, as if the failing command were not there (R9.20).
     #[cold]
     pub(crate) fn stop_on(&mut self, ways: &WaySet, after: AfterError, at: &BlockContext<'_>) {
         if self.options.stop == StopPolicy::KeepGoing {
@@ -454,8 +454,8 @@ impl Executor {
         }
     }
 
-    /// Where the run goes on after errors, one ends the program on all ways that lead to the block; what follows is
-    /// then executed as if the failing command were not there (R9.20).
+    /// Ends the program by an error on all ways that lead to the block; where the run goes on after errors, what
+    /// follows is executed as if the failing command were not there (R9.20).
     #[cold]
     pub(crate) fn fail(&mut self, after: AfterError, at: &BlockContext<'_>) {
         if self.options.stop == StopPolicy::CheckAll && self.state.track.failed.is_none() {
@@ -466,7 +466,7 @@ impl Executor {
         }
     }
 
-    /// The same where a message on the block is about an error of the control.
+    /// Ends the program in the same way where a message on the block is about an error of the control.
     #[cold]
     pub(crate) fn fail_if_refused(&mut self, at: &BlockContext<'_>) {
         let mut said = self.scratch.messages.diagnostics.iter();

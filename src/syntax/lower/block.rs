@@ -66,7 +66,7 @@ pub(crate) fn read_as(
     lowering.finish();
 }
 
-/// A block that is not read: the control may read it, so it may do anything (R2.70).
+/// Gives up a block that is not read: the control may read it, so it may do anything (R2.70).
 fn give_up(fault: Fault, block: &mut Block) {
     block
         .items
@@ -81,7 +81,8 @@ fn too_much_to_read(span: Span) -> Fault {
 }
 
 impl BlockLowering<'_> {
-    /// A skip mark with a level that does not exist skips nothing: it is a mistake regardless of the switches (R2.3).
+    /// Reads a skip mark; one with a level that does not exist skips nothing: it is a mistake regardless of the
+    /// switches (R2.3).
     fn skip_mark(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let level = pair.into_inner().next();
         let named = level.map_or("1", |level| level.as_str());
@@ -175,7 +176,7 @@ pub(super) struct BlockLowering<'a> {
 }
 
 impl BlockLowering<'_> {
-    /// A label comes before everything else; a bracket after words is not a label (R2.70).
+    /// Reads a label, which comes before everything else; a bracket after words is not a label (R2.70).
     pub(super) fn label(&mut self, name: Span, span: Span) {
         if self.block.words.is_empty() && self.block.items.is_empty() {
             self.block.items.push(Item::Label(name));
@@ -184,7 +185,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// Text with the form of the language, but no known meaning (R2.70).
+    /// Records text with the form of the language, but no known meaning (R2.70).
     pub(super) fn unread(&mut self, effect: Effect, span: Span) {
         self.block.faults.push(not_known(span.of(self.code), span));
         self.block.items.push(Item::Unread(effect, span));

@@ -43,7 +43,7 @@ impl BlockLowering<'_> {
         self.block.number = Some(BlockNumber { value, label, span });
     }
 
-    /// FC212: `X1E2` is X1 and a feed of 2 at the end of the block (R2.113; PM/206811147).
+    /// Reports FC212: `X1E2` is X1 and a feed of 2 at the end of the block (R2.113; PM/206811147).
     fn note_exponent(&mut self, span: Span) {
         let start = span.start as usize;
         let bytes = self.code.as_bytes();
@@ -97,7 +97,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// `N10` before plain words.
+    /// Reads `N10` before plain words.
     fn plain_number(&mut self, span: Span) {
         let value = self.plain_value(span);
         self.block.number = Some(BlockNumber {
@@ -107,7 +107,7 @@ impl BlockLowering<'_> {
         });
     }
 
-    /// A letter with a number after it.
+    /// Reads a letter with a number after it.
     pub(super) fn plain_word(&mut self, span: Span) {
         let letter = span.of(self.code).bytes().next().unwrap_or_default();
         let value = self.plain_value(span);

@@ -15,7 +15,7 @@ fn has(axis: usize, kind: usize) -> bool {
     )
 }
 
-/// The state at the start of the control: CROSS has manual activation.
+/// Returns the state at the start of the control: CROSS has manual activation.
 fn start_up(axis: usize, kind: usize) -> bool {
     has(axis, kind) && KINDS[kind] != "CROSS"
 }

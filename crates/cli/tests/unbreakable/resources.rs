@@ -50,7 +50,7 @@ fn write_long_program(path: &Path, blocks: u32, comment: &str) -> u64 {
     file.metadata().expect("a size").len()
 }
 
-/// The tool with an address space of 64 MiB, on a program that is longer.
+/// Runs the tool with an address space of 64 MiB, on a program that is longer.
 fn run_in_64_mebibytes(blocks: u32, comment: &str, calls: &[&[&str]]) {
     let bench = Bench::new(&[]);
     let path = bench.folder().join("long.nc");

@@ -317,7 +317,7 @@ impl<W: Write> DapServer<W> {
         Ok(json!({ "value": wanted.value.trim() }))
     }
 
-    /// The client has set its breakpoints: the run begins.
+    /// Begins the run after the client has set its breakpoints.
     fn begin(&mut self) -> io::Result<()> {
         self.tell_said()?;
         if !self.stop_on_entry {

@@ -132,7 +132,7 @@ pub(super) struct StateBook {
 }
 
 impl StateBook {
-    /// The states before the first block.
+    /// Takes the states before the first block.
     pub(super) fn begin(&mut self, state: StateView<'_>) {
         if self.axes.is_empty() {
             let axes = state.machine.axes.iter();

@@ -261,7 +261,7 @@ struct Resampled {
 }
 
 impl Resampled {
-    /// One more cycle, after the first of two rows and not after the second.
+    /// Takes one more cycle, after the first of two rows and not after the second.
     fn take(&mut self, columns: &TraceColumns, [before, row]: [usize; 2], time: f64) {
         let times_s = columns.times_s.as_deref().unwrap_or_default();
         let span = times_s[row] - times_s[before];

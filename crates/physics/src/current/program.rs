@@ -35,7 +35,7 @@ pub trait CurrentSink {
     /// Takes a cycle. `Break` ends the program.
     fn cycle(&mut self, cycle: &CurrentCycle<'_>) -> ControlFlow<()>;
 
-    /// The trace begins, or restarts after motions that are not known.
+    /// Begins the trace, or restarts it after motions that are not known.
     fn begin(&mut self, time_s: f64, line: u32) {
         let _ = (time_s, line);
     }

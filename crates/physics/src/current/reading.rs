@@ -211,8 +211,8 @@ impl UnknownReading {
 }
 
 impl fmt::Display for Reading {
-    /// Every option that is in force: `standstill=hold,below=hold,delay=all,start=first`, and
-    /// `decay=step` if that is selected.
+    /// Writes every option that is in force: `standstill=hold,below=hold,delay=all,start=first`, and `decay=step` if
+    /// that is selected.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let in_force = OPTIONS.iter().filter(|(choice, choose)| {
             let mut chosen = *self;

@@ -198,7 +198,7 @@ impl TrajectoryPlanner {
         flow
     }
 
-    /// FC915 at the last block that moved something.
+    /// Reports FC915 at the last block that moved something.
     fn check_budget(&mut self) {
         if self.path.rounding().look_ahead().is_over() {
             let at = RemarkPlace {

@@ -45,8 +45,8 @@ impl<const N: usize> Drives<N> {
         self
     }
 
-    /// One CNC cycle from its setpoints on, which the fine interpolation continues linearly. `take`
-    /// gets the positions of the loads in m after every simulation step.
+    /// Follows one CNC cycle from its setpoints on, which the fine interpolation continues linearly. `take` gets the
+    /// positions of the loads in m after every simulation step.
     #[inline]
     pub fn follow(&mut self, mut setpoints: [Setpoint; N], mut take: impl FnMut([f64; N])) {
         let part = self.tick_s;

@@ -130,7 +130,7 @@ impl AxisMotions {
         }
     }
 
-    /// A motion and the pause after it.
+    /// Adds a motion and the pause after it.
     fn line(&mut self, axis: usize, to: f64, feed: f64, room: &Room<'_>) {
         self.move_to(axis, to, feed, room);
         self.dwell(PAUSE_S);

@@ -207,7 +207,8 @@ pub(super) fn check_points(
     Ok(said.into_iter().flatten().collect())
 }
 
-/// A torque that never changes its sign has the friction in the part that is equal in both directions.
+/// Checks that a torque changes its sign: one that never does has the friction in the part that is equal in both
+/// directions.
 fn check_unsigned_torque(pairs: &[Pair], samples: &AxisSamples) -> Result<(), IdentifyError> {
     let torques = || samples.torques.iter().copied();
     let is_unsigned = torques().all(|it| it >= 0.0) || torques().all(|it| it <= 0.0);

@@ -96,7 +96,8 @@ impl ActingShare {
         self.low > ACTING && self.high < 2.0 - ACTING
     }
 
-    /// Neither this list nor none, by an interval no wider than that of a list that acted.
+    /// Returns whether the share is neither that of this list nor none, by an interval no wider than that of a list
+    /// that acted.
     fn is_other(&self) -> bool {
         let excludes = |value: f64| !(self.low..=self.high).contains(&value);
         excludes(0.0) && excludes(1.0) && self.high - self.low < 2.0 * (1.0 - ACTING)

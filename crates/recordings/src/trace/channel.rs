@@ -159,7 +159,7 @@ impl CncObject {
 }
 
 impl fmt::Display for CncObject {
-    /// `0x120300:0x501D3`.
+    /// Writes `0x120300:0x501D3`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "0x{:X}:0x{:X}", self.group, self.offset)
     }

@@ -77,7 +77,7 @@ impl ChannelRole {
 }
 
 impl fmt::Display for RecognisedChannel {
-    /// `actual position of X`.
+    /// Writes `actual position of X`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.role.as_str())?;
         self.axis

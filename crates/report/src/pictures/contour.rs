@@ -145,7 +145,7 @@ impl ContourPicture {
         }
     }
 
-    /// Of the cycles that make a point, keeps the one with the largest deviation.
+    /// Keeps the cycle with the largest deviation among those that make a point.
     fn keep(&mut self, (point, spot, time_s): (PlanePoint, MarkedSpot, f64)) {
         let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
         let is_full = self.filled >= self.every;

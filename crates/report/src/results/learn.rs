@@ -123,7 +123,7 @@ fn rounds(report: &LearnReport) -> Table {
     table
 }
 
-/// The best list of each axis, and what the simulation expects of the next ones.
+/// Adds the best list of each axis, and what the simulation expects of the next ones.
 fn push_best(out: &mut Document<'_>, report: &LearnReport) {
     for axis in &report.axes {
         if let (Some(number), Some(list)) = (axis.best_round, &axis.list) {

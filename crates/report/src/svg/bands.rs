@@ -95,7 +95,7 @@ impl BandChart {
         canvas.finish(frame, floor + 8.0)
     }
 
-    /// If the bars represent whole steps, only those have ticks, the first and the last always.
+    /// Gives ticks to whole steps only, the first and the last always, if the bars represent them.
     fn name_ticks(&self, scale: &mut Scale) {
         let Some((first, last)) = self.steps else {
             return;

@@ -118,7 +118,7 @@ impl<'a> Canvas<'a> {
         self.raw("</text>\n");
     }
 
-    /// A line through points; one that is not finite interrupts it.
+    /// Draws a line through points; one that is not finite interrupts it.
     pub(super) fn path(&mut self, class: &str, points: impl IntoIterator<Item = (f64, f64)>) {
         self.raw(&format!("<path class=\"{class}\" d=\""));
         let mut pen_is_down = false;
@@ -134,7 +134,7 @@ impl<'a> Canvas<'a> {
         self.raw("\"/>\n");
     }
 
-    /// A marker of the series with this number: circle, square, triangle, diamond.
+    /// Draws a marker of the series with this number: circle, square, triangle, diamond.
     pub(super) fn marker(&mut self, series: usize, (x, y): (f64, f64)) {
         let class = format!("fc-m{}", series % SERIES);
         match series % SERIES {
@@ -191,7 +191,7 @@ impl<'a> Canvas<'a> {
         right + 8.0 + widest_text(text)
     }
 
-    /// Another picture of the same width below what was drawn.
+    /// Places another picture of the same width below what was drawn.
     pub(super) fn embed(&mut self, picture: &str, y: f64) {
         let y = px(y);
         self.raw(&format!(

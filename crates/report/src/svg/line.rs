@@ -389,7 +389,7 @@ fn below(top: f64, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     ground
 }
 
-/// The x axis in its other unit, above the first panel.
+/// Draws the x axis in its other unit, above the first panel.
 fn draw_second(canvas: &mut Canvas<'_>, x: &Scale, second: &SecondUnit, area: Area) {
     let scale = x.in_unit(second.factor);
     draw_ticks(

@@ -156,7 +156,7 @@ impl PlaneFit {
         self.place([x, y])
     }
 
-    /// Round lengths of the deviation and of the path.
+    /// Draws round lengths of the deviation and of the path.
     fn draw_scales(&self, canvas: &mut Canvas<'_>, y: f64) {
         let of_deviation = self.scale * self.magnification / 1000.0;
         let bars = [
@@ -227,7 +227,7 @@ impl PlaneChart {
         canvas.text("", (x, y - 36.0), Anchor::Middle, &self.axes[1]);
     }
 
-    /// The commanded path thin, and the magnified one over it, by stretches of one kind.
+    /// Draws the commanded path thin, and the magnified one over it, by stretches of one kind.
     fn draw_path(&self, canvas: &mut Canvas<'_>, fit: &PlaneFit) {
         for stretch in stretches(&self.points) {
             let class = match stretch[stretch.len() - 1].stroke {
@@ -283,7 +283,7 @@ impl PlaneChart {
         }
     }
 
-    /// The words next to the worst marks, where neither the path nor another mark is in their way (R11.5); a
+    /// Writes the words next to the worst marks, where neither the path nor another mark is in their way (R11.5); a
     /// thin line leads to a mark that is farther off. A mark without room for words keeps its title.
     fn draw_labels(&self, canvas: &mut Canvas<'_>, fit: &PlaneFit) {
         const LINE: f64 = 16.0;

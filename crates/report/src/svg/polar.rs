@@ -222,7 +222,7 @@ impl Magnified {
         }
     }
 
-    /// A length of the picture that is a round deviation, and the magnification in words.
+    /// Draws a length of the picture that is a round deviation, and the magnification in words.
     fn draw_bar(&self, canvas: &mut Canvas<'_>, radius: f64) {
         let (left, y) = (self.layout.left(), 74.0);
         let text = format!("{} \u{b5}m", label(self.step, self.step));

@@ -72,7 +72,7 @@ impl<W: Write> Csv<W> {
         Self { positions, ..self }
     }
 
-    /// The columns: every axis of the machine, whether it occurred or not.
+    /// Writes the columns: every axis of the machine, whether it occurred or not.
     fn header(&mut self, state: StateView<'_>) {
         let out = &mut self.output.bytes;
         out.extend_from_slice(b"program,seq,file,line,n,text,");

@@ -24,7 +24,7 @@ fn planned(axis: &str) -> tempfile::TempDir {
     folder
 }
 
-/// The machine, with one list for each axis.
+/// Writes the machine, with one list for each axis.
 fn machine(folder: &Path, list: &str) {
     let axes = MACHINE.map(|(name, kind)| {
         let rest = AXIS.replace("zero.lis", list);

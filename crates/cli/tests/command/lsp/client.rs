@@ -111,7 +111,7 @@ impl Client {
         }
     }
 
-    /// The next message of a kind; earlier ones are kept.
+    /// Waits for the next message of a kind; earlier ones are kept.
     #[track_caller]
     fn take(&mut self, wanted: impl Fn(&Message) -> bool) -> Message {
         if let Some(at) = self.kept.iter().position(&wanted) {

@@ -175,7 +175,7 @@ impl Editor {
     }
 }
 
-/// A random edit of one of the texts.
+/// Makes a random edit of one of the texts.
 fn edit(editor: &mut Editor, random: &mut Rng, uris: &[String]) {
     let at = random.usize(..FILES.len());
     let (uri, texts) = (&uris[at], FILES[at].2);

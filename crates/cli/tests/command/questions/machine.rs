@@ -104,7 +104,7 @@ impl Machine<'_> {
         steps
     }
 
-    /// The current of each cycle, from all cycles at once.
+    /// Adds the current of each cycle, computed from all cycles at once.
     fn add(&self, cycles: &mut [Cycle]) {
         let count = cycles.len();
         let mut direction = vec![0.0; count];

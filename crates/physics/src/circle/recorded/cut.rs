@@ -240,7 +240,7 @@ impl PathRun {
         turns
     }
 
-    /// Every full turn without a gap, as points of the run.
+    /// Passes on every full turn without a gap, as points of the run.
     fn each_turn(&self, mut take: impl FnMut(Range<usize>)) {
         let angles = &self.angles;
         let mut holes = self.holes().into_iter().peekable();

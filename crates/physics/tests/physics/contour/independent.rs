@@ -61,7 +61,7 @@ impl Equations {
         (level(speed) + VISCOUS * speed) / self.unit
     }
 
-    /// 250 µs towards a place with a velocity and an additive current.
+    /// Advances an axis by 250 µs towards a place with a velocity and an additive current.
     fn tick(&self, axis: &mut Axis, (place, velocity, added): (f64, f64, f64)) {
         let kp = MASS * TAU * 45.0;
         let target = KV * (place - axis.x) + velocity;

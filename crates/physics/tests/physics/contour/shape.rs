@@ -138,7 +138,7 @@ impl Shape {
         self.lines.push(Line::Cut { piece, judged });
     }
 
-    /// An arc about a centre by an angle in degrees, to the left if it is positive.
+    /// Adds an arc about a centre by an angle in degrees, to the left if it is positive.
     pub(crate) fn arc(&mut self, centre: [f64; 2], degrees: f64, judged: bool) {
         let from = self.end();
         let offset = [from[0] - centre[0], from[1] - centre[1]];

@@ -48,7 +48,7 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
     records
 }
 
-/// A record of each examined kind; friction compensation alone needs no name.
+/// Adds a record of each examined kind; friction compensation alone needs no name.
 fn programs(program: &ProgramAudit, origin: Option<&str>, records: &mut Vec<Value>) {
     let mut kinds: Vec<Kind> = program.axes.iter().map(|axis| axis.kind).collect();
     kinds.sort_unstable();

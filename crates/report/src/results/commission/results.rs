@@ -178,7 +178,7 @@ fn push_recording(out: &mut Document<'_>, report: &ResultsReport, result: &Recor
     }
 }
 
-/// The circles off and on, and whether the lists are accepted.
+/// Adds the circles off and on, and whether the lists are accepted.
 fn push_round<'a>(out: &mut Document<'a>, round: &'a Round) {
     let Some(against) = &round.against else {
         return;

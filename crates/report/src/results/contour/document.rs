@@ -175,7 +175,7 @@ pub fn document(
     out
 }
 
-/// The figures of the three runs, and the places of the extreme ones.
+/// Adds the figures of the three runs, and the places of the extreme ones.
 fn push_figures<S: ContourSink>(out: &mut Document<'_>, contour: &ProgramContour<S>) {
     let runs = contour.deviations();
     let runs = [&runs.programmed, &runs.all_on, &runs.all_off];

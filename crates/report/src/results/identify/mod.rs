@@ -164,7 +164,7 @@ fn push_pairs(out: &mut Document<'_>, found: &Identified) {
     out.table(table);
 }
 
-/// Both directions, where an offset does not make them one (R6.25).
+/// Adds both directions, where an offset does not make them one (R6.25).
 fn push_branches(out: &mut Document<'_>, branches: &DirectionBranches, unit: &str) {
     let table = Table::of_numbers(["speed\nmm/s"]);
     let mut table = ["forth", "back"]

@@ -75,9 +75,9 @@ type Possible = BTreeSet<&'static str>;
 /// The states of each axis that a run shows.
 #[derive(Default)]
 struct Shown {
-    /// After each line of the main file.
+    /// States after each line of the main file.
     lines: BTreeMap<u32, [Possible; AXES.len()]>,
-    /// At the end, which an error may be; `None` if the program does not end.
+    /// States at the end, which an error may be; `None` if the program does not end.
     end: Option<[Possible; AXES.len()]>,
     /// The lines and axes of which no state is known, nor a set of them.
     unknown: BTreeSet<(u32, usize)>,
@@ -243,7 +243,7 @@ fn enumerated(program: &NcProgram, text: &str) -> Shown {
 enum Sort {
     /// Conditions that are asked once and are plain.
     Exact,
-    /// Anything.
+    /// Any content.
     Any,
 }
 

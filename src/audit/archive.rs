@@ -29,7 +29,7 @@ pub enum MendedEnd {
     Leavers,
     /// The programs that inherit it.
     Inheritors,
-    /// For each axis whichever are fewer.
+    /// The side with fewer programs, for each axis.
     Smaller,
 }
 

@@ -20,7 +20,7 @@ use crate::text::Place;
 pub(super) enum SelectionOrigin {
     /// A command that was executed.
     Command(Site),
-    /// Something that is not known offline.
+    /// Cause not known offline.
     Doubt(WhyUnknown),
 }
 

@@ -24,7 +24,7 @@ use crate::timeline::ReadingsInForce;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum Ending {
-    /// At M30 or M02 of a line of the main program.
+    /// M30 or M02 in a line of the main program.
     At(u32),
     /// Elsewhere: where the file ends, or in a program that it calls.
     Elsewhere,

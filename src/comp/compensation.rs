@@ -482,7 +482,7 @@ pub struct CompCommand {
     pub selection: Selection,
     /// Whether the bracket contains `NO_MOVE`, which does not matter to friction compensation (R1.6).
     pub no_move: bool,
-    /// From the axis name to the closing bracket.
+    /// Span from the axis name to the closing bracket.
     pub span: Span,
 }
 

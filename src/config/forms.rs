@@ -11,7 +11,7 @@ use super::section::Shape;
 pub enum Form {
     /// A text.
     Text,
-    /// One of these texts.
+    /// One of the given texts.
     OneOf(&'static [&'static str]),
     /// A list of texts.
     Texts,

@@ -31,7 +31,7 @@ pub struct Diagnostic {
     pub code: Code,
     /// Its severity, already changed by the user's `[lint]` table.
     pub severity: Severity,
-    /// One sentence in lower case.
+    /// The message: one sentence in lower case.
     pub message: String,
     /// Place of the cause.
     pub place: Place,
@@ -227,7 +227,7 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum Severity {
-        /// For information.
+        /// Information only.
         Info = "info",
         /// Likely a mistake, or an effect that outlives the program.
         Warning = "warning",

@@ -202,7 +202,7 @@ impl AxisNameMeaning {
 pub(crate) enum Addressed {
     /// Known axis.
     Axis(AxisIndex),
-    /// One that the channel does not have; the control refuses it.
+    /// Axis that the channel does not have; the control refuses it.
     Absent(Option<AxisIndex>),
     /// Any of them.
     Any,

@@ -484,7 +484,7 @@ pub(crate) enum Feed {
 pub(crate) enum LookedFor {
     /// The one of a name.
     Named(String),
-    /// One whose name the program computes.
+    /// File whose name the program computes.
     Computed,
 }
 

@@ -346,7 +346,7 @@ impl SavedConfig {
 /// The files that are not those of the archive any more.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct ChangedFiles {
-    /// Their names without folders, in lower case.
+    /// Names of the files without folders, in lower case.
     names: BTreeSet<String>,
     /// Whether any file may have changed: the program computes a name.
     any: bool,

@@ -55,7 +55,7 @@ struct CoupledAxes {
     unknown: bool,
 }
 
-/// More groups in force than a control has; conflicts of further ones are not looked for.
+/// Limit on the groups in force, beyond any control; conflicts of further ones are not looked for.
 const MOST_GROUPS: usize = 32;
 
 impl CoupledAxes {

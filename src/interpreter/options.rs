@@ -18,7 +18,7 @@ pub enum StopPolicy {
     FirstError,
     /// The failing command is treated as if it were not there.
     KeepGoing,
-    /// As `KeepGoing`; blocks that are never executed are checked for their syntax too.
+    /// Like `KeepGoing`; blocks that are never executed are checked for their syntax too.
     CheckAll,
 }
 
@@ -132,7 +132,7 @@ pub enum RunOutcome {
 /// Mode in which the running program is handed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum SourceMode {
-    /// As a text in memory.
+    /// Text in memory.
     #[default]
     Whole,
     /// Line by line; its lines are gone once they are executed.

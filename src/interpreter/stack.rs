@@ -233,7 +233,7 @@ impl CallStack {
 pub(crate) enum ControlStep {
     /// The program was announced and has not begun.
     Begin,
-    /// To a block of the same program.
+    /// Jump to a block of the same program.
     Jump(EntryIndex),
     /// Programs, one after the other.
     Call(Vec<Request>),
@@ -309,7 +309,7 @@ pub(crate) struct AwaitedBlock {
     pub(crate) lost: Diagnostic,
 }
 
-/// Where a path is in its programs.
+/// Position of a path in its programs.
 #[derive(Clone, Copy)]
 pub(crate) struct ProgramPosition<'a> {
     pub(crate) frames: &'a CallStack,

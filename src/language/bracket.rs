@@ -29,7 +29,7 @@ pub struct AxisCommand {
     pub(crate) motion: Option<MotionEffect>,
     /// Simplification of the commanded trace.
     pub(crate) simplifies: Option<Simplification>,
-    /// Other effect.
+    /// Any other effect.
     pub(crate) action: AxisAction,
     /// Part of the PLC in it: it acknowledges M and H functions, `S[M3 REV1000]`.
     pub(crate) plc: Plc,

@@ -38,7 +38,7 @@ pub(crate) struct GFunction {
     pub(crate) simplifies: Option<(Simplification, Holds)>,
     /// Effect on coordinates that is not in the other columns.
     pub(crate) coordinates: CoordinateEffect,
-    /// Where it flushes the channel and the control refuses it (R2.111).
+    /// Conditions under which it flushes the channel and the control refuses that (R2.111).
     pub(crate) flushes: Flushes,
     /// Number of the group of a channel list in which it may be the default at program start (P-CHAN-00063).
     default_of: Option<u32>,
@@ -286,7 +286,7 @@ static FUNCTIONS: &[GFunction] = {
     }
 };
 
-/// One past the highest number.
+/// Upper end of the numbers, one past the highest.
 const NUMBERS: usize = 906;
 
 /// The place of the row of each number, from one on; zero where it has none.

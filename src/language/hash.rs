@@ -47,7 +47,7 @@ pub(crate) struct HashCommand {
     pub(crate) basis: Option<Question>,
     /// Error of the control for a COMP command up to its end (R2.109).
     pub(crate) refuses_comp: Option<u32>,
-    /// Where it flushes the channel and the control refuses it (R2.111).
+    /// Conditions under which it flushes the channel and the control refuses that (R2.111).
     pub(crate) flushes: Flushes,
     /// Name in the state and in messages, where that is another command's.
     known_as: Option<&'static str>,
@@ -56,7 +56,7 @@ pub(crate) struct HashCommand {
 /// Effect of a `#` command on the followed state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Touches {
-    /// Neither flow nor values; its effect on coordinates is that of its chain.
+    /// No effect on flow or values; the effect on coordinates is that of the chain.
     Nothing,
     /// Write to the parameters and variables that its brackets name.
     Values,
@@ -131,7 +131,7 @@ pub(crate) enum HashAction {
     Rotate,
     /// Overrides are programmed (PM/207625099).
     Override,
-    /// Another spindle becomes the main one.
+    /// Change of the main spindle.
     SelectSpindle,
     /// Transitions between blocks are rounded, or their parameters are set (R11.21).
     Round(ContouringCommand),
@@ -176,7 +176,7 @@ pub(crate) enum FileAction {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum MembersBy {
     Name,
-    /// By their logical numbers.
+    /// Logical numbers.
     Number,
 }
 
@@ -194,9 +194,9 @@ pub(crate) enum ContouringCommand {
 pub(crate) enum SlopeForm {
     /// Profile of the channel list (PM/207190411).
     Channel,
-    /// By its name (PM/207190411).
+    /// Profile named (PM/207190411).
     Named,
-    /// By its number, in the older command (HSC/15427921547).
+    /// Profile numbered, in the older command (HSC/15427921547).
     Numbered,
 }
 

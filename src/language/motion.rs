@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Something that a control does and a commanded trace does not.
+/// Simplification: an effect that the control has and a commanded trace lacks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Simplification {
@@ -193,9 +193,9 @@ impl From<Simplifications> for Vec<Simplification> {
 /// Duration of a simplification.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Holds {
-    /// In its block.
+    /// The block only.
     Once,
-    /// Until it is taken back.
+    /// Until the end is programmed.
     On,
     /// End of a simplification that held.
     Off,

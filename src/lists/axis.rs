@@ -51,7 +51,7 @@ pub(crate) fn is_axis_name(name: &str) -> bool {
 pub(crate) const AXIS_NAME_HELP: &str =
     "a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`";
 
-/// More drive entries than any axis list has; further ones are not kept.
+/// Limit on the drive entries, beyond any axis list; further ones are not kept.
 const MAX_DRIVE_ENTRIES: usize = 4096;
 
 /// Returns whether a key belongs to the drive (chapter 7).

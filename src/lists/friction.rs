@@ -186,7 +186,7 @@ pub struct WrittenPoint {
 #[derive(Debug, Clone, Default)]
 pub struct FrictionDraft {
     scalars: BTreeMap<Field, Given<Written>>,
-    /// By index; only written points take memory, however large the index.
+    /// Points by index; only written ones take memory, however large the index.
     pub(super) table: BTreeMap<u32, WrittenPoint>,
 }
 
@@ -446,9 +446,9 @@ impl FrictionList {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Points {
-    /// As whole numbers (SGN32), which every build of the control reads.
+    /// Whole numbers (SGN32), which every build of the control reads.
     Whole,
-    /// As real numbers, outputs with three decimals, which newer builds read.
+    /// Real numbers, outputs with three decimals, which newer builds read.
     Real,
 }
 

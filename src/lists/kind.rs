@@ -23,7 +23,7 @@ pub enum ListKind {
 /// The keys of a kind of list, as beginnings of their patterns.
 struct KindKeys {
     kind: ListKind,
-    /// One of them decides the kind.
+    /// Keys of which any one decides the kind.
     deciding: &'static [&'static str],
     /// Keys that identify the kind if the list has no deciding key of any kind.
     others: &'static [&'static str],

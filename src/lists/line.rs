@@ -14,7 +14,7 @@ use super::parameter::resolve;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::text::{Place, SourceFile, Span, changed_direction};
 
-/// More invalid lines than a list has by mistake; further ones are only counted.
+/// Number of invalid lines that are reported; further ones, more than a list has by mistake, are only counted.
 const MAX_ODD: usize = 20;
 
 /// The entries of one list.

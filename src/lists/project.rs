@@ -27,7 +27,7 @@ use crate::text::{SourceFile, Span};
 /// Depth of nested elements that no project reaches.
 const MAX_DEPTH: usize = 512;
 
-/// More lists than any project has; further ones are not read.
+/// Limit on the lists, beyond any project; further ones are not read.
 const MAX_LISTS: usize = 4096;
 
 /// The outermost elements of projects, of files that a project refers to, and of exported tree items.

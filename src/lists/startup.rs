@@ -338,7 +338,7 @@ const WORDS: [(&str, &str); 13] = [
 /// P-CHAN-00187.
 const G800: &str = "g800_prog_file[]";
 
-/// More macros than any channel list has; further ones are not kept.
+/// Limit on the macros, beyond any channel list; further ones are not kept.
 const MAX_MACROS: usize = 4096;
 
 /// A program that a channel list names.

@@ -17,7 +17,7 @@ use crate::lists::{
 };
 use crate::text::{Place, SourceFile, lines_of};
 
-/// More nested folders above a list than on any disk.
+/// Limit on the nested folders above a list, beyond any disk.
 const MAX_ABOVE: usize = 64;
 
 /// Reads lists through the host and collects the messages about them.
@@ -37,7 +37,7 @@ pub(super) struct Loader<'f> {
     pub(super) channel: Option<FirstChannel>,
     /// The lists of a project, by the names under which they are asked for.
     pub(super) embedded: BTreeMap<String, Arc<SourceFile>>,
-    /// Where these are in their files.
+    /// Places of the lists of the project in their files.
     pub(super) project: EmbeddedLists,
 }
 
@@ -323,7 +323,7 @@ pub enum NoList {
     /// No file at the path.
     #[error("it is not found")]
     Missing,
-    /// Something exists there that cannot be read; the reason.
+    /// File that exists there but cannot be read; the reason.
     #[error("{0}")]
     Unreadable(String),
 }

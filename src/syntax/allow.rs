@@ -26,7 +26,7 @@ pub(crate) struct Allowance {
 pub(crate) struct AllowFault {
     /// The word, or the mark where a word is missing.
     pub(crate) span: Span,
-    /// One sentence.
+    /// The message in one sentence.
     pub(crate) message: String,
     /// Advice on it.
     pub(crate) help: Help,

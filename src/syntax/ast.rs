@@ -87,7 +87,7 @@ pub struct BlockNumber {
     pub value: Operand,
     /// Whether a colon makes the number a jump label.
     pub label: bool,
-    /// From the N to the number's or the colon's end.
+    /// Span from the N to the end of the number or the colon.
     pub span: Span,
 }
 
@@ -202,7 +202,7 @@ impl Item {
 /// Possible effect of text of unknown meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
-    /// Anything that a program could do: it may be a call.
+    /// Any effect that a program can have: the text may be a call.
     Everything,
     /// Some parameter: it assigns to an unknown place.
     Parameters,
@@ -413,7 +413,7 @@ pub struct Call {
 pub enum CallName {
     /// Written as is.
     Literal(Span),
-    /// In quotes, a macro's name or the program's; the span holds the quotes.
+    /// Name in quotes, a macro's or the program's; the span holds the quotes.
     Quoted(Span),
     /// A variable that holds the name.
     Variable(Expression),
@@ -483,7 +483,7 @@ pub struct SequenceCall {
 pub struct Return {
     /// Over how many programs.
     pub levels: ReturnLevels,
-    /// To which block, where that is not the next one.
+    /// Block to return to, where that is not the next one.
     pub target: Option<BlockReference>,
     /// Span of its whole text.
     pub span: Span,
@@ -492,11 +492,11 @@ pub struct Return {
 /// Number of levels that a subprogram returns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ReturnLevels {
-    /// To its caller.
+    /// Return to the caller.
     One,
-    /// To the main program.
+    /// Return to the main program.
     Main,
-    /// From so many programs.
+    /// Return from the given number of programs.
     Number(Operand),
 }
 
@@ -568,7 +568,7 @@ pub enum BlockReference {
 pub enum Operand {
     /// A number, sign included.
     Number(f64),
-    /// Something to compute.
+    /// Expression to compute.
     Expression(Expression),
 }
 
@@ -577,7 +577,7 @@ pub enum Operand {
 pub struct Expression {
     /// The first node.
     pub start: u32,
-    /// One past the last node.
+    /// End of the range, one past the last node.
     pub end: u32,
 }
 

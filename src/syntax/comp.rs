@@ -25,7 +25,7 @@ const KEYWORDS: [&str; 11] = [
 pub(super) struct CompWords<'a> {
     pub(super) text: &'a str,
     pub(super) axis: Span,
-    /// From the axis name to the closing bracket.
+    /// Span from the axis name to the closing bracket.
     pub(super) whole: Span,
     /// `COMP` and everything after it.
     pub(super) words: &'a [Span],

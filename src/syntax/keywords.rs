@@ -151,7 +151,7 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
 
 /// The words that a `#` command begins with.
 pub(super) struct CommandName {
-    /// In upper case with one blank between them.
+    /// Name in upper case with one blank between the words.
     pub(super) name: String,
     /// Number of bytes that they take.
     pub(super) length: usize,

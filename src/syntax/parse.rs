@@ -119,7 +119,7 @@ pub struct Fault {
     pub code: Code,
     /// The bytes of the block's text that are meant.
     pub span: Span,
-    /// One sentence in lower case.
+    /// The message: one sentence in lower case.
     pub message: String,
     /// Advice on the fault.
     pub advice: Vec<Advice>,

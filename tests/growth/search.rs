@@ -143,7 +143,7 @@ const ENOUGH: usize = 8;
 enum Look {
     /// Search at an eighth of the size only, where the onset of budgets shows, too.
     Short,
-    /// At the whole size as well.
+    /// Search at the whole size as well.
     Long,
 }
 
@@ -162,7 +162,7 @@ impl Look {
 struct Search {
     look: Look,
     ways: &'static [Repeated],
-    /// One out of this many combinations is tried.
+    /// Number of combinations of which one is tried.
     step: usize,
     /// The number of combinations tried.
     looked: usize,

@@ -32,7 +32,7 @@ pub(crate) struct CircleSettings {
 struct CircleAnswer<'a> {
     #[serde(flatten)]
     drawn: DrawnReport<'a>,
-    /// Where the value lists come from.
+    /// Origin of the value lists.
     lists: String,
 }
 

@@ -23,7 +23,7 @@ use crate::run::{RunSettings, Texts, json};
 use crate::watched::Page;
 use crate::wording::page;
 
-/// More cycles than that take minutes.
+/// Limit on the cycles; more would take minutes.
 const MOST_CYCLES: u64 = 20_000_000;
 
 /// Settings of a contour.

@@ -25,7 +25,7 @@ use crate::wording::page;
 /// Cycles between two progress reports.
 const STEP: u64 = 1 << 16;
 
-/// More cycles than that take minutes.
+/// Limit on the cycles; more would take minutes.
 const MOST_CYCLES: u64 = 20_000_000;
 
 #[derive(Serialize)]

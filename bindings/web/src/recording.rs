@@ -47,7 +47,7 @@ struct RecordingAnswer<'a> {
     channels: DrawnReport<'a>,
     /// The names of the channels.
     names: Vec<&'a str>,
-    /// Where two axes circle.
+    /// Report on the circle of two axes, if they move on one.
     circle: Option<DrawnReport<'a>>,
     /// Reason why positions of two axes are no circle.
     no_circle: Option<String>,

@@ -186,7 +186,7 @@ pub enum HostError {
     /// Two outputs in one file.
     #[error("`{one}` and `{other}` are the same file")]
     SameFile {
-        /// One output.
+        /// Path of the first output.
         one: String,
         /// The other one.
         other: String,

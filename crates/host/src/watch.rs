@@ -220,7 +220,7 @@ pub struct Reached<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Passes {
-    /// Once, from its first line to its last.
+    /// One pass, from the first line to the last.
     #[default]
     Once,
     /// Unknown number of passes: the program jumps back.

@@ -21,7 +21,7 @@ use frictcomp_testing::{Machine, Program, Random, Run, ValueList};
 
 const AXES: [&str; 2] = ["X", "Y"];
 
-/// Where the measuring programs begin, in mm.
+/// Start position of the measuring programs, in mm.
 const START: [f64; 2] = [10.0, 10.0];
 
 /// Milliseconds between two rows of constant speeds, and of circles.

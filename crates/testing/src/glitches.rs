@@ -7,7 +7,7 @@ use super::machine::Run;
 /// The largest glitches in µm, each a mean over 8 ms: of X and of Y, counter-clockwise and clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TrueGlitches {
-    /// Of X and Y, each counter-clockwise and clockwise.
+    /// Glitches of X and Y, each counter-clockwise and clockwise.
     pub um: [[f64; 2]; 2],
 }
 

@@ -68,9 +68,9 @@ pub enum Filled {
 /// The form of comments of several lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comments {
-    /// In quotation marks.
+    /// Comments in quotation marks.
     Quoted,
-    /// As they are.
+    /// Comments as they are.
     Bare,
 }
 

@@ -3,9 +3,9 @@
 /// Bounds of a motion along its path.
 #[derive(Debug, Clone, Copy)]
 pub struct Ramp {
-    /// In mm/s².
+    /// Acceleration in mm/s².
     pub acceleration: f64,
-    /// In mm/s³.
+    /// Jerk in mm/s³.
     pub jerk: f64,
 }
 

@@ -23,7 +23,7 @@ pub struct Bench {
     pub is_up_and_down: bool,
     /// Speeds in mm/s.
     pub speeds: Vec<f64>,
-    /// Both directions, or only forwards.
+    /// Whether both directions are recorded, or only forwards.
     pub is_both: bool,
     /// Length of the recording in s.
     pub length_s: f64,

@@ -50,7 +50,7 @@ struct RunFile {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResumeError {
-    /// Another version wrote it.
+    /// Snapshot written by another version.
     #[error(
         "the snapshot has schema {found}; this version reads schema {}",
         Snapshot::SCHEMA

@@ -80,7 +80,7 @@ pub enum PathForm {
     Line,
     /// G02, G03: an arc, or a helix when the third axis moves.
     Arc(Arc),
-    /// Something that is not modelled, or not known offline, in words.
+    /// Shape that is not modelled, or not known offline, in words.
     Unknown(&'static str),
 }
 
@@ -110,9 +110,9 @@ pub enum Turn {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Centre {
-    /// By its coordinates on the two axes of the plane, in mm.
+    /// Coordinates on the two axes of the plane, in mm.
     Point([f64; 2]),
-    /// By the radius in mm: positive for the short arc, negative for the long one.
+    /// Radius in mm: positive for the short arc, negative for the long one.
     Radius(f64),
 }
 
@@ -124,8 +124,7 @@ pub enum PathFeed {
     PerMinute(f64),
     /// G93: the seconds that the block takes (PM/206602507).
     Seconds(f64),
-    /// At least one axis moves at this part of its highest velocity: G00, and G194 with its weight
-    /// (PM/206602507).
+    /// Share of its highest velocity at which at least one axis moves: G00, and G194 with its weight (PM/206602507).
     OfAxes(f64),
     /// Unknown feed, with the reason.
     Unknown(&'static str),

@@ -1,6 +1,6 @@
-//! From a programmed F to the velocity of the path: the unit, the main spindle, programmed overrides (R5.1), the profile of the
-//! acceleration that a program selects (R11.20), the modes in which no feed is in force (R2.110), and the rounding of transitions
-//! between blocks (R11.21): the parameters of `#CONTOUR MODE` and `#HSC`.
+//! Velocity of the path that follows from a programmed F: the unit, the main spindle, programmed overrides (R5.1), the
+//! profile of the acceleration that a program selects (R11.20), the modes in which no feed is in force (R2.110), and
+//! the rounding of transitions between blocks (R11.21): the parameters of `#CONTOUR MODE` and `#HSC`.
 //!
 //! PM/n is page n of the TF5200 programming manual, HSC/n one of the HSC package.
 

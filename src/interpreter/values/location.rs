@@ -1,5 +1,5 @@
-//! Where values are, which of them expressions read (R2.84), and why one is not known: its words in messages, and the advice on
-//! it (R2.50).
+//! Locations of values, of which expressions read some (R2.84), and causes for unknown ones: the words in messages, and
+//! the advice on them (R2.50).
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -15,9 +15,9 @@ use crate::syntax::ast::Owner;
 use crate::syntax::{Fault, Subscript, VariableName};
 use crate::text::Span;
 
-/// Something that only the machine knows and that makes values unknown (R2.50).
+/// Cause of unknown values that only the machine knows (R2.50).
 ///
-/// A saved state has the words of those without data, as states before schema 4 have them.
+/// A saved state contains the causes without data as words, like states before schema 4.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Unknown {

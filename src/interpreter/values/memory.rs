@@ -604,7 +604,7 @@ impl Memory {
         }
     }
 
-    /// `#INIT MACRO TAB`
+    /// Clears the macros: `#INIT MACRO TAB`.
     pub(crate) fn clear_macros(&mut self) {
         self.macro_version.rise();
         let weights = self

@@ -239,7 +239,7 @@ pub(crate) enum ConditionSubject {
     Cases(Vec<Arc<str>>),
     /// End of the program by an error whose remedy class is the expression.
     RemedyClass,
-    /// Something that only the machine knows.
+    /// Subject that only the machine knows.
     Unknown(Unknown),
     /// Acceptance by the control of blocks of a kind, in the words of FC328.
     Refusal(Arc<str>),

@@ -20,12 +20,12 @@ pub enum Value {
     Number(f64),
     /// A text.
     Text(Arc<str>),
-    /// Something that only the machine knows (R2.50).
+    /// Value that only the machine knows (R2.50).
     Unknown(Unknown),
 }
 
-/// One operand on the stack. A failure waits until something needs its value, so that `EXIST` and
-/// the second operand of `&&` and `||` may fail without harm.
+/// Operand on the stack. A failure waits until something needs its value, so that `EXIST` and the second operand of
+/// `&&` and `||` may fail without harm.
 pub(crate) type Slot = Result<Value, Box<Fault>>;
 
 impl Value {
@@ -52,7 +52,7 @@ impl Value {
     }
 }
 
-/// R2.31
+/// Returns whether a number counts as true (R2.31).
 pub(crate) fn is_true(number: f64) -> bool {
     number.abs() >= 0.5
 }

@@ -99,7 +99,7 @@ pub(crate) enum KindEffect {
     Off,
     /// A command switches it on.
     On,
-    /// Something that is not known may switch anything (R2.52).
+    /// Unknown switching of any kind (R2.52).
     Lost,
     /// A part of the program that may or may not be executed, or a change of the machine data, may switch it (R2.51,
     /// R2.92).
@@ -547,11 +547,11 @@ impl BlockSite {
 /// The ways to a block on which the state is the one that the program found.
 #[derive(Debug, Clone)]
 pub(crate) enum UntouchedOn {
-    /// On all of them.
+    /// All ways.
     Always,
-    /// On none.
+    /// No way.
     Never,
-    /// On some, in words: `if V.E.A == 2 (line 12)`.
+    /// Some of the ways, in words: `if V.E.A == 2 (line 12)`.
     If(String),
 }
 

@@ -159,7 +159,7 @@ pub(crate) struct LoopHeads(#[serde(with = "rows")] BTreeMap<HeadPlace, LoopHead
 pub(crate) enum Arrival {
     /// No contribution: earlier passes have done all that it may do.
     Covered,
-    /// Something, with which the next pass begins.
+    /// Further states, with which the next pass begins.
     Grown,
 }
 

@@ -566,7 +566,7 @@ pub(crate) struct Meeting {
 /// Relation of a way to the followed one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Shadow {
-    /// Where it is followed again; `None` for the way that is followed.
+    /// Place at which the way is followed again; `None` for the followed way.
     pub(crate) until: Option<Meeting>,
     /// The axes that shadows may have moved since the last event.
     pub(crate) moved: BTreeSet<AxisIndex>,

@@ -505,7 +505,7 @@ impl Executor {
 }
 
 impl Executor {
-    /// `L SEQUENCE […]`
+    /// Executes `L SEQUENCE […]`.
     pub(crate) fn sequence(
         &mut self,
         sequence: &SequenceCall,
@@ -601,7 +601,7 @@ impl Executor {
         );
     }
 
-    /// `M17 [MAIN [LABEL]]`
+    /// Executes `M17 [MAIN [LABEL]]`.
     pub(crate) fn return_to(
         &mut self,
         back: &Return,

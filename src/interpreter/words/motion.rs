@@ -212,7 +212,7 @@ impl Executor {
         true
     }
 
-    /// `G129=70` (PM/206578955)
+    /// Executes `G129=70` (PM/206578955).
     pub(crate) fn weigh_rapid(&mut self, span: Span, at: &BlockContext<'_>) {
         let value = at.block.second_value(span);
         let percent = value.and_then(|value| self.operand_number(value, at));

@@ -30,7 +30,7 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, BlockReference, Expression, Flow, Item, Operand};
 use crate::text::{Place, Span};
 
-/// Where the jump of a condition goes.
+/// Target of the jump of a condition.
 enum ConditionalJump {
     /// No jump, or one that is reported before the program begins.
     Nowhere,

@@ -300,7 +300,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// `S.POS180`
+    /// Reads `S.POS180`.
     pub(super) fn spindle_word(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let mut name = span;
         let mut value = None;

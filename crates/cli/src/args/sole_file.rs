@@ -16,9 +16,9 @@ pub(crate) struct Meant {
 /// Way in which the command was started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Invocation {
-    /// By a shell or another program.
+    /// Start by a shell or another program.
     Typed,
-    /// By a file dropped on it: its console closes with it.
+    /// Start by a file dropped on it: its console closes with it.
     Dropped,
 }
 

@@ -20,10 +20,10 @@ pub(crate) fn shown(path: &Path) -> String {
     visible_line(&shown_path(path)).into_owned()
 }
 
-/// One clear sentence, what to do, and where the reason is in the user's file.
+/// A failure: one clear sentence, what to do, and the place of the reason in the user's file.
 #[derive(Debug, Default)]
 pub(crate) struct Failure {
-    /// One sentence in lower case.
+    /// The failure: one sentence in lower case.
     pub(crate) message: String,
     /// Advice.
     pub(crate) help: Vec<String>,

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use crate::folder::{command, starting, stderr, stdout};
 
-/// Where the commands of a document are called.
+/// Environment in which the commands of a document are called.
 pub(crate) trait Stage {
     /// Takes a heading.
     fn begin(&mut self) {}

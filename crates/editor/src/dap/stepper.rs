@@ -31,7 +31,7 @@ const STRIDE: u64 = 10_000;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct BlockOfCall {
     pub(super) file: Arc<str>,
-    /// From 1.
+    /// Line of the block, from 1.
     pub(super) line: u32,
     pub(super) text: String,
 }
@@ -39,7 +39,7 @@ pub(super) struct BlockOfCall {
 /// Position of the run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum RunPosition {
-    /// Before a block; the last site is that block, those before it the calls that led there.
+    /// Position before a block; the last site is that block, those before it the calls that led there.
     Before(Vec<BlockOfCall>),
     /// The program has ended.
     Ended(EndedBy),
@@ -48,11 +48,11 @@ pub(super) enum RunPosition {
 /// Target of the next part of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RunTarget {
-    /// To the next block.
+    /// The next block.
     Block,
-    /// To the next block of this call depth, or of one above.
+    /// The next block of this call depth, or of one above.
     Depth(usize),
-    /// To the next breakpoint.
+    /// The next breakpoint.
     Breakpoint,
 }
 
@@ -106,15 +106,15 @@ pub(super) enum OutputText {
 
 /// Reason for the end of a stride before its last block.
 enum Stop {
-    /// Before the block that has just been executed.
+    /// Stop before the block that has just been executed.
     Before(Halt),
-    /// Before it, if the breakpoints on its line stop there; otherwise for another reason.
+    /// Stop before that block, if the breakpoints on its line stop there; otherwise for another reason.
     AtBreakpoint {
         file: Arc<str>,
         line: u32,
         otherwise: Option<Halt>,
     },
-    /// After it.
+    /// Stop after that block.
     After(Halt),
 }
 

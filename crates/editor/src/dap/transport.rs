@@ -24,7 +24,7 @@ pub(super) struct Request {
 #[derive(Debug)]
 pub(super) enum Incoming {
     Request(Request),
-    /// Something that is not a request; the reason in words.
+    /// Message that is not a request; the reason in words.
     Garbled(String),
 }
 

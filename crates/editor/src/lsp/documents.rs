@@ -20,7 +20,7 @@ pub(super) enum Kind {
     List,
     /// A `frictcomp.toml`.
     Configuration,
-    /// Anything else: it gets no messages (R12.14).
+    /// Any other text, which gets no messages (R12.14).
     Other,
 }
 

@@ -57,7 +57,7 @@ pub enum CalledPrograms {
 pub struct CheckedPrograms {
     /// The programs that count on their own.
     pub programs: Vec<CheckedProgram>,
-    /// Their messages, and those on the lists of their machines, each cause once.
+    /// Messages of the programs, and those on the lists of their machines, each cause once.
     pub causes: Causes,
     /// Number of programs that were checked only in their callers.
     pub in_callers: usize,

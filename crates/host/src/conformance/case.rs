@@ -40,9 +40,9 @@ pub struct CaseFile {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Moment {
-    /// After the last execution of the block that begins on this line.
+    /// Moment after the last execution of the block that begins on this line.
     Line(u32),
-    /// After the end of the program.
+    /// Moment after the end of the program.
     End,
 }
 
@@ -83,9 +83,9 @@ pub enum Expectation {
     Current {
         /// Name of the axis.
         axis: String,
-        /// In units of the list, µm/s or 0.001°/s.
+        /// Velocity in units of the list, µm/s or 0.001°/s.
         velocity: f64,
-        /// In drive units.
+        /// Current in drive units.
         current: f64,
     },
     /// The additive currents of a commanded motion, cycle by cycle (chapter 4).

@@ -16,7 +16,7 @@ use super::read::{open_regular, read_bytes};
 use super::shared_map::SharedMap;
 use frictcomp::text::{LineSource, TextLines};
 
-/// More bytes than any list or configuration has.
+/// Limit on the size of a file in bytes, beyond any list or configuration.
 const MOST_LIST: u64 = 64 << 20;
 
 /// The disk that a host reads from. By default it is that of the system. File names are looked up

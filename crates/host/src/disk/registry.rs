@@ -44,10 +44,10 @@ pub(crate) struct Claim {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Replaces {
-    /// Another result.
+    /// An earlier result.
     #[default]
     Results,
-    /// Another result or a value list, since the output is one.
+    /// An earlier result or a value list, since the output is one.
     Lists,
     /// Any file that is not an input of the same call.
     Anything,

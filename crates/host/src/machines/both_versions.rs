@@ -26,7 +26,7 @@ pub struct MachineOfVersions {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MachineOwner {
-    /// Both versions; neither has another one.
+    /// Both versions, which have no other machine.
     Both,
     /// The new version; the old one has another configuration.
     NewNotOld(PathBuf),

@@ -58,7 +58,7 @@ pub(crate) struct AtomicFile {
 
 #[derive(Debug)]
 enum FileStage {
-    /// More data may follow. The file is locked, so that other runs know that it is being written.
+    /// Open file to which more data may follow. The file is locked, so that other runs know that it is being written.
     Open(NamedTempFile),
     /// File written to the disk under a temporary name. Many files may wait for each other; most of them stay locked.
     Synced(TempPath, Option<Held>),

@@ -19,16 +19,16 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
     #[non_exhaustive]
     pub enum Crossing {
-        /// At the largest X: the X axis reverses.
+        /// Largest X: the X axis reverses.
         #[serde(rename = "X+")]
         XPlus = "X+",
-        /// At the largest Y.
+        /// Largest Y: the Y axis reverses.
         #[serde(rename = "Y+")]
         YPlus = "Y+",
-        /// At the smallest X.
+        /// Smallest X: the X axis reverses.
         #[serde(rename = "X-")]
         XMinus = "X-",
-        /// At the smallest Y.
+        /// Smallest Y: the Y axis reverses.
         #[serde(rename = "Y-")]
         YMinus = "Y-",
     }

@@ -19,7 +19,7 @@ use crate::current::Switched;
 /// Size below which nothing is reported.
 pub const NOTICEABLE_UM: f64 = 1.0;
 
-/// One of two bulges counts as alone if the other is less than this part of it.
+/// Share of a bulge up to which the other one is neglected, so that the bulge counts as alone.
 const ALONE: f64 = 0.25;
 
 /// A step counts if it is at least this part of the peak: what a slow drive leaves of a peak is
@@ -76,11 +76,11 @@ pub enum Finding {
 #[serde(untagged)]
 #[non_exhaustive]
 pub enum FoundAt {
-    /// At a crossing.
+    /// One crossing.
     Crossing(Crossing),
-    /// At both crossings of an axis.
+    /// Both crossings of an axis.
     Axis(PlaneAxis),
-    /// In the path as a whole.
+    /// The path as a whole.
     Whole,
 }
 

@@ -43,7 +43,7 @@ pub struct CircleEvidence {
     pub rest_um: f64,
     /// The shape of the residual, if it has one.
     pub other: Option<OtherShape>,
-    /// Another one beside it.
+    /// The shape of another residual beside it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub second: Option<OtherShape>,
     /// The largest swing of X and of Y in µm, if the axis sticks and slips.

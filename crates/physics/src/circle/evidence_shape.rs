@@ -37,7 +37,7 @@ pub enum OtherShape {
         /// Its amplitude in µm.
         amplitude_um: f64,
     },
-    /// Neither of them.
+    /// Any other shape.
     Unknown,
 }
 

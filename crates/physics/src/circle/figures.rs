@@ -37,9 +37,9 @@ pub struct PathFigures {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Figures {
-    /// Of the counter-clockwise path.
+    /// Figures of the counter-clockwise path.
     pub ccw: Option<PathFigures>,
-    /// Of the clockwise path.
+    /// Figures of the clockwise path.
     pub cw: Option<PathFigures>,
     /// The centre that G(b) and H refer to.
     pub centre: PathCentre,
@@ -196,7 +196,7 @@ impl PathFigures {
 struct Bidirectional {
     /// Between the least-squares centres.
     distance: f64,
-    /// Of both paths together, G(b).
+    /// Bidirectional deviation of both paths together, G(b).
     deviation: f64,
     /// The largest difference at one angle, H.
     hysteresis: f64,

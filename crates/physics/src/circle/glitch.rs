@@ -48,7 +48,7 @@ impl Glitch {
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Bulge {
-    /// Away from the centre.
+    /// Deviation away from the centre.
     Outward,
     /// Towards the centre.
     Inward,

@@ -19,7 +19,7 @@ use crate::linear::Normal;
 pub(super) struct QuietPath {
     direction: Direction,
     mean: f64,
-    /// Of the centre, in X and Y.
+    /// Shift of the centre, in X and Y.
     shift: [f64; 2],
     /// The amplitude of the ellipse along the axes and at 45°.
     pub(super) ellipse: [f64; 2],
@@ -27,7 +27,7 @@ pub(super) struct QuietPath {
     pub(super) steps: [f64; 2],
 }
 
-/// Before or after a crossing.
+/// Side of a crossing: before or after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Beside {
     Before,

@@ -34,7 +34,7 @@ const BLOCK_DEG: f64 = 2.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mask {
     Reversals,
-    /// Also what is before them, where axes slow down.
+    /// The reversals, and the parts before them in which axes slow down.
     ReversalsAndSlowing,
 }
 

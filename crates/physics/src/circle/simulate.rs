@@ -41,7 +41,7 @@ pub(super) struct AxesSimulation<'a, const N: usize> {
 /// The additive current of one axis, with the velocities that it looks ahead to.
 struct Additive {
     current: Option<AdditiveCurrent>,
-    /// In units of the list.
+    /// Velocities in units of the list.
     velocities: Vec<f64>,
 }
 

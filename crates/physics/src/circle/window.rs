@@ -7,16 +7,16 @@ use super::profile::PER_DEGREE;
 /// Degrees before a crossing at which the window begins.
 const BEFORE_DEG: i32 = 8;
 
-/// After a crossing the window is at least this wide, in degrees.
+/// Least width of the window after a crossing, in degrees.
 const LEAST_DEG: f64 = 8.0;
 
-/// After a crossing the window lasts at least this long: by then the loops of a drive have settled.
+/// Least duration of the window after a crossing: by then the loops of a drive have settled.
 const SETTLING_S: f64 = 0.3;
 
 /// The sides of a window reach at least this far from the crossing, in degrees.
 const SIDE_DEG: i32 = 20;
 
-/// From one crossing to the next, in degrees.
+/// Angle from one crossing to the next, in degrees.
 const QUARTER_DEG: i32 = 90;
 
 /// The fastest angular velocity in degrees per second at which twice the window ends before the next

@@ -25,7 +25,7 @@ frictcomp::words! {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PairedSwitch {
-    /// Both versions switch.
+    /// A switch in both versions.
     Both {
         /// The switch of the old version.
         old: Switch,
@@ -41,7 +41,7 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum Agreement {
-        /// Both versions switch the same.
+        /// Same switches in both versions.
         Same = "same",
         /// A block switches, or a feed move lacks friction compensation, in one version and not in the other.
         Different = "different",

@@ -31,9 +31,9 @@ struct PathPoint {
 /// Distance of a place from the path.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Distance {
-    /// In the plane, in mm: positive on the outside of the curve.
+    /// Distance in the plane, in mm: positive on the outside of the curve.
     pub(super) plane: f64,
-    /// From the nearest point of the path to the place, by axis.
+    /// Vector from the nearest point of the path to the place, by axis.
     pub(super) normal: Places,
     /// The length of that in mm: the deviation in space (R11.27).
     pub(super) space: f64,

@@ -6,7 +6,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PerRun<T> {
-    /// As the program switches it.
+    /// Value with compensation as the program switches it.
     pub programmed: T,
     /// Value with all compensation on.
     pub all_on: T,

@@ -1,4 +1,4 @@
-//! From the rows of a session to the contour: program, trace, currents, drives, deviations.
+//! Computation of the contour from the rows of a session: program, trace, currents, drives, deviations.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -48,7 +48,7 @@ pub struct ContourPoint<'a> {
     pub deviation_um: PerRun<f64>,
     /// The distance from the path in space (R11.27).
     pub space_um: PerRun<f64>,
-    /// From the nearest point of the path to the position of the axes of the plane, as programmed, in mm.
+    /// Vector from the nearest point of the path to the position of the axes of the plane, as programmed, in mm.
     pub error_mm: [f64; 2],
     /// Whether the cycle counts: in a feed move, with positions of the machine.
     pub counts: bool,
@@ -128,7 +128,7 @@ struct Tracer<S> {
     axes: Vec<ContourSummary>,
     cycles: u64,
     not_of_the_machine: u64,
-    /// For each axis the first block that cuts while its state is not known, and the cycles.
+    /// First block of each axis that cuts while its state is not known, and the cycles.
     unknown: Vec<Option<(Arc<Cause>, u64)>>,
     is_unstable: bool,
     sink: S,

@@ -9,7 +9,7 @@ use frictcomp::lists::{FrictionList, TablePoint};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Switched {
-    /// On.
+    /// Compensation on.
     On,
     /// Off.
     Off,

@@ -102,7 +102,7 @@ pub enum CyclesError {
     /// Rows that are too far apart for the cycles between them.
     #[error("the times of the recording are {} s apart, too far for cycles of {} ms", ReadableNumber(*.length_s), milliseconds(*.cycle_s))]
     TooLong {
-        /// From the first time to the last.
+        /// Time from the first row to the last.
         length_s: f64,
         /// The cycle.
         cycle_s: f64,

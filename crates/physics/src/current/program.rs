@@ -1,4 +1,4 @@
-//! From the rows of a session to the currents of axes, cycle by cycle: program, trace, current.
+//! Computation of the currents of axes from the rows of a session, cycle by cycle: program, trace, current.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;

@@ -73,10 +73,10 @@ pub enum Delay {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Start {
-    /// After the first one.
+    /// The first start only.
     #[default]
     First,
-    /// After every standstill, even in the same direction.
+    /// Every start after a standstill, even in the same direction.
     Every,
 }
 
@@ -84,10 +84,10 @@ pub enum Start {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Decay {
-    /// By the same part in each cycle.
+    /// Decay by the same part in each cycle.
     #[default]
     Linear,
-    /// To zero in the first of them.
+    /// Decay to zero in the first cycle.
     Step,
 }
 

@@ -28,9 +28,9 @@ pub struct CommandedTrace {
 pub struct CommandedRow {
     /// The time of the cycle.
     pub time_s: f64,
-    /// In 0.1 µm or 0.0001°.
+    /// Position in 0.1 µm or 0.0001°.
     pub position: f64,
-    /// In µm/s or 0.001°/s.
+    /// Velocity in µm/s or 0.001°/s.
     pub velocity: f64,
     /// State of the compensation.
     pub switched: Switched,

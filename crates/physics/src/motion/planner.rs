@@ -27,9 +27,9 @@ pub enum ToolRadii {
     /// Unknown radii: the programmed contour is followed.
     #[default]
     Unknown,
-    /// One for every tool.
+    /// One radius for every tool.
     Every(f64),
-    /// By the number of the D word in force; with another one the programmed contour is followed.
+    /// Radii by the number of the D word in force; with another one the programmed contour is followed.
     OfData(Arc<BTreeMap<u32, f64>>),
 }
 

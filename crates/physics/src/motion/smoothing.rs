@@ -52,7 +52,7 @@ struct Vertex {
 pub(super) enum Bend {
     /// A bend no larger than the decimals of the program explain.
     Fine,
-    /// More than that.
+    /// A larger bend.
     Coarse,
 }
 
@@ -70,7 +70,7 @@ pub(super) struct SmoothRun {
     wanted: Window<AxisPositions>,
     /// The control points, which turn where the vertices do.
     control: Window<AxisPositions>,
-    /// By axis.
+    /// Courses by axis.
     courses: Vec<AxisCourse>,
     /// The last vertex with a coarse bend.
     coarse: usize,

@@ -24,7 +24,7 @@ pub(super) struct ToolPath {
     held: Held,
 }
 
-/// Where the tool follows a contour.
+/// Path of the tool beside a contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ToolOffset {
     /// The axes of the plane.
@@ -65,13 +65,13 @@ struct HeldBlock {
 /// Form of the path beside a corner.
 #[derive(Debug, Clone, Copy)]
 enum CornerBeside {
-    /// One ends where the other starts.
+    /// Blocks of which one ends where the other starts.
     Joined,
-    /// Both blocks end at one place.
+    /// Common end point of both blocks.
     Meets([f64; 2]),
-    /// A straight piece leads from one to the other.
+    /// Straight piece from one block to the other.
     Straight,
-    /// An arc about the corner does.
+    /// Arc about the corner from one block to the other.
     Around(CircularArc),
 }
 

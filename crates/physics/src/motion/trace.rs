@@ -35,9 +35,9 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum Movement {
-        /// As fast as they can, G00.
+        /// Motion at the highest velocity of the axes, G00.
         Rapid = "rapid",
-        /// At a feed, G01, G02, G03.
+        /// Motion at a feed, G01, G02, G03.
         Feed = "feed",
         /// Rest of the axes for a time, G04.
         Dwell = "dwell",

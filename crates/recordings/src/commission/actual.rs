@@ -35,7 +35,7 @@ pub struct FollowedPosition {
     pub averaged_s: Option<f64>,
     /// The time in s for which it is held on average while it moves fast, if that is more than a sample.
     pub held_s: Option<f64>,
-    /// By how much it lags more in the positive direction than in the negative one, long after a reversal, in mm.
+    /// Additional lag in the positive direction compared with the negative one, long after a reversal, in mm.
     pub step_mm: Option<f64>,
 }
 

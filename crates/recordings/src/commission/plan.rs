@@ -27,7 +27,7 @@ const LAST_ROUND: u16 = 61;
 pub enum Stage {
     /// Off: the friction and the machine as it is.
     Off,
-    /// On, with a known list.
+    /// Compensation on, with a known list.
     On,
 }
 

@@ -231,9 +231,9 @@ impl PlantAxis {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum MissedPrediction {
-    /// More is left than predicted: that speaks against plant and list.
+    /// Larger glitch than predicted: evidence against plant and list.
     Worse(String),
-    /// Less is left: that speaks against the plant only (R16.16).
+    /// Smaller glitch than predicted: evidence against the plant only (R16.16).
     Better(String),
 }
 

@@ -66,7 +66,7 @@ pub struct FreeTravel {
 pub enum Installed {
     /// P-AXIS-00522 is 0: no command changes anything.
     Unconfigured,
-    /// On from the start of the control, or with the first valid list.
+    /// Compensation on from the start of the control, or with the first valid list.
     On,
     /// Configured, switched on only by programs.
     Off,

@@ -21,7 +21,7 @@ pub struct Round {
     pub number: usize,
     /// The lists.
     pub lists: Vec<ValueListUsed>,
-    /// Where friction shows.
+    /// Signal in which friction shows.
     pub shows: Shows,
     /// The unit of the glitches.
     pub unit: &'static str,

@@ -52,14 +52,14 @@ pub(super) enum SwitchedAs {
     NotShown(String),
 }
 
-/// Where friction shows in the recordings of a plan.
+/// Signal in which friction shows in the recordings of a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Shows {
-    /// On circles of two axes, recorded feed by feed.
+    /// Circles of two axes, recorded feed by feed.
     Contour,
-    /// In the following error after reversals of one axis, recorded once, to which no plant is fitted: motor side, not
+    /// Following error after reversals of one axis, recorded once, to which no plant is fitted: motor side, not
     /// contour.
     FollowingError,
 }
@@ -93,7 +93,7 @@ pub(super) struct StagesOfAxis<'a> {
     pub off: &'a [&'a CompensationShown],
     /// Evidence of the recordings of the round.
     pub on: &'a [&'a CompensationShown],
-    /// Where friction shows in them.
+    /// Signal in which friction shows in them.
     pub shows: Shows,
     /// The plant that was fitted to them.
     pub plant: Option<&'a PlantAxis>,

@@ -1,4 +1,4 @@
-//! Where a COMP command acts in a motion (R1.9), and whether it stops the path (R1.57).
+//! Position in a motion at which a COMP command acts (R1.9), and whether it stops the path (R1.57).
 
 use super::answer::Conclusion;
 use super::recorded::EvidenceRecording;

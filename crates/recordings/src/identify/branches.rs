@@ -90,7 +90,7 @@ impl DirectionBranches {
 
 /// A straight line through the common parts over a function of the speed.
 struct Line {
-    /// From the slowest to the fastest speed.
+    /// Change from the slowest to the fastest speed.
     change: f64,
     error: f64,
     /// The weighted squares of what it leaves.

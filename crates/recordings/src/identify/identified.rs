@@ -1,4 +1,4 @@
-//! From a recording to a friction curve and the points of a value list.
+//! Computation of a friction curve and of the points of a value list from a recording.
 
 use thiserror::Error;
 

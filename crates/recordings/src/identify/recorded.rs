@@ -27,9 +27,9 @@ pub struct AxisChannels {
 /// Form of the recorded following error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum FollowingForm {
-    /// As itself.
+    /// The following error itself.
     Error,
-    /// As the actual position.
+    /// The actual position.
     Actual,
 }
 
@@ -318,9 +318,9 @@ fn is_short(name: &str) -> bool {
 pub enum StatedAxis {
     /// The one of the recording: `comp`, or a variable without its axis.
     Own,
-    /// By its name: `active_<axis>`, `V.A.FRICT_COMP_ACTIVE.<axis>`.
+    /// Axis by its name: `active_<axis>`, `V.A.FRICT_COMP_ACTIVE.<axis>`.
     Named(String),
-    /// By its number in a CNC object.
+    /// Axis by its number in a CNC object.
     Numbered(u32),
 }
 

@@ -1,4 +1,4 @@
-//! From a recording at constant speeds to the points of a value list.
+//! Evaluation of a recording at constant speeds for the points of a value list.
 
 use super::channel::{drop_held, late};
 use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};

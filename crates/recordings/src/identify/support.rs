@@ -6,9 +6,9 @@ use super::curve::FrictionCurve;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RequestedPoints {
-    /// At most this many.
+    /// This number of points at most.
     Points(usize),
-    /// As few as keep the error below this part of the friction, but at most `most`.
+    /// The smallest number that keeps the error below this part of the friction, but at most `most`.
     Error {
         /// The part of the Coulomb friction.
         part: f64,

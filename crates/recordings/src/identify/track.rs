@@ -107,9 +107,9 @@ impl TrackError {
 #[derive(Debug, Clone)]
 pub(super) struct AxisSamples {
     pub(super) times_s: Vec<f64>,
-    /// In mm/s or °/s.
+    /// Velocities in mm/s or °/s.
     pub(super) velocities: Vec<f64>,
-    /// In mm or degrees.
+    /// Positions in mm or degrees.
     pub(super) positions: Vec<f64>,
     /// Whether the positions were recorded, not computed from the velocities.
     pub(super) has_positions: bool,

@@ -421,7 +421,7 @@ fn range_of(speed: f64) -> usize {
 
 /// A least-squares fit of the recorded torque.
 struct Regression {
-    /// By range; `None` with too few samples.
+    /// Scales by range; `None` with too few samples.
     scales: Vec<Option<f64>>,
     inertia: f64,
     offset: f64,

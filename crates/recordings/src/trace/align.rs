@@ -17,7 +17,7 @@ use frictcomp::diagnostic::ReadableNumber;
 pub struct Aligned {
     /// The times in seconds, rising.
     pub times_s: Vec<f64>,
-    /// For each channel its samples in the units of lists and traces.
+    /// Samples of each channel in the units of lists and traces.
     pub columns: Vec<Vec<f64>>,
     /// The usual time between two samples.
     pub step_s: f64,
@@ -48,7 +48,7 @@ pub enum NotAligned {
     Apart {
         /// A channel with the times of its group.
         one: String,
-        /// Another one.
+        /// Name of the other channel.
         other: String,
     },
     /// Too few samples for any statement.

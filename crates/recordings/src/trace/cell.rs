@@ -3,7 +3,7 @@
 /// Separator of two cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Separator {
-    /// One such byte.
+    /// The given byte.
     Byte(u8),
     /// Any number of blanks, as in tables that are aligned.
     Blanks,
@@ -111,7 +111,7 @@ pub(super) enum CellValue {
     Number(f64),
     /// No value, or a computer's word for a missing number.
     Missing,
-    /// Something else.
+    /// Any other text.
     Other,
 }
 

@@ -19,10 +19,10 @@ pub struct Choice {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum TimeSource {
-    /// From the columns of times that the layout has; a table with a header has none.
+    /// The columns of times that the layout has; a table with a header has none.
     #[default]
     Layout,
-    /// From a channel.
+    /// A channel.
     Channel(Pick),
 }
 

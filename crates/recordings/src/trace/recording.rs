@@ -14,8 +14,8 @@ pub struct Layout {
 pub(super) enum RowForm {
     /// Each has all numbers.
     Whole,
-    /// As Scope writes them: shorter where channels have ended, repeated for slow ones, and followed
-    /// by other lines after a blank one.
+    /// Rows of Scope: shorter where channels have ended, repeated for slow ones, and followed by other lines after a
+    /// blank one.
     Ragged,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct ChannelSamples {
 pub struct TraceRecording {
     pub(super) layout: Layout,
     pub(super) channels: Vec<Channel>,
-    /// In the order of the channels; none for those that were not requested.
+    /// Samples in the order of the channels; `None` for channels that were not requested.
     pub(super) samples: Vec<Option<ChannelSamples>>,
     /// The times of the clocks in seconds.
     pub(super) clocks: Vec<Vec<f64>>,

@@ -57,7 +57,7 @@ struct ChannelNames {
     hints: &'static [&'static str],
 }
 
-/// For each quantity; the first hint that is found in a name counts.
+/// Hints for each quantity; the first hint that is found in a name counts.
 const NAMES: [ChannelNames; 4] = [
     ChannelNames {
         quantity: ChannelQuantity::Time,

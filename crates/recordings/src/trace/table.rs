@@ -15,7 +15,7 @@ pub(super) struct ChannelTable {
     channels: Vec<Channel>,
     groups: Vec<Times>,
     wanted: Vec<WantedChannel>,
-    /// For each column that is read, its cell in the current row.
+    /// Cell in the current row for each column that is read.
     read: Vec<usize>,
     rows: usize,
     most_rows: usize,

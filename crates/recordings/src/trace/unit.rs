@@ -7,13 +7,13 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
     #[non_exhaustive]
     pub enum ChannelQuantity {
-        /// In seconds.
+        /// Time in seconds.
         Time = "time",
-        /// In 0.1 µm or 0.0001°.
+        /// Position in 0.1 µm or 0.0001°.
         Position = "position",
-        /// In µm/s or 0.001°/s.
+        /// Velocity in µm/s or 0.001°/s.
         Velocity = "velocity",
-        /// In drive units, or in a unit that the drive measures.
+        /// Torque in drive units, or in a unit that the drive measures.
         Torque = "torque",
     }
 }

@@ -17,9 +17,9 @@ pub(crate) struct ProgramLine {
 /// Meaning of a text for the states of compensation, shown in a page by more than colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Tone {
-    /// Away from the start-up state.
+    /// State away from the start-up state.
     Away,
-    /// As this state.
+    /// The given state.
     State(State),
     /// Text that needs no attention.
     Quiet,

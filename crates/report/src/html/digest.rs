@@ -130,7 +130,7 @@ pub(super) struct LineDigest {
     pub(super) met: Vec<JoinedStates>,
     /// Different changes beyond [`MAX_CHANGES`].
     pub(super) more_changes: u64,
-    /// By their numbers in the report.
+    /// Messages by their numbers in the report.
     pub(super) messages: Vec<usize>,
 }
 

@@ -27,7 +27,7 @@ const MOST_COLUMNS: usize = 7;
 /// Caption of a table.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Caption<'a> {
-    /// Above the table.
+    /// Caption above the table.
     Shown(&'a str),
     /// Caption for screen readers only: the heading above the table has the same text.
     Heard(&'a str),
@@ -36,11 +36,11 @@ pub(super) enum Caption<'a> {
 /// The name of a column.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum ColumnHeading<'a> {
-    /// Of texts.
+    /// Heading of a column of texts.
     Text(&'a str),
-    /// Of numbers.
+    /// Heading of a column of numbers.
     Number(&'a str),
-    /// Of single words.
+    /// Heading of a column of single words.
     Word(&'a str),
 }
 

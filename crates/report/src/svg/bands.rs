@@ -11,9 +11,9 @@ use frictcomp::comp::State;
 /// A bar: one state from one value of the axis to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Band {
-    /// Where it begins.
+    /// Start of the bar.
     pub from: f64,
-    /// Where it ends.
+    /// End of the bar.
     pub to: f64,
     /// Its content.
     pub state: BandState,

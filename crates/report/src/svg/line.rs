@@ -51,10 +51,10 @@ pub struct Series {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum PanelHeight {
-    /// As high as the room allows.
+    /// The height that the room allows.
     #[default]
     Full,
-    /// As high as is enough for a curve that only goes up and down.
+    /// The height for a curve that only goes up and down.
     Low,
 }
 

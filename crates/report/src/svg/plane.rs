@@ -70,7 +70,7 @@ pub struct PlanePoint {
 /// A mark on the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneMark {
-    /// Where it is, in mm.
+    /// Place of the mark, in mm.
     pub place: [f64; 2],
     /// Whether the mark has a ring.
     pub ringed: bool,
@@ -101,7 +101,7 @@ pub struct PlaneChart {
     pub below: Option<LineChart>,
 }
 
-/// From mm to the picture.
+/// Transformation from mm to the picture.
 #[derive(Debug, Clone, Copy)]
 struct PlaneFit {
     from: [f64; 2],

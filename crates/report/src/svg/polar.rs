@@ -26,7 +26,7 @@ pub struct PolarSeries {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum PolarStroke {
-    /// As it is.
+    /// Full line.
     #[default]
     Full,
     /// Finer, in dashes.

@@ -1,4 +1,4 @@
-//! From values to places in the picture, and round numbers in between.
+//! Transformation from values to places in the picture, and round numbers in between.
 
 /// The division of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -99,7 +99,7 @@ pub(super) struct Scale {
     low: f64,
     high: f64,
     spacing: Spacing,
-    /// Where a scale from 0 becomes logarithmic.
+    /// Value above which a scale from 0 becomes logarithmic.
     bend: f64,
     /// The values that are labelled, with their labels.
     pub(super) ticks: Vec<(f64, String)>,

@@ -8,7 +8,7 @@ use frictcomp::comp::State;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BandState {
-    /// One state all along.
+    /// One state over the whole bar.
     One(State),
     /// State that changes too often to be drawn.
     Changing,

@@ -13,7 +13,7 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     #[non_exhaustive]
     pub enum TimelineFormat {
-        /// For people.
+        /// Text for people.
         #[default]
         Text = "text",
         /// One JSON object per line.

@@ -9,7 +9,7 @@ use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter, Serializer};
 
 use super::visible::{any_byte, is_command, visible, visible_line};
 
-/// Below this, a figure is the noise of its computation.
+/// Bound below which a figure is the noise of its computation.
 const LEAST: f64 = 1e-6;
 
 /// Rounds a figure for reports: to six decimals, below 1 to six significant digits, and to 0 below 1e-6.

@@ -153,7 +153,7 @@ pub struct SwitchCase {
 /// A variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
-    /// One of the machine.
+    /// A variable of the machine.
     Machine(usize),
     /// A parameter, `P1`.
     Parameter(usize),
@@ -181,13 +181,13 @@ impl From<Variable> for Operand {
 /// A condition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Condition {
-    /// One that is always true, or never.
+    /// A condition that is always true, or never.
     Fixed(bool),
     /// A variable compared with a value.
     Compare(Variable, &'static str, Operand),
     /// The opposite of another one.
     Not(Box<Condition>),
-    /// Both of two.
+    /// The conjunction of two conditions.
     Both(Box<[Condition; 2]>),
     /// Any text.
     Text(String),

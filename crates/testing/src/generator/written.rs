@@ -26,9 +26,9 @@ pub struct Style {
 /// The place of local subprograms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SubprogramPlace {
-    /// Before the main program.
+    /// Subprograms before the main program.
     First,
-    /// After it.
+    /// Subprograms after the main program.
     Last,
 }
 

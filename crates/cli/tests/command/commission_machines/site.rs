@@ -30,7 +30,7 @@ pub(crate) const TUNED: [&str; 2] = ["--plant", "mid"];
 
 const AXES: [&str; 2] = ["X", "Y"];
 
-/// Where the first program begins, in mm.
+/// Start position of the first program, in mm.
 pub(crate) const START: [f64; 2] = [50.0, 0.0];
 
 /// Stage of a program: compensation off, or on with the lists of a round.

@@ -1,4 +1,4 @@
-//! One block in a file that many programs call (R10.8).
+//! Mending by one block in a file that many programs call (R10.8).
 
 use std::fs;
 

@@ -4,7 +4,7 @@
 /// The CNC cycle in seconds.
 pub(crate) const CYCLE_S: f64 = 0.001;
 
-/// In mm/s².
+/// Acceleration in mm/s².
 const ACCELERATION: f64 = 500.0;
 
 /// The value list: build-up distance in mm, cycles of the decay and of the delay, and points in mm/s
@@ -19,12 +19,12 @@ const POINTS: [(f64, f64); 3] = [(0.1, 200.0), (1.0, 300.0), (20.0, 380.0)];
 /// The motion of the axis in a cycle.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Cycle {
-    /// In mm.
+    /// Position in mm.
     pub(crate) x: f64,
-    /// In mm/s.
+    /// Velocity in mm/s.
     pub(crate) v: f64,
     pub(crate) is_on: bool,
-    /// In drive units.
+    /// Current in drive units.
     pub(crate) current: f64,
 }
 

@@ -29,9 +29,9 @@ const SHAPE: f64 = 0.02;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct SharesOn {
-    /// In the circles with the list on: 1 if all of it was on.
+    /// Share in the circles with the list on: 1 if all of it was on.
     pub on: Extent,
-    /// In the circles off: 0 if nothing was on.
+    /// Share in the circles off: 0 if nothing was on.
     pub off: Extent,
 }
 

@@ -1,4 +1,4 @@
-//! From the rounds of an axis to the list of the next one.
+//! Step from the rounds of an axis to the list of the next one.
 
 use super::bounds::{Steps, VARIABLES};
 use super::progress::LearningProgress;

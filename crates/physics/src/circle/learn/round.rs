@@ -24,7 +24,7 @@ pub struct LearnedCircle {
 pub struct RecordedTwice {
     /// The directions.
     directions: Vec<Direction>,
-    /// For each direction the reversal at the largest and that at the smallest position, each the mean of its turns.
+    /// Reversals at the largest and at the smallest position for each direction, each the mean of its turns.
     reversals: [Vec<Waveform>; 2],
     /// The standard deviation in µm of the noise of such a mean, which is one over 8 ms, too.
     noise_um: f64,

@@ -28,7 +28,7 @@ const AS_GOOD: f64 = 1.05;
 /// The least angle from the first whole turn to the last one.
 const ROOM: f64 = TAU / 8.0;
 
-/// From one crossing to the next, and from a crossing to the place between two, in radians.
+/// Angle from one crossing to the next, and from a crossing to the place between two, in radians.
 const QUARTER: f64 = TAU / 4.0;
 const BETWEEN: f64 = TAU / 8.0;
 

@@ -20,7 +20,7 @@ const WORSE_UM: f64 = 0.5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct WholeTurns {
-    /// Their number.
+    /// Number of whole turns.
     pub count: usize,
     /// The one that leaves most, if one leaves more than the evaluated turn: by a quarter, by 0.5 µm and by
     /// the noise of a sample.

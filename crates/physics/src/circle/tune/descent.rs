@@ -59,7 +59,7 @@ const LEAST_REACH: f64 = 0.02;
 const DELAY_STEP: i16 = 6;
 const DISTANCE_STEP: i32 = 2;
 
-/// Other times of which a round simulates the step that promises most.
+/// Number of other times whose most promising step a round simulates.
 const PROMISING: usize = 2;
 
 /// Part of the height of a curve by which a step may change a value.

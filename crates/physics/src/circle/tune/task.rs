@@ -51,7 +51,7 @@ pub enum TuningAim {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Shaping {
-    /// If it is worthwhile.
+    /// Separate shape if it is worthwhile.
     #[default]
     Allowed,
     /// The table is the friction curve.

@@ -139,7 +139,7 @@ pub trait Simulations: Send + Sync {
     ) -> Result<Vec<Vec<f64>>, CircleError>;
 }
 
-/// One after the other.
+/// Simulations one after the other.
 #[derive(Debug, Clone, Copy)]
 struct InOrder;
 

@@ -63,7 +63,7 @@ pub(crate) struct Trace {
     pub(crate) begins: Vec<usize>,
     /// The reported codes, with their lines.
     pub(crate) said: Vec<(String, u32)>,
-    /// Their messages and help lines.
+    /// Messages of the programs, and their help lines.
     pub(crate) messages: Vec<String>,
     /// The lines of the motions that are left out, with the times.
     pub(crate) left_out: Vec<(u32, f64)>,

@@ -79,7 +79,7 @@ const RECORDED: usize = 3;
 /// One figure of all paths.
 struct FigureRow {
     name: String,
-    /// One per path; a figure of both directions is in the first column of its side.
+    /// Values by path; a figure of both directions is in the first column of its side.
     values: Vec<Option<f64>>,
 }
 

@@ -23,7 +23,7 @@ pub enum ListOrigin {
     Plant,
     /// A file of the user for both axes.
     File(String),
-    /// One for X and one for Y.
+    /// A list for X and a list for Y.
     EachAxis([String; 2]),
 }
 
@@ -229,9 +229,9 @@ impl CircleReport {
 /// Change that would give figures at the crossings.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct TooFast {
-    /// A feed of at most this.
+    /// Highest feed with figures at the crossings.
     #[serde(rename = "feed_mm_min")]
     pub(super) feed_mm_per_min: f64,
-    /// Or a radius of at least this.
+    /// Radius from which there are figures, as an alternative.
     pub(super) radius_mm: Option<f64>,
 }

@@ -112,7 +112,7 @@ struct StatesDocument<'a, T> {
 
 #[derive(Serialize)]
 struct SpeedStateRecord<'a> {
-    /// In µm/s or 0.001°/s.
+    /// Velocity in µm/s or 0.001°/s.
     v: f64,
     frictions: &'a [Option<[f64; 2]>],
     spread: Option<f64>,

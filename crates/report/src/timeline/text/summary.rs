@@ -119,7 +119,7 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
 /// The form of a file name.
 #[derive(Clone, Copy)]
 enum Files {
-    /// As the user named it.
+    /// Name as given by the user.
     Path,
     /// File name without its folders.
     Name,

@@ -355,15 +355,15 @@ impl Compensation {
     }
 }
 
-/// Part of an axis in a coupling.
+/// Membership of an axis in a coupling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Coupling {
-    /// Part of a coupling.
+    /// Member of a coupling.
     Active,
-    /// Possibly part of a coupling, which only the machine knows.
+    /// Possible member of a coupling, which only the machine knows.
     Perhaps,
-    /// No part of a coupling.
+    /// Not a member of a coupling.
     None,
 }
 

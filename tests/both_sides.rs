@@ -32,7 +32,7 @@ use known::Tally;
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
-/// The axes, one that is not configured, and programs of words.
+/// Returns the axes, one that is not configured, and programs of words.
 fn machine() -> Machine {
     let words = "M06 = \"m6.nc\"\nT = \"t.nc\"\nG80 = \"g80.nc\"\nG81 = \"g81.nc\"";
     let mut text = format!("[machine.programs]\n{words}\n");
@@ -43,7 +43,7 @@ fn machine() -> Machine {
     Machine::from_toml(&text).expect("a machine")
 }
 
-/// The files that programs call.
+/// Returns the files that programs call.
 fn called(name: &str) -> Option<SourceFile> {
     let text = match name {
         "m6.nc" => "X[COMP OFF FRICT]\nP2=P2+1\nM17\n",

@@ -104,7 +104,7 @@ impl Inherits {
 }
 
 impl Serialize for Inherits {
-    /// The motion, or `"no"` or `"unknown"`.
+    /// Returns the motion, or `"no"` or `"unknown"`.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::No => serializer.serialize_str("no"),

@@ -279,7 +279,8 @@ impl Observation {
         }
     }
 
-    /// The possible states of a kind on the observed side. The sides cannot be told apart where sets were widened.
+    /// Returns the possible states of a kind on the observed side. The sides cannot be told apart where sets were
+    /// widened.
     fn possible_of(
         &mut self,
         (compensation, found): (&Compensation, FoundStates<'_>),
@@ -291,7 +292,7 @@ impl Observation {
         possible
     }
 
-    /// The selection of a subject with its possible states, on the observed side.
+    /// Returns the selection of a subject with its possible states, on the observed side.
     fn stood(&mut self, scope: &Scope, at: usize, executed: &Executed<'_>) -> Stood {
         let AuditedKind { axis, kind } = scope.subjects()[at];
         let states = (executed.compensation, executed.found);
@@ -558,7 +559,7 @@ pub(super) struct Stood {
 }
 
 impl Stood {
-    /// The selection of a subject, with its possible states if there are several.
+    /// Returns the selection of a subject, with its possible states if there are several.
     pub(super) fn new(selected: Selected, possible: Option<&PossibleStates>) -> Self {
         let mut digest = DefaultHasher::new();
         if let Some(possible) = possible {

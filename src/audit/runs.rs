@@ -176,8 +176,8 @@ impl ProgramRuns {
         }
     }
 
-    /// The effect of a program that is stopped on all ways: an error leaves away what is away there (R18.10); where it
-    /// would have led otherwise is not known.
+    /// Returns the effect of a program that is stopped on all ways: an error leaves away what is away there (R18.10);
+    /// where it would have led otherwise is not known.
     fn left_at_error(&self, scope: &Scope, at: usize) -> ProgramEffect {
         let is_on = scope.is_on_at_start_up(scope.subjects()[at]);
         let away = if is_on { Selected::Off } else { Selected::On };

@@ -275,7 +275,7 @@ impl Compensation {
         }));
     }
 
-    /// The kinds whose parameters a program wrote.
+    /// Returns the kinds whose parameters a program wrote.
     pub(crate) fn rewritten(&self, axis: AxisIndex) -> KindSet {
         self.axes[axis.get()].rewritten
     }

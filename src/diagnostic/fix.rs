@@ -97,7 +97,7 @@ impl<P> Fix<P> {
 }
 
 impl Fix {
-    /// The changes that it consists of.
+    /// Returns the changes that it consists of.
     pub fn changes(&self) -> impl Iterator<Item = &Self> {
         std::iter::successors(Some(self), |fix| fix.also.as_deref())
     }

@@ -327,7 +327,7 @@ impl Judge<'_> {
             .find(|slave| slave.name == given.slave)
     }
 
-    /// FC505: the drive compensates friction by itself, or may do so (R7.10).
+    /// Returns FC505: the drive compensates friction by itself, or may do so (R7.10).
     fn own_friction(&self) -> Vec<Diagnostic> {
         let mut all = Vec::new();
         let (Some(network), Some(selector)) = (&self.evidence.network, self.selector) else {

@@ -169,7 +169,7 @@ impl DriveSettings {
     }
 }
 
-/// FC130 for a value that cannot be used.
+/// Returns FC130 for a value that cannot be used.
 fn unusable(entry: &Entry, expected: &'static str) -> Diagnostic {
     let word = entry.word();
     let message = format!(

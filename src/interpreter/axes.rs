@@ -60,7 +60,7 @@ pub(crate) struct AxisLookup<'a> {
 }
 
 impl AxisLookup<'_> {
-    /// An axis or spindle by its name.
+    /// Returns an axis or spindle by its name.
     pub(crate) fn any(self, name: &str) -> Option<AxisIndex> {
         match self.channel.meaning(name) {
             None => self.machine.find(name),
@@ -68,7 +68,7 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// An axis by its name.
+    /// Returns an axis by its name.
     pub(crate) fn named(self, name: &str) -> Option<AxisIndex> {
         match self.channel.meaning(name) {
             None => self.own.get(name),
@@ -76,22 +76,22 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// An axis by its letter.
+    /// Returns an axis by its letter.
     pub(crate) fn letter(self, letter: u8) -> Option<AxisIndex> {
         self.named(char::from(letter).encode_utf8(&mut [0; 4]))
     }
 
-    /// The axis that `@X` means in the plane in force.
+    /// Returns the axis that `@X` means in the plane in force.
     pub(crate) fn main(self, letter: u8, modal: &Modal) -> Option<AxisIndex> {
         self.letter(modal.main_axis(letter)?)
     }
 
-    /// Every axis and spindle.
+    /// Returns every axis and spindle.
     pub(crate) fn all(self) -> impl Iterator<Item = AxisIndex> + use<> {
         (0..self.machine.axes.len()).map(AxisIndex::new)
     }
 
-    /// Every axis that words can move.
+    /// Returns every axis that words can move.
     pub(crate) fn path(self) -> Vec<AxisIndex> {
         let is_path = |axis: &AxisIndex| !self.machine.axis(*axis).is_spindle();
         self.all().filter(is_path).collect()
@@ -103,7 +103,7 @@ impl AxisLookup<'_> {
         letters.into_iter().flatten().collect()
     }
 
-    /// The axes of the active plane; all main axes where it is not known.
+    /// Returns the axes of the active plane; all main axes where it is not known.
     pub(crate) fn plane(self, modal: &Modal) -> Vec<AxisIndex> {
         match [b'X', b'Y'].map(|it| self.main(it, modal)) {
             [Some(first), Some(second)] => vec![first, second],
@@ -111,13 +111,13 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// The axes that a command names.
+    /// Returns the axes that a command names.
     pub(crate) fn given(self, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
         let words = arguments.words(text);
         words.filter_map(|word| self.any(word)).collect()
     }
 
-    /// The axes that a command names, or else all.
+    /// Returns the axes that a command names, or else all.
     pub(crate) fn given_or_all(self, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
         let named = self.given(arguments, text);
         if named.is_empty() {
@@ -127,9 +127,9 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// The pairs of axes that a definition of a coupling group names, slave and master: `[1, X = Y]`, or `[1, 8 = 2]` by
-    /// their logical numbers. An axis whose partner the machine does not have stands twice. `None` where a number may be
-    /// that of an axis without a known one.
+    /// Returns the pairs of axes that a definition of a coupling group names, slave and master: `[1, X = Y]`, or `[1, 8
+    /// = 2]` by their logical numbers. An axis whose partner the machine does not have stands twice. `None` where a
+    /// number may be that of an axis without a known one.
     pub(crate) fn members(
         self,
         by: MembersBy,
@@ -155,7 +155,7 @@ impl AxisLookup<'_> {
         Some(members)
     }
 
-    /// The axis that an argument gives by its name or its logical number.
+    /// Returns the axis that an argument gives by its name or its logical number.
     pub(crate) fn argument(self, argument: &Argument, text: &str) -> Option<AxisIndex> {
         let number = argument.logical_number(text);
         let by_number = || self.machine.axis_numbered(number?);
@@ -220,7 +220,7 @@ impl ChannelAxes {
         self.doubtful
     }
 
-    /// Meaning of a name; `None` where it means the axis of the machine, or none.
+    /// Returns the meaning of a name; `None` where it means the axis of the machine, or none.
     pub(crate) fn meaning(&self, name: &str) -> Option<AxisNameMeaning> {
         if self.doubtful {
             return Some(AxisNameMeaning::Unknown);
@@ -228,7 +228,7 @@ impl ChannelAxes {
         self.names.get(name).copied()
     }
 
-    /// The meaning of a name, that of the machine included.
+    /// Returns the meaning of a name, that of the machine included.
     pub(crate) fn meaning_on(&self, machine: &Machine, name: &str) -> Option<AxisNameMeaning> {
         let own = || machine.find(name).map(AxisNameMeaning::Axis);
         self.meaning(name).or_else(own)
@@ -266,7 +266,7 @@ impl ChannelAxes {
             .insert(name.to_owned(), AxisNameMeaning::Released(released));
     }
 
-    /// The channel gives back every axis but those of these names. Returns how many names it went through.
+    /// Takes every axis from the channel but those of these names. Returns how many names it went through.
     pub(crate) fn release_others(&mut self, machine: &Machine, stay: &[&str]) -> usize {
         let is_here =
             |name: &str| !matches!(self.names.get(name), Some(AxisNameMeaning::Released(_)));

@@ -69,7 +69,7 @@ struct LineSpan {
 }
 
 impl ShownBlockLines {
-    /// The place of a span: only the lines of the block that it touches.
+    /// Returns the place of a span: only the lines of the block that it touches.
     fn place(&self, at: &BlockContext<'_>, span: Span) -> Place {
         let text = at.text;
         let clamped = |offset: u32| {
@@ -123,7 +123,7 @@ impl LineSpan {
 }
 
 impl<'a> BlockContext<'a> {
-    /// The block as one that sets a variable.
+    /// Returns the block as one that sets a variable.
     pub(crate) fn as_setter(&self) -> SetAt {
         SetAt {
             file: self.file.clone(),
@@ -131,7 +131,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A block of the main program, or one that is inspected, not executed.
+    /// Returns a block of the main program, or one that is inspected, not executed.
     #[inline]
     pub(crate) fn of_raw(
         file: &'a Arc<str>,
@@ -154,7 +154,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A block of the program that runs on a level of the call stack.
+    /// Returns a block of the program that runs on a level of the call stack.
     pub(crate) fn of_parsed(parsed: &'a Parsed, level: u32, shown: &'a ShownBlockLines) -> Self {
         Self {
             block: &parsed.block,
@@ -171,7 +171,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// Another block of the same program.
+    /// Returns another block of the same program.
     pub(crate) fn other(&self, parsed: &'a Parsed, shown: &'a ShownBlockLines) -> Self {
         Self {
             block: &parsed.block,
@@ -182,7 +182,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// The code of a macro that is used at a span of this block or macro.
+    /// Returns the code of a macro that is used at a span of this block or macro.
     pub(crate) fn in_macro(
         &self,
         code: &MacroCode<'a>,
@@ -201,7 +201,7 @@ impl<'a> BlockContext<'a> {
 }
 
 impl BlockContext<'_> {
-    /// The span in the block of a span here, for messages once the whole block is known.
+    /// Returns the span in the block of a span here, for messages once the whole block is known.
     pub(crate) fn in_block(&self, span: Span) -> Span {
         self.used.unwrap_or(span)
     }
@@ -239,7 +239,7 @@ pub(crate) struct LastBlock {
 }
 
 impl LastBlock {
-    /// The whole block.
+    /// Returns the whole block.
     pub(crate) fn place(&self) -> Place {
         Place {
             file: self.file.clone(),
@@ -599,7 +599,7 @@ impl BlockActions {
     }
 }
 
-/// A single message.
+/// Returns a single message.
 pub(crate) fn one(diagnostic: Diagnostic) -> Collected {
     let mut notes = Collected::default();
     notes.push(diagnostic);
@@ -635,7 +635,7 @@ pub(crate) struct FailedAt {
 }
 
 impl FailedAt {
-    /// The executed block `seq`, with its messages.
+    /// Returns the executed block `seq`, with its messages.
     pub(crate) fn new(seq: u64, at: &BlockContext<'_>, said: &[Diagnostic]) -> Self {
         Self {
             seq,
@@ -697,7 +697,7 @@ impl LonePart {
         self != Self::Call
     }
 
-    /// The first part of a block that should not be in it together with a macro.
+    /// Returns the first part of a block that should not be in it together with a macro.
     pub(crate) fn conflict(self, block: &Block, used: Span) -> Option<Span> {
         let from = block
             .items
@@ -726,7 +726,7 @@ fn ends_in_comment(code: &str) -> bool {
     code.contains([';', '(']) && !code_of(&format!("{code} X")).ends_with('X')
 }
 
-/// The name that a declaration declares, without its dimensions.
+/// Returns the name that a declaration declares, without its dimensions.
 pub(crate) fn declared_name(declaration: &Declaration, at: &BlockContext<'_>) -> VariableName {
     VariableName::array_of(declaration.target.span.of(at.text))
 }

@@ -70,7 +70,7 @@ impl OptionalSection {
 }
 
 impl ControlState {
-    /// The states at this block, for where the machine does not execute what follows.
+    /// Returns the states at this block, for where the machine does not execute what follows.
     pub(crate) fn earlier_states(&self) -> EarlierStates {
         EarlierStates {
             compensation: self.compensation.clone(),
@@ -78,7 +78,7 @@ impl ControlState {
         }
     }
 
-    /// The state before the first program.
+    /// Returns the state before the first program.
     pub(crate) fn new(compensation: Compensation, modal: Modal) -> Self {
         Self {
             compensation,
@@ -167,7 +167,7 @@ impl ControlState {
         }
     }
 
-    /// The values whose numbers differ in another state; `None` where anything else does.
+    /// Returns the values whose numbers differ in another state; `None` where anything else does.
     pub(crate) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let Self {
             compensation,
@@ -247,7 +247,7 @@ pub(crate) enum RepeatedCall {
 }
 
 impl ModalCycles {
-    /// A cycle that is in force.
+    /// Returns a cycle that is in force.
     pub(crate) fn of(cycle: Repeated) -> Self {
         Self {
             cycles: vec![cycle],
@@ -260,7 +260,7 @@ impl ModalCycles {
         self.cycles.is_empty()
     }
 
-    /// The cycles that may be in force.
+    /// Returns the cycles that may be in force.
     pub(crate) fn known(&self) -> &[Repeated] {
         &self.cycles
     }

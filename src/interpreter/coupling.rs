@@ -59,7 +59,7 @@ struct CoupledAxes {
 const MOST_GROUPS: usize = 32;
 
 impl CoupledAxes {
-    /// Its pairs, slave and master, of which both are axes of the machine.
+    /// Returns its pairs, slave and master, of which both are axes of the machine.
     fn pairs(&self) -> impl Iterator<Item = [AxisIndex; 2]> {
         let pairs = self.axes.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
         pairs.filter(|[slave, master]| slave != master)
@@ -143,7 +143,7 @@ impl Couplings {
         self.doubted || !self.enabled.is_empty()
     }
 
-    /// The pairs of axes that groups couple; `None` where that is not known.
+    /// Returns the pairs of axes that groups couple; `None` where that is not known.
     pub(crate) fn in_force(&self) -> Option<Vec<AxisIndex>> {
         let groups = self.enabled.values().map(|name| self.groups.get(name));
         let groups: Option<Vec<_>> = groups.collect();
@@ -161,13 +161,13 @@ impl Couplings {
         self.groups.len()
     }
 
-    /// The groups that are known, with their axes.
+    /// Returns the groups that are known, with their axes.
     pub(crate) fn groups(&self) -> impl Iterator<Item = (&str, &[AxisIndex])> {
         let groups = self.groups.iter().filter(|(_, group)| !group.unknown);
         groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
     }
 
-    /// The axes that unknown groups may name.
+    /// Returns the axes that unknown groups may name.
     pub(crate) fn lost(&self) -> impl Iterator<Item = AxisIndex> {
         self.named.iter().copied().filter(|_| self.vague)
     }
@@ -196,15 +196,15 @@ impl Couplings {
         }
     }
 
-    /// The definition of a group is not known.
+    /// Forgets the definition of a group, and returns the axes that it coupled.
     fn forget(&mut self, group: &str) -> Vec<AxisIndex> {
         let changed = self.release(group);
         self.groups.remove(group);
         changed
     }
 
-    /// An axis of a group that is to be enabled and that another group in force does not admit, with the number of the error
-    /// (R2.114).
+    /// Returns an axis of a group that is to be enabled and that another group in force does not admit, with the number
+    /// of the error (R2.114).
     pub(crate) fn conflict(&self, group: &str) -> Option<(u32, AxisIndex)> {
         if self.enabled.len() > MOST_GROUPS {
             return None;
@@ -255,8 +255,8 @@ impl Couplings {
         self.vague = true;
     }
 
-    /// Some coupling command may have been executed. Returns the axes whose coupling may have
-    /// changed.
+    /// Makes the groups unknown, since some coupling command may have been executed. Returns the axes whose coupling
+    /// may have changed.
     pub(crate) fn havoc(&mut self) -> Vec<AxisIndex> {
         self.release_all();
         self.groups.clear();
@@ -265,7 +265,7 @@ impl Couplings {
         self.named.iter().copied().collect()
     }
 
-    /// Other couplings may be in force instead. Returns the axes whose coupling may have changed.
+    /// Merges other couplings, which may be in force instead. Returns the axes whose coupling may have changed.
     pub(crate) fn join(&mut self, other: &Self) -> Vec<AxisIndex> {
         if self == other {
             return Vec::new();
@@ -326,7 +326,7 @@ impl Couplings {
         self.axes_of(group)
     }
 
-    /// The axes that a group couples, or may couple.
+    /// Returns the axes that a group couples, or may couple.
     fn axes_of(&self, group: &str) -> Vec<AxisIndex> {
         match self.groups.get(group) {
             Some(group) if group.unknown => self.named.iter().copied().collect(),

@@ -184,7 +184,7 @@ pub struct BlockMove<'a> {
 }
 
 impl<'a> BlockMove<'a> {
-    /// Every axis that the block moves, or may, and how (R10.7): its words first.
+    /// Returns every axis that the block moves, or may, and how (R10.7): its words first.
     #[inline]
     pub fn motions(&self) -> impl Iterator<Item = MovedAxis> + use<'a> {
         let kind = self.word_kind();
@@ -228,7 +228,7 @@ impl<'a> BlockMove<'a> {
 }
 
 impl Executed<'_> {
-    /// Every axis that the block moves, or may, and how (R10.7): its words first.
+    /// Returns every axis that the block moves, or may, and how (R10.7): its words first.
     #[inline]
     pub fn motions(&self) -> impl Iterator<Item = MovedAxis> {
         self.moves().motions()
@@ -248,7 +248,7 @@ impl Executed<'_> {
         }
     }
 
-    /// The states of a kind of an axis that are possible after it, where ways differ.
+    /// Returns the states of a kind of an axis that are possible after it, where ways differ.
     #[inline]
     pub fn possible_of(&self, axis: AxisIndex, kind: Kind) -> Option<&PossibleStates> {
         let mut possible = self.possible.iter();

@@ -131,7 +131,7 @@ impl Executor {
         self.used = Some(RefCell::new(used));
     }
 
-    /// The use of variables that outlive programs by the programs since.
+    /// Returns the use of variables that outlive programs by the programs since.
     pub(crate) fn take_use(&mut self) -> VariableUse {
         let used = self.used.take().map(RefCell::into_inner);
         used.unwrap_or_default()
@@ -149,7 +149,7 @@ impl Executor {
         name.family() == VariableFamily::Shared || self.externals.is_own(name)
     }
 
-    /// The axes that names mean at the block.
+    /// Returns the axes that names mean at the block.
     pub(crate) fn axes(&self) -> AxisLookup<'_> {
         AxisLookup {
             machine: &self.machine,
@@ -158,7 +158,7 @@ impl Executor {
         }
     }
 
-    /// Where the path is in its programs.
+    /// Returns where the path is in its programs.
     pub(crate) fn position(&self) -> ProgramPosition<'_> {
         ProgramPosition {
             frames: &self.state.control.frames,
@@ -166,7 +166,7 @@ impl Executor {
         }
     }
 
-    /// The axis that `@X` means in the plane in force.
+    /// Returns the axis that `@X` means in the plane in force.
     pub(crate) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
         self.axes().main(letter, &self.state.control.modal)
     }
@@ -177,7 +177,7 @@ impl Executor {
         self.scratch.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
-    /// The skip levels that are on, where they are known (R2.90).
+    /// Returns the skip levels that are on, where they are known (R2.90).
     pub(crate) fn skip_levels(&self) -> Option<SkipLevels> {
         self.options.skip.or(self.machine.skip)
     }
@@ -188,7 +188,7 @@ impl Executor {
         block.skip.is_some_and(skips)
     }
 
-    /// The skip level that decides whether a block is executed, where that is not known.
+    /// Returns the skip level that decides whether a block is executed, where that is not known.
     #[inline]
     pub(crate) fn undecided_level(&self, block: &Block) -> Option<u8> {
         block
@@ -196,8 +196,8 @@ impl Executor {
             .filter(|_| self.skip_levels().is_none() && !self.state.is_on_marked_way())
     }
 
-    /// The level that decides whether the parts of a control block belong together: one of them has a
-    /// skip mark and its opener has none.
+    /// Returns the level that decides whether the parts of a control block belong together: one of them has a skip mark
+    /// and its opener has none.
     pub(crate) fn split_level(&self) -> Option<u8> {
         let frame = self.state.control.frames.running()?;
         let entry = frame.next.checked_sub(1)?;
@@ -303,7 +303,7 @@ pub(crate) struct RunState {
 }
 
 impl RunState {
-    /// The state before the first program.
+    /// Returns the state before the first program.
     pub(crate) fn at_start(machine: &Machine, compensation: Compensation) -> Self {
         let configured = machine.axis_set == AxisSet::Configured;
         let occurred = |axis: &Axis| configured || axis.frict_comp_origin != Origin::Default;
@@ -329,13 +329,13 @@ impl RunState {
         }
     }
 
-    /// The states of the control here and where paths have ended.
+    /// Returns the states of the control here and where paths have ended.
     pub(crate) fn controls_mut(&mut self) -> impl Iterator<Item = &mut ControlState> {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path.control);
         std::iter::once(&mut self.control).chain(ended)
     }
 
-    /// The states that the program found, where it is now.
+    /// Returns the states that the program found, where it is now.
     pub(crate) fn found_states(&self) -> FoundStates<'_> {
         FoundStates {
             history: &self.control.history,
@@ -399,7 +399,7 @@ impl MentionedUnknowns {
         }
     }
 
-    /// The block where a value first occurred.
+    /// Returns the block where a value first occurred.
     pub(crate) fn origin(&self, cause: &Unknown) -> Option<&Place> {
         self.roots.get(cause).map(|root| &root.place)
     }

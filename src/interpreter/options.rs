@@ -175,7 +175,7 @@ const WAYS_PER_WORK: u64 = 70;
 const WORK: u64 = 10_000_000;
 
 impl Limits {
-    /// The default limits, and repeated work for about two seconds of a processor (R9.91).
+    /// Returns the default limits, and repeated work for about two seconds of a processor (R9.91).
     pub fn brief() -> Self {
         Self::default().with_repeats(BRIEF_REPEATS)
     }

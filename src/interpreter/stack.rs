@@ -48,7 +48,7 @@ pub(crate) struct CallFrame {
 }
 
 impl CallFrame {
-    /// The program that it belongs to.
+    /// Returns the program that it belongs to.
     pub(crate) fn program(&self) -> ProgramId {
         ProgramId {
             unit: self.unit,
@@ -123,19 +123,19 @@ impl CallStack {
         }
     }
 
-    /// The program whose blocks are executed.
+    /// Returns the program whose blocks are executed.
     #[inline]
     pub(crate) fn running(&self) -> Option<&CallFrame> {
         self.0.last()
     }
 
-    /// The program whose blocks are executed.
+    /// Returns the program whose blocks are executed.
     #[inline]
     pub(crate) fn running_mut(&mut self) -> Option<&mut CallFrame> {
         self.0.last_mut()
     }
 
-    /// The main program.
+    /// Returns the main program.
     pub(crate) fn main(&self) -> Option<&CallFrame> {
         self.0.first()
     }
@@ -147,23 +147,23 @@ impl CallStack {
         })
     }
 
-    /// The running cycle, whose end restores what was in force before it.
+    /// Returns the running cycle, whose end restores what was in force before it.
     pub(crate) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
         let mut frames = self.0.iter_mut().rev();
         frames.find(|frame| frame.restores.is_some())
     }
 
-    /// The place of the program whose blocks are executed.
+    /// Returns the place of the program whose blocks are executed.
     pub(crate) fn program(&self) -> Option<ProgramId> {
         self.running().map(CallFrame::program)
     }
 
-    /// The call depth of the program whose blocks are executed; 0 is the main program.
+    /// Returns the call depth of the program whose blocks are executed; 0 is the main program.
     pub(crate) fn level(&self) -> u32 {
         self.running().map_or(0, |frame| frame.level)
     }
 
-    /// The block that is executed.
+    /// Returns the block that is executed.
     pub(crate) fn entry(&self) -> Option<EntryIndex> {
         self.running()?.next.checked_sub(1)
     }
@@ -173,12 +173,12 @@ impl CallStack {
         self.running().is_some_and(|frame| target < frame.next)
     }
 
-    /// The outermost program of a call depth.
+    /// Returns the outermost program of a call depth.
     pub(crate) fn at_level(&self, level: u32) -> Option<&CallFrame> {
         self.0.iter().find(|frame| frame.level == level)
     }
 
-    /// The program at a call depth, the main program being the first.
+    /// Returns the program at a call depth, the main program being the first.
     pub(crate) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut CallFrame> {
         self.0.get_mut(depth.checked_sub(1)?)
     }
@@ -193,7 +193,7 @@ impl CallStack {
         self.0.is_empty()
     }
 
-    /// The programs, the main program first.
+    /// Returns the programs, the main program first.
     pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &CallFrame> {
         self.0.iter()
     }
@@ -203,17 +203,17 @@ impl CallStack {
         self.0.push(frame);
     }
 
-    /// A program is left.
+    /// Leaves a program.
     pub(crate) fn pop(&mut self) -> Option<CallFrame> {
         self.0.pop()
     }
 
-    /// The programs that called the running one.
+    /// Returns the programs that called the running one.
     pub(crate) fn without_running(&self) -> Self {
         Self(self.0[..self.0.len().saturating_sub(1)].to_vec())
     }
 
-    /// The running program, whoever called it.
+    /// Returns the running program, whoever called it.
     pub(crate) fn running_alone(&self) -> Self {
         let alone = |frame: &CallFrame| CallFrame {
             called_from: None,
@@ -268,8 +268,7 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
-    /// The start of the next pass, when there is one. A pass of blocks that are all skipped is the
-    /// last one.
+    /// Returns the start of the next pass, when there is one. A pass of blocks that are all skipped is the last one.
     pub(crate) fn again(&mut self, executed: u64) -> Option<EntryIndex> {
         if self.left == 0 || executed == self.begun {
             return None;
@@ -292,7 +291,7 @@ pub(crate) struct Destination {
 }
 
 impl Destination {
-    /// The block after the call of a level.
+    /// Returns the block after the call of a level.
     pub(crate) fn after_call(level: u32) -> Self {
         Self {
             level,
@@ -317,7 +316,7 @@ pub(crate) struct ProgramPosition<'a> {
 }
 
 impl ProgramPosition<'_> {
-    /// The statement being executed and the end of its control block.
+    /// Returns the statement being executed and the end of its control block.
     pub(crate) fn current_block(self) -> Range<EntryIndex> {
         self.frames.running().map_or(0..0, |frame| {
             let entry = frame.next - 1;
@@ -381,7 +380,7 @@ impl ProgramPosition<'_> {
         is_kept.then(|| holds_program_end(index.text_from(frame.section, frame.next)))
     }
 
-    /// The block after the one being executed.
+    /// Returns the block after the one being executed.
     pub(crate) fn next_block(self) -> EntryIndex {
         self.frames.running().map_or(0, |it| it.next)
     }

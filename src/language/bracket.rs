@@ -134,7 +134,8 @@ impl BracketRow {
 }
 
 impl AxisCommand {
-    /// The command with a keyword, and all its words with blanks in between. One that no row names does nothing.
+    /// Returns the command with a keyword, and all its words with blanks in between. One that no row names does
+    /// nothing.
     pub(crate) fn of(keyword: &str, words: &[&str]) -> Self {
         let parts = || words.iter().flat_map(|word| word.split(is_between));
         let has = |wanted: &str| parts().any(|word| word.eq_ignore_ascii_case(wanted));
@@ -165,7 +166,7 @@ impl AxisCommand {
         is_numbered || BracketRow::of(keyword).is_some()
     }
 
-    /// The keywords, for "did you mean".
+    /// Returns the keywords, for "did you mean".
     pub(crate) fn keywords() -> impl Iterator<Item = &'static str> {
         let keywords = BRACKETS.iter().map(|row| row.keyword);
         keywords.filter(|keyword| !keyword.starts_with(MOTION_CONTROL))

@@ -108,7 +108,7 @@ pub(crate) enum CoordinateEffect {
 }
 
 impl BlockGroup {
-    /// Its place after the groups of which one is in force.
+    /// Returns its place after the groups of which one is in force.
     pub(crate) const fn place(self) -> usize {
         match self {
             Self::ExactStop => Group::ExactStop as usize,
@@ -322,7 +322,7 @@ static GROUPS: [Option<Group>; NUMBERS] = {
 };
 
 impl Group {
-    /// The group of a G number; `None` for one that is not modal or not modelled.
+    /// Returns the group of a G number; `None` for one that is not modal or not modelled.
     #[inline]
     pub fn of(number: u32) -> Option<Self> {
         GROUPS.get(number as usize).copied().flatten()
@@ -330,7 +330,7 @@ impl Group {
 }
 
 impl GFunction {
-    /// The row of a number; `None` where none names it.
+    /// Returns the row of a number; `None` where none names it.
     pub(crate) fn of(number: u32) -> Option<&'static Self> {
         let place = usize::from(*PLACES.get(number as usize)?);
         FUNCTIONS.get(place.checked_sub(1)?)
@@ -348,7 +348,7 @@ impl GFunction {
         matches!(number, 2 | 3)
     }
 
-    /// The row of a number after G, which may be a fraction.
+    /// Returns the row of a number after G, which may be a fraction.
     pub(crate) fn of_value(number: f64) -> Option<&'static Self> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
         let whole = number as u32;
@@ -356,12 +356,12 @@ impl GFunction {
         Self::of(whole).filter(|_| is_whole)
     }
 
-    /// The row of a number whose function is known, and not only its group.
+    /// Returns the row of a number whose function is known, and not only its group.
     pub(crate) fn known(number: u32) -> Option<&'static Self> {
         Self::of(number).filter(|row| row.coordinates != CoordinateEffect::NotKnown)
     }
 
-    /// The functions that may be the default of a group of a channel list (P-CHAN-00063).
+    /// Returns the functions that may be the default of a group of a channel list (P-CHAN-00063).
     pub(crate) fn defaults_of(group: u32) -> impl Iterator<Item = u32> {
         let rows = FUNCTIONS.iter();
         let rows = rows.filter(move |row| row.default_of == Some(group));

@@ -646,7 +646,7 @@ pub(crate) struct HashWords {
 }
 
 impl FurtherWord {
-    /// The word, in either case.
+    /// Returns the word, in either case.
     pub(crate) fn of(word: &str) -> Option<Self> {
         let mut all = Self::ALL.into_iter();
         all.find(|known| known.as_str().eq_ignore_ascii_case(word))
@@ -654,7 +654,7 @@ impl FurtherWord {
 }
 
 impl HashWords {
-    /// The command of a name, in upper case with one blank between its words; `None` where no row names it.
+    /// Returns the command of a name, in upper case with one blank between its words; `None` where no row names it.
     pub(crate) fn of(name: &str) -> Option<Self> {
         let command = HashCommand::of(name)?;
         let further = name[command.words.len()..].split_ascii_whitespace();
@@ -677,7 +677,7 @@ impl HashWords {
         self.further == FurtherWords::default()
     }
 
-    /// Command up to which the lines after it are its text; none with a further word, `#RT CYCLE END`.
+    /// Returns the command up to which the lines after it are its text; none with a further word, `#RT CYCLE END`.
     pub(crate) fn region_end(self) -> Option<&'static str> {
         let has_region = matches!(
             self.arguments,
@@ -686,7 +686,7 @@ impl HashWords {
         self.until.filter(|_| has_region && self.is_plain())
     }
 
-    /// Its row.
+    /// Returns its row.
     pub(crate) fn row(self) -> &'static HashCommand {
         self.command
     }
@@ -697,7 +697,7 @@ impl HashWords {
         words.into_iter().any(|word| self.has(word))
     }
 
-    /// The simplification that it brings, and how long. `#CONTOUR MODE` without ON or OFF only sets parameters
+    /// Returns the simplification that it brings, and how long. `#CONTOUR MODE` without ON or OFF only sets parameters
     /// (PM/475156491).
     pub(crate) fn simplification(self) -> Option<(Simplification, Holds)> {
         let what = self.simplifies?;
@@ -730,7 +730,7 @@ impl Deref for HashWords {
 }
 
 impl HashCommand {
-    /// The row that names the most words of a name.
+    /// Returns the row that names the most words of a name.
     pub(crate) fn of(name: &str) -> Option<&'static Self> {
         let mut words = name;
         loop {
@@ -741,25 +741,25 @@ impl HashCommand {
         }
     }
 
-    /// The row with these words.
+    /// Returns the row with these words.
     fn with(words: &str) -> Option<&'static Self> {
         let place = COMMANDS.binary_search_by(|row| row.words.cmp(words)).ok()?;
         COMMANDS.get(place)
     }
 
-    /// The row of a name in the state.
+    /// Returns the row of a name in the state.
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
         let by_alias = || COMMANDS.iter().find(|row| row.known_as == Some(name));
         let is_command = name.starts_with('#');
         is_command.then(|| Self::with(name).or_else(by_alias))?
     }
 
-    /// The words of every row.
+    /// Returns the words of every row.
     pub(crate) fn all_words() -> impl Iterator<Item = &'static str> {
         COMMANDS.iter().map(|row| row.words)
     }
 
-    /// Its name in the state and in messages.
+    /// Returns its name in the state and in messages.
     pub(crate) fn name(&self) -> &'static str {
         self.known_as.unwrap_or(self.words)
     }

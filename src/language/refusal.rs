@@ -234,7 +234,7 @@ static REFUSALS: &[ControlError] = {
 };
 
 impl ControlError {
-    /// Its page: what is refused, what frictcomp does, and the source.
+    /// Returns its page: what is refused, what frictcomp does, and the source.
     pub fn explanation(&self) -> String {
         let Self {
             number,
@@ -251,7 +251,7 @@ impl ControlError {
         )
     }
 
-    /// The document that describes it.
+    /// Returns the document that describes it.
     pub fn source(&self) -> String {
         match self.page {
             "" => "error texts of the control".to_owned(),
@@ -269,7 +269,7 @@ impl ControlError {
         REFUSALS
     }
 
-    /// The one with a number.
+    /// Returns the one with a number.
     pub fn of(number: u32) -> Option<&'static Self> {
         let place = REFUSALS.binary_search_by_key(&number, |row| row.number);
         REFUSALS.get(place.ok()?)

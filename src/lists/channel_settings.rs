@@ -372,7 +372,7 @@ impl ChannelDraft {
         }
     }
 
-    /// The followers and leaders of the coupling group 0 by their logical numbers, without pairs of spindles.
+    /// Returns the followers and leaders of the coupling group 0 by their logical numbers, without pairs of spindles.
     fn coupled(&self) -> Vec<[u32; 2]> {
         let part = |place, part| {
             self.pairs

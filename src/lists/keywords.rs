@@ -21,7 +21,7 @@ macro_rules! keys {
     };
 }
 
-/// Every key that is read or referred to (TF5200 Axis, Compensation, Channel and Start-up parameters).
+/// Returns every key that is read or referred to (TF5200 Axis, Compensation, Channel and Start-up parameters).
 pub fn known_keys() -> impl Iterator<Item = KnownKey> {
     let channel = CHANNEL_KEYS.iter().map(|row| row.key);
     KEYS.iter().copied().chain(channel)
@@ -290,7 +290,7 @@ pub(super) static CHANNEL_KEYS: &[ChannelKey] = {
     }
 };
 
-/// The number of the parameter of a key, with its indices left empty.
+/// Returns the number of the parameter of a key, with its indices left empty.
 pub(super) fn number_of(pattern: &str) -> &'static str {
     let mut rows = CHANNEL_KEYS.iter();
     let row = rows.find(|row| row.pattern() == pattern);
@@ -303,22 +303,22 @@ impl ChannelKey {
         CHANNEL_KEYS
     }
 
-    /// The key with its indices left empty, `g800_prog_file[]`.
+    /// Returns the key with its indices left empty, `g800_prog_file[]`.
     pub fn pattern(&self) -> &'static str {
         self.key.pattern
     }
 
-    /// The key as lists have it, `g800_prog_file[i]`.
+    /// Returns the key as lists have it, `g800_prog_file[i]`.
     pub fn key(&self) -> String {
         self.pattern().replace("[]", "[i]")
     }
 
-    /// The number of the parameter; empty where none is public.
+    /// Returns the number of the parameter; empty where none is public.
     pub fn number(&self) -> &'static str {
         self.key.number
     }
 
-    /// The case or test that shows what the key decides; `None` for a key that is not read.
+    /// Returns the case or test that shows what the key decides; `None` for a key that is not read.
     pub fn case(&self) -> Option<&'static str> {
         match self.usage {
             KeyUse::Read(_, case) => Some(case),
@@ -326,7 +326,7 @@ impl ChannelKey {
         }
     }
 
-    /// Its page: what frictcomp reads from it, or why it reads nothing.
+    /// Returns its page: what frictcomp reads from it, or why it reads nothing.
     pub fn explanation(&self) -> String {
         let number = match self.number() {
             "" => String::new(),

@@ -433,7 +433,7 @@ impl ChannelPrograms {
         self.named.insert(role, named);
     }
 
-    /// The modes of operation in which a program runs, `AUTOMATIC | MDI` (P-CHAN-00260, P-CHAN-00433).
+    /// Returns the modes of operation in which a program runs, `AUTOMATIC | MDI` (P-CHAN-00260, P-CHAN-00433).
     fn mode(&mut self, role: ProgramRole, entry: &Entry) -> Option<Diagnostic> {
         let given = entry.text();
         let text = given.value.trim().trim_matches('"').to_ascii_uppercase();

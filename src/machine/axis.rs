@@ -558,8 +558,8 @@ impl AxisDraft {
         }
     }
 
-    /// R3.14: all lists give the axis the same number. `Some` if the value list has another one; it
-    /// is then rejected.
+    /// Checks that all lists give the axis the same number (R3.14). `Some` if the value list has another one; it is
+    /// then rejected.
     fn check_numbers(&self, diagnostics: &mut Vec<Diagnostic>) -> Option<Code> {
         let code = Code::PErr110229;
         let differ = |list: &Given<u32>, other: &Given<u32>| {
@@ -589,7 +589,7 @@ impl AxisDraft {
         Some(code)
     }
 
-    /// R3.27 and R3.30: the axis list and the value list must agree.
+    /// Checks that the axis list and the value list agree (R3.27, R3.30).
     fn check_selection(&self, axis: &Axis) -> Option<Diagnostic> {
         let anchor = self.value_list.friction.anchor();
         let selector = self.values.frict_comp();

@@ -115,8 +115,9 @@ fn any_matches(patterns: &[String], name: &str) -> bool {
     })
 }
 
-/// `*` matches any letters, `?` matches one. Both texts are scanned from the left; the match of the last `*` grows if
-/// the rest does not fit, so the work is bounded by the product of both lengths.
+/// Returns whether a name matches a pattern: `*` matches any letters, `?` matches one. Both texts are scanned from the
+/// left; the match of the last `*` grows if the rest does not fit, so the work is bounded by the product of both
+/// lengths.
 fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) =
         (pattern.chars().collect(), name.chars().collect());

@@ -30,7 +30,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// The diagnostics, in the order of their places.
+    /// Returns the diagnostics, in the order of their places.
     pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics.values()
     }
@@ -111,10 +111,10 @@ impl Sink for Findings {
     }
 }
 
-/// The change of a program that silences a message of it: a comment in its block, or above a block
-/// of several lines or one that would have more than 4000 characters. `None` for what cannot be silenced, the numbers of the control, budgets,
-/// messages about such comments, about `%` lines, about files as a whole and about comments that hide what follows them,
-/// and for a message whose lines are not those of the file.
+/// Returns the change of a program that silences a message of it: a comment in its block, or above a block of several
+/// lines or one that would have more than 4000 characters. `None` for what cannot be silenced, the numbers of the
+/// control, budgets, messages about such comments, about `%` lines, about files as a whole and about comments that hide
+/// what follows them, and for a message whose lines are not those of the file.
 pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
     let is_comment = matches!(said.code, Code::Fc414 | Code::Fc490 | Code::Fc491);
     let is_of_file = matches!(said.code, Code::Fc103 | Code::Fc104 | Code::Fc105);
@@ -213,8 +213,8 @@ impl SafeFixes {
         }
     }
 
-    /// The changes of each file. A comment that silences nothing in one run may be needed in
-    /// another one that calls the same program: it goes only if no run needs it.
+    /// Returns the changes of each file. A comment that silences nothing in one run may be needed in another one that
+    /// calls the same program: it goes only if no run needs it.
     pub fn of_files(self) -> impl Iterator<Item = (Arc<str>, Vec<Fix>)> {
         let files = self.files.into_iter().map(|(name, file)| {
             let holds = |(code, runs): (Code, usize)| code != Code::Fc490 || runs == file.runs;
@@ -349,7 +349,7 @@ impl Causes {
         at
     }
 
-    /// The messages, in the order in which they were said first.
+    /// Returns the messages, in the order in which they were said first.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.said
     }
@@ -490,8 +490,8 @@ impl MessageDedup {
         repeated
     }
 
-    /// FC905 for each file with more messages; `unsaid` messages about the program's own file
-    /// were counted before they came here.
+    /// Returns FC905 for each file with more messages; `unsaid` messages about the program's own file were counted
+    /// before they came here.
     pub(super) fn rest(&mut self, unsaid: u64, seq: u64) -> Vec<EndNote> {
         let mut full: Vec<(&Arc<str>, &mut PerFile)> = self
             .files

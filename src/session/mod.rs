@@ -106,7 +106,7 @@ pub enum Program<'a> {
 }
 
 impl Program<'_> {
-    /// The beginning of the text that is available so far.
+    /// Returns the beginning of the text that is available so far.
     fn head(&mut self) -> &str {
         match self {
             Self::Lines(lines) => lines.ahead(),
@@ -159,7 +159,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// A session right after the start of the control.
+    /// Returns a session right after the start of the control.
     pub fn new(machine: Machine, options: SessionOptions) -> Self {
         let machine = Arc::new(machine);
         let compensation = machine.compensation();
@@ -254,7 +254,7 @@ impl Session {
         }
     }
 
-    /// The current state.
+    /// Returns the current state.
     pub fn state(&self) -> StateView<'_> {
         StateView {
             machine: &self.machine,
@@ -265,8 +265,9 @@ impl Session {
         }
     }
 
-    /// The values that the programs needed from the machine, or the words passed over: names with their places,
-    /// sorted, each once, 20 000 of them at most. Empty unless [`Options::notes`](crate::interpreter::Options::notes) asks for them.
+    /// Returns the values that the programs needed from the machine, or the words passed over: names with their places,
+    /// sorted, each once, 20 000 of them at most. Empty unless [`Options::notes`](crate::interpreter::Options::notes)
+    /// asks for them.
     pub fn notes(&self, kind: NoteKind) -> impl Iterator<Item = (&str, &Place)> {
         self.notes
             .notes
@@ -280,7 +281,7 @@ impl Session {
         self.notes.more
     }
 
-    /// The interpreter, for positions and modal state.
+    /// Returns the interpreter, for positions and modal state.
     pub fn interpreter(&self) -> &Interpreter {
         &self.interpreter
     }
@@ -377,8 +378,8 @@ impl Session {
         &self.totals.counts
     }
 
-    /// The configured kinds of each axis that were not known at a program's end or where the axis
-    /// moved (R2.98), and friction compensation that a program switches on an axis that nothing describes (R18.2).
+    /// Returns the configured kinds of each axis that were not known at a program's end or where the axis moved
+    /// (R2.98), and friction compensation that a program switches on an axis that nothing describes (R18.2).
     pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
         let unknown = self.totals.unknown.iter();
         unknown.map(|(axis, kind)| (self.machine.axis(*axis).name.as_str(), *kind))

@@ -199,7 +199,7 @@ impl Recorder<'_> {
             && self.linter.knows(block.moves)
     }
 
-    /// The configured kinds of an axis that are unknown.
+    /// Returns the configured kinds of an axis that are unknown.
     fn unknown_of(&self, compensation: &Compensation, axis: AxisIndex) -> KindSet {
         let configured = self.machine.axis(axis).configured;
         compensation.unknown(axis).intersection(configured)
@@ -500,7 +500,7 @@ impl Recorder<'_> {
     }
 }
 
-/// FC490 for comments that silenced nothing.
+/// Returns FC490 for comments that silenced nothing.
 fn unused_allows(allows: &HashMap<(Arc<str>, u32, Code), Allow>) -> Vec<EndNote> {
     let unused = allows.iter().filter(|(_, allow)| !allow.used);
     let mut notes: Vec<EndNote> = unused
@@ -527,7 +527,7 @@ fn unused_allows(allows: &HashMap<(Arc<str>, u32, Code), Allow>) -> Vec<EndNote>
     notes
 }
 
-/// The diagnostic on a comment that silences nothing, with the change that removes it.
+/// Returns the diagnostic on a comment that silences nothing, with the change that removes it.
 fn without_comment(diagnostic: Diagnostic) -> Diagnostic {
     let mut place = diagnostic.place.clone();
     match allow::lone_comment(&place.text) {

@@ -170,12 +170,12 @@ impl FeedMoveCounter {
         }
     }
 
-    /// The moves of an axis.
+    /// Returns the moves of an axis.
     pub(super) fn of(&self, axis: AxisIndex) -> FeedMoves {
         self.counts[axis.get()]
     }
 
-    /// The axes that the last block moved at feed without friction compensation.
+    /// Returns the axes that the last block moved at feed without friction compensation.
     pub(super) fn moved(&self) -> &[AxisIndex] {
         &self.moved
     }
@@ -244,8 +244,8 @@ impl FeedMoveCounter {
     }
 }
 
-/// The travel of an axis along the arc or helix of a block, forth and back (R11.31); its length does not
-/// depend on where the origin is.
+/// Returns the travel of an axis along the arc or helix of a block, forth and back (R11.31); its length does not depend
+/// on where the origin is.
 fn travel_on_arc(moves: &BlockMotion, axis: AxisIndex) -> Option<f64> {
     let way = moves.arcs()[0]?;
     let PathForm::Arc(arc) = &way.form else {

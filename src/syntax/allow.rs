@@ -101,7 +101,7 @@ pub(crate) fn allowed(text: &str) -> Allowance {
     allowance
 }
 
-/// The text from a place to the end of its comment.
+/// Returns the text from a place to the end of its comment.
 fn reason(text: &str, start: usize) -> &str {
     let rest = &text[start..];
     let opened = text[..start].rfind([';', '(']);
@@ -110,7 +110,7 @@ fn reason(text: &str, start: usize) -> &str {
     rest.split(ends).next().unwrap_or(rest).trim_end()
 }
 
-/// The comment of a text that is addressed to this tool, with the blanks before it, where it allows a single
+/// Returns the comment of a text that is addressed to this tool, with the blanks before it, where it allows a single
 /// code and nothing else of the text would go with it.
 pub(crate) fn lone_comment(text: &str) -> Option<Span> {
     let mark = text.find(MARK)?;
@@ -140,7 +140,7 @@ pub(crate) fn insertion(line: &str, code: Code) -> (usize, String) {
     }
 }
 
-/// The comment line above a block that allows a code.
+/// Returns the comment line above a block that allows a code.
 pub(crate) fn line_above(code: Code) -> String {
     format!("; {MARK} {ALLOW} {code}\n")
 }
@@ -158,7 +158,7 @@ pub(crate) fn lost(text: &str) -> Option<Fault> {
     Some(fault.with_help("write it in the block, or on the line directly above it"))
 }
 
-/// The words after a place, with their places.
+/// Returns the words after a place, with their places.
 fn words(text: &str, from: usize) -> impl Iterator<Item = AllowWord<'_>> {
     let separates = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ')');
     let mut rest = from;

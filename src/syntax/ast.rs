@@ -59,7 +59,7 @@ impl Block {
         self.words.iter().chain(later)
     }
 
-    /// The value after the number of a word, `G163=50`.
+    /// Returns the value after the number of a word, `G163=50`.
     pub(crate) fn second_value(&self, word: Span) -> Option<Operand> {
         let mut values = self.second_values.iter();
         values.find(|(of, _)| *of == word).map(|(_, value)| *value)
@@ -176,7 +176,7 @@ pub enum SpindleWord {
 }
 
 impl Item {
-    /// The source of the item.
+    /// Returns the source of the item.
     pub fn span(&self) -> Span {
         match self {
             Self::Word(word) => word.span,
@@ -245,7 +245,7 @@ pub struct Hash {
 }
 
 impl Hash {
-    /// The open question on which its effect rests.
+    /// Returns the open question on which its effect rests.
     pub fn basis(&self) -> Option<Question> {
         self.command.basis
     }
@@ -257,7 +257,7 @@ impl Hash {
             .any(|name| name.trim().eq_ignore_ascii_case("V.E."))
     }
 
-    /// The text after its words as the parser sees it, without comments.
+    /// Returns the text after its words as the parser sees it, without comments.
     pub(crate) fn code<'a>(&self, text: &'a str) -> Cow<'a, str> {
         code_of_part(self.rest.of(text))
     }
@@ -296,12 +296,12 @@ pub struct Argument {
 }
 
 impl Argument {
-    /// The logical number of an axis, where it is one.
+    /// Returns the logical number of an axis, where it is one.
     pub(crate) fn logical_number(&self, text: &str) -> Option<u32> {
         self.span.of(text).parse().ok()
     }
 
-    /// The text of a value in quotes, without them.
+    /// Returns the text of a value in quotes, without them.
     pub(crate) fn quoted<'a>(&self, text: &'a str) -> Option<&'a str> {
         self.span.of(text).strip_prefix('"')?.strip_suffix('"')
     }

@@ -57,7 +57,7 @@ pub fn no_program(text: &str) -> Option<&'static str> {
     }
 }
 
-/// `<?xml`, `<!--`, `<svg`: no block begins with `<`.
+/// Returns `<?xml`, `<!--`, `<svg`: no block begins with `<`.
 fn markup(text: &str) -> Option<&'static str> {
     let begins = |begin: &str| {
         let head = text.get(..begin.len());
@@ -155,7 +155,7 @@ fn is_table(line: &str) -> bool {
     })
 }
 
-/// The value of `key = value`, whose key no axis, parameter or variable of a program has.
+/// Returns the value of `key = value`, whose key no axis, parameter or variable of a program has.
 fn value(line: &str) -> Option<&str> {
     let (key, value) = line.split_once('=')?;
     let (key, value) = (key.trim(), value.trim());
@@ -391,7 +391,7 @@ enum DialectEvidence {
     Any,
 }
 
-/// A line without comments and strings in upper case; the name of a program stays.
+/// Returns a line without comments and strings in upper case; the name of a program stays.
 fn code_of(line: &str) -> String {
     if line.trim_start().starts_with('%') {
         return line.to_ascii_uppercase();
@@ -437,7 +437,7 @@ fn meaning(code: &str) -> DialectEvidence {
     }
 }
 
-/// The length of the word that a text begins with; a block number before a word does not belong to it.
+/// Returns the length of the word that a text begins with; a block number before a word does not belong to it.
 fn word_length(text: &str) -> usize {
     let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     if !begins {

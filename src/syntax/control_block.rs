@@ -65,7 +65,7 @@ impl ControlBlock {
     }
 }
 
-/// The control block that an item of a block belongs to, and its part in it. `$IF c $GOTO N10` opens none.
+/// Returns the control block that an item of a block belongs to, and its part in it. `$IF c $GOTO N10` opens none.
 pub fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> {
     use ControlBlock::{Do, For, If, RealTime, Repeat, Switch, While};
     use Part::{Branch, Closer, Opener};

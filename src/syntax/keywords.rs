@@ -114,7 +114,7 @@ fn numbered(upper: &str, letters: &[char]) -> bool {
     number.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// FC210 for a text.
+/// Returns FC210 for a text.
 pub(crate) fn not_known(text: &str, span: Span) -> Fault {
     let shown: String = text.trim().chars().take(40).collect();
     Fault::new(
@@ -195,7 +195,7 @@ pub(super) fn goes_on(code: &str, name: &str) -> bool {
     next.is_some_and(|(word, _)| !word[1..].bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// The words after the `#`, and where each ends.
+/// Returns the words after the `#`, and where each ends.
 fn words(code: &str) -> impl Iterator<Item = (&str, usize)> {
     let mut from = 1;
     std::iter::from_fn(move || {
@@ -235,7 +235,7 @@ pub(super) struct OpeningCommand<'a> {
 }
 
 impl OpeningCommand<'_> {
-    /// Its action, where it is known.
+    /// Returns its action, where it is known.
     pub(super) fn action(&self) -> Option<HashAction> {
         self.name.command.map(|command| command.action)
     }
@@ -246,7 +246,7 @@ impl OpeningCommand<'_> {
     }
 }
 
-/// The `#` command at the start of a block, after its number.
+/// Returns the `#` command at the start of a block, after its number.
 pub(super) fn opening_command(code: &str) -> Option<OpeningCommand<'_>> {
     let start = code.trim_start_matches(is_blank);
     let start = match start.strip_prefix(['N', 'n']) {
@@ -260,9 +260,9 @@ pub(super) fn opening_command(code: &str) -> Option<OpeningCommand<'_>> {
     })
 }
 
-/// The change that writes words in upper case: the first, and those after it up to a place that may
-/// hold something that the parser does not see. A comment or a foreign character is at least two
-/// blanks in `code`, a continued line has a line end.
+/// Returns the change that writes words in upper case: the first, and those after it up to a place that may hold
+/// something that the parser does not see. A comment or a foreign character is at least two blanks in `code`, a
+/// continued line has a line end.
 pub(super) fn in_upper_case(code: &str, words: &[Span]) -> Option<Fix<Span>> {
     let (first, others) = words.split_first()?;
     let mut whole = *first;

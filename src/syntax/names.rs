@@ -21,7 +21,7 @@ pub enum AxisUse {
     Switched,
 }
 
-/// The axes that the blocks of a program name, executed or not. Names have the form of R2.20.
+/// Returns the axes that the blocks of a program name, executed or not. Names have the form of R2.20.
 pub fn axis_uses(text: &str) -> BTreeMap<String, AxisUse> {
     let mut uses = BTreeMap::new();
     let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
@@ -133,7 +133,7 @@ pub struct NameInBlock {
     pub span: Span,
 }
 
-/// The names of a block, from left to right. The contents of a variable have none.
+/// Returns the names of a block, from left to right. The contents of a variable have none.
 pub fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
     let mut names = NameSearch {
         text,
@@ -226,7 +226,7 @@ fn numbered(value: f64) -> String {
     format!("N{value}")
 }
 
-/// The first `N` with its number in a part of a text.
+/// Returns the first `N` with its number in a part of a text.
 fn number_in(text: &str, part: std::ops::Range<usize>) -> Option<Span> {
     let bytes = &text.as_bytes()[part.clone()];
     let is_number = |at: &usize| {

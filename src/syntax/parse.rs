@@ -128,7 +128,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// A fault without advice.
+    /// Returns a fault without advice.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
@@ -139,7 +139,7 @@ impl Fault {
         }
     }
 
-    /// An error of the control, with the advice of its row (R2.114).
+    /// Returns an error of the control, with the advice of its row (R2.114).
     #[allow(
         clippy::unnecessary_box_returns,
         reason = "it is the error of a result"
@@ -201,8 +201,8 @@ impl Fault {
     }
 }
 
-/// FC313: a second word where the control accepts one in a block (TF5200 Diagnosis, errors 20105, 20170, 20175, 20181,
-/// 20205, 20765).
+/// Returns FC313: a second word where the control accepts one in a block (TF5200 Diagnosis, errors 20105, 20170, 20175,
+/// 20181, 20205, 20765).
 pub(crate) fn repeated_word(text: &str, span: Span) -> Fault {
     let text = text.trim();
     let message =

@@ -45,7 +45,7 @@ pub struct RawBlock<'a> {
 }
 
 impl RawBlock<'_> {
-    /// A place in its lines.
+    /// Returns a place in its lines.
     pub(crate) fn place(&self, file: &Arc<str>, span: Span) -> Place {
         Place::in_block(file, self.text, self.line, span)
     }
@@ -72,7 +72,7 @@ pub struct Remark {
 }
 
 impl Remark {
-    /// The lines with their numbers.
+    /// Returns the lines with their numbers.
     pub fn lines(&self) -> impl Iterator<Item = (&str, u32)> {
         self.text.lines().zip(self.line..)
     }

@@ -16,7 +16,7 @@ const MAX_CONTINUED: usize = 64 * 1024;
 
 /// A question to a program.
 pub trait ScanQuestion {
-    /// The first place of a text, from one on, at which a line may matter.
+    /// Returns the first place of a text, from one on, at which a line may matter.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize>;
 
     /// Looks at a block that may matter.
@@ -35,7 +35,7 @@ pub struct Scan<Q> {
 }
 
 impl<Q: ScanQuestion> Scan<Q> {
-    /// A scan from the start of a program.
+    /// Returns a scan from the start of a program.
     pub fn new(question: Q) -> Self {
         Self {
             question,
@@ -113,7 +113,7 @@ impl<Q: ScanQuestion> Scan<Q> {
 pub struct SwitchedAxes(pub BTreeSet<String>);
 
 impl ScanQuestion for SwitchedAxes {
-    /// `COMP`. Of its letters the last one is the rarest in programs.
+    /// Returns `COMP`. Of its letters the last one is the rarest in programs.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize> {
         let mut places = memchr::memchr2_iter(b'P', b'p', &text[from..]);
         let is_word = |at: &usize| {
@@ -175,12 +175,12 @@ impl NamedAxes {
         }
     }
 
-    /// The names that were found.
+    /// Returns the names that were found.
     pub fn into_names(self) -> BTreeSet<String> {
         self.found
     }
 
-    /// The axes whose state of compensation the program reads.
+    /// Returns the axes whose state of compensation the program reads.
     pub fn read(&self) -> &BTreeSet<String> {
         &self.read
     }
@@ -227,7 +227,7 @@ impl ScanQuestion for NamedAxes {
     }
 }
 
-/// The axes whose state of compensation a block reads.
+/// Returns the axes whose state of compensation a block reads.
 fn axes_read(text: &str) -> Vec<String> {
     if !text.contains(STATE) {
         return Vec::new();

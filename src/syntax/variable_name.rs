@@ -129,17 +129,17 @@ impl VariableName {
         )
     }
 
-    /// The name of a P parameter.
+    /// Returns the name of a P parameter.
     pub(crate) fn parameter(index: u32) -> Self {
         Self::whole(format!("P{index}"))
     }
 
-    /// The name of an own parameter of a call.
+    /// Returns the name of an own parameter of a call.
     pub(crate) fn own_parameter(index: u32) -> Self {
         Self::whole(format!("@P{index}"))
     }
 
-    /// A variable or a whole array.
+    /// Returns a variable or a whole array.
     pub(crate) fn whole(array: String) -> Self {
         Self {
             array,
@@ -147,7 +147,7 @@ impl VariableName {
         }
     }
 
-    /// An element of the array.
+    /// Returns an element of the array.
     pub(crate) fn at(&self, subscripts: Subscripts) -> Self {
         Self {
             array: self.array.clone(),
@@ -155,7 +155,7 @@ impl VariableName {
         }
     }
 
-    /// The variable, or the array that an element belongs to.
+    /// Returns the variable, or the array that an element belongs to.
     pub(crate) fn array(&self) -> &str {
         &self.array
     }
@@ -172,13 +172,13 @@ impl VariableName {
         VariableFamily::of(&self.array)
     }
 
-    /// The number of a P parameter.
+    /// Returns the number of a P parameter.
     pub(crate) fn parameter_index(&self) -> Option<u32> {
         let number = self.array.strip_prefix('P')?;
         number.parse().ok().filter(|_| !self.is_element())
     }
 
-    /// The variable of an axis and the axis: `LIFT.ACTIVE` and `X` of `V.A.LIFT.ACTIVE.X`.
+    /// Returns the variable of an axis and the axis: `LIFT.ACTIVE` and `X` of `V.A.LIFT.ACTIVE.X`.
     pub(crate) fn of_axis(&self) -> Option<(&str, AxisOfVariable<'_>)> {
         let variable = self.array.strip_prefix("V.A.")?;
         match self.subscripts.0.as_slice() {
@@ -271,7 +271,7 @@ pub(crate) enum AxisOfVariable<'a> {
 }
 
 impl Subscripts {
-    /// The numbers that lead to an element; `None` where a step is a word or a field.
+    /// Returns the numbers that lead to an element; `None` where a step is a word or a field.
     pub(crate) fn numbers(&self) -> Option<Vec<i64>> {
         let number = |step: &Subscript| match step {
             Subscript::Number(number) => Some(*number),
@@ -289,7 +289,7 @@ impl Subscripts {
         self.0.starts_with(&outer.0)
     }
 
-    /// Number of bytes that they hold beside the name.
+    /// Returns the number of bytes that they hold beside the name.
     pub(crate) fn len(&self) -> usize {
         let bytes = |step: &Subscript| match step {
             Subscript::Number(_) => size_of::<u32>(),

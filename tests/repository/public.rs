@@ -28,7 +28,7 @@ const fn package(folder: &'static str, prefix: &'static str) -> Package {
 }
 
 impl Package {
-    /// The file that says what a room makes public; the package itself is the room without a name.
+    /// Returns the file that says what a room makes public; the package itself is the room without a name.
     fn face(&self, room: &str) -> PathBuf {
         let source = root().join(self.folder).join("src");
         match room {
@@ -52,7 +52,7 @@ impl Package {
         shown.any(is_word)
     }
 
-    /// Every public name with its room and the feature that it needs, sorted.
+    /// Returns every public name with its room and the feature that it needs, sorted.
     fn items(&self) -> Vec<String> {
         let mut items = Vec::new();
         self.gather("", "", &mut items);
@@ -84,7 +84,7 @@ impl Package {
     }
 }
 
-/// The text of a source file without comments.
+/// Returns the text of a source file without comments.
 fn code(path: &Path) -> String {
     let text = fs::read_to_string(path).expect("a source file");
     let lines = text

@@ -52,7 +52,7 @@ impl Shown {
         }
     }
 
-    /// The kinds of axes away from the start of the control, with the ways that lead there.
+    /// Returns the kinds of axes away from the start of the control, with the ways that lead there.
     fn left(&self, view: StateView<'_>) -> String {
         let mut left = Vec::new();
         for (axis, name) in view.axes() {
@@ -111,7 +111,7 @@ pub(crate) fn is_main(file: &str) -> bool {
     matches!(file.as_bytes(), [b'a'..=b'z', b'.', b'n', b'c'])
 }
 
-/// An axis, with the kind of compensation where it is not friction.
+/// Returns an axis, with the kind of compensation where it is not friction.
 fn of_kind(axis: &str, kind: Kind) -> String {
     match kind {
         Kind::Frict => axis.to_owned(),

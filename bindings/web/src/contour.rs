@@ -105,7 +105,7 @@ fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
     recorder.drawing(ContourPicture::new(plane))
 }
 
-/// The picture and the figures.
+/// Returns the picture and the figures.
 pub(crate) fn answer(
     dropped: &mut Dropped,
     settings: &ContourSettings,
@@ -141,7 +141,7 @@ fn notes(contour: &ProgramContour<ContourRecorder<'_>>, has_moved: bool) -> Vec<
     notes
 }
 
-/// The report as a page, the same as that of `frictcomp contour --html`.
+/// Returns the report as a page, the same as that of `frictcomp contour --html`.
 pub(crate) fn report(
     dropped: &mut Dropped,
     settings: &ContourSettings,

@@ -78,7 +78,7 @@ impl CurrentSink for Drawing {
     }
 }
 
-/// The picture of the current of every axis that has a value list.
+/// Returns the picture of the current of every axis that has a value list.
 pub(crate) fn answer(
     dropped: &mut Dropped,
     program: &str,

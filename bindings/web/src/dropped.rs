@@ -74,7 +74,7 @@ impl Dropped {
         *self = Self::default();
     }
 
-    /// The files with their roles; the extensions of a configuration count.
+    /// Returns the files with their roles; the extensions of a configuration count.
     pub(crate) fn files(&mut self) -> Vec<(String, Kind)> {
         let disk = self.disk();
         let mut machines =
@@ -106,14 +106,14 @@ impl Dropped {
         disk.clone()
     }
 
-    /// A file that is not taken as a program.
+    /// Returns a file that is not taken as a program.
     pub(crate) fn left_out(&self, path: &str) -> Option<LeftOutFile> {
         let path = Path::new(path);
         let file = self.files.get(path)?;
         Some(LeftOutFile::in_memory(path.to_owned(), &file.text))
     }
 
-    /// A program by its path.
+    /// Returns a program by its path.
     pub(crate) fn program(&self, path: &str) -> Result<Input, Refusal> {
         let path = Path::new(path);
         let file = self.files.get(path).ok_or_else(|| {
@@ -140,7 +140,7 @@ impl Dropped {
         options
     }
 
-    /// The start-up list, if there is exactly one.
+    /// Returns the start-up list, if there is exactly one.
     fn only_startup(&self) -> Option<PathBuf> {
         let files = self.files.iter();
         let has_cnc = |path: &Path| match &self.disk {
@@ -152,7 +152,7 @@ impl Dropped {
         startups.next().is_none().then(|| path.clone())
     }
 
-    /// The machine of a program.
+    /// Returns the machine of a program.
     pub(crate) fn machine(
         &mut self,
         input: &Input,

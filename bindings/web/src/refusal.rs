@@ -28,7 +28,7 @@ impl Refusal {
         }
     }
 
-    /// A name that does not exist.
+    /// Returns a name that does not exist.
     pub(crate) fn unknown(message: impl Into<String>, unknown: &UnknownName) -> Self {
         Self {
             help: unknown.help("its axes are"),

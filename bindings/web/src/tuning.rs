@@ -38,7 +38,7 @@ struct TuningAnswer<'a> {
     list: String,
 }
 
-/// The list, its figures and the glitch over the feed.
+/// Returns the list, its figures and the glitch over the feed.
 pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let report = tuned(settings)?;
     // Both drives of an example are equal, and so are their lists.

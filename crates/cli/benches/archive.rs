@@ -88,8 +88,8 @@ fn call_missing(folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Main programs that call one of the upper subprograms, which calls a middle one, which calls a lower
-/// one. Gives how many programs reach the first of the lower ones.
+/// Returns the main programs that call one of the upper subprograms, which calls a middle one, which calls a lower one.
+/// Gives how many programs reach the first of the lower ones.
 fn write_archive(folder: &Path, programs: u32) -> Result<u32, Box<dyn Error>> {
     std::fs::write(folder.join("frictcomp.toml"), MACHINE)?;
     let level = (programs / 150).max(1);
@@ -146,7 +146,7 @@ fn measure(command: &[&str], folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The most memory that a process had so far, where the system reports it.
+/// Returns the most memory that a process had so far, where the system reports it.
 fn peak_kb(process: u32) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

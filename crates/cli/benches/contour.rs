@@ -85,7 +85,7 @@ fn turns(seconds: u32) -> String {
     text + "M30\n"
 }
 
-/// Short lines on arcs of 200 mm, to the left and to the right by turns.
+/// Writes short lines on arcs of 200 mm, to the left and to the right by turns.
 fn lines() -> String {
     let mut text = String::from("G261\nG01 X25 Y0 F6000\n");
     let (mut x, mut y, mut angle) = (25.0, 0.0, 0.0_f64);
@@ -99,7 +99,7 @@ fn lines() -> String {
     text + "M30\n"
 }
 
-/// The median time of the contour of a program.
+/// Returns the median time of the contour of a program.
 fn median(folder: &Path, (text, runs): (&str, u32)) -> Result<Duration, Box<dyn Error>> {
     std::fs::write(folder.join("part.nc"), text)?;
     let mut times = Vec::new();

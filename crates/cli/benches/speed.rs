@@ -119,7 +119,7 @@ fn write(shape: Shape, blocks: u32, path: &Path) -> Outcome<()> {
     Ok(out.flush()?)
 }
 
-/// The line splitter: reads a file and counts its lines.
+/// Splits a file into lines as the yardstick: reads it and counts its lines.
 fn split_lines(path: &Path) -> Outcome<()> {
     let bytes = std::fs::read(path)?;
     let lines = memchr::memchr_iter(b'\n', &bytes).filter(|at| black_box(*at) < bytes.len());
@@ -218,7 +218,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// The peak memory for a program ten times as long.
+    /// Measures the peak memory for a program ten times as long.
     fn memory(&self) -> Outcome<()> {
         let file = self.file(Shape::ThreeAxes, self.blocks.saturating_mul(10))?;
         for job in &JOBS {
@@ -253,7 +253,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// Two thousand programs of 20 KB: one processor's time to that of two.
+    /// Compares one processor's time with that of two for two thousand programs of 20 KB.
     fn many_files(&self) -> Outcome<()> {
         let folder = self.folder.path().join("many");
         std::fs::create_dir(&folder)?;
@@ -282,7 +282,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// The demo project with 50 MB of other elements in it (R3.42).
+    /// Measures the demo project with 50 MB of other elements in it (R3.42).
     fn project(&self) -> Outcome<()> {
         let demo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../programs/demo/twincat");
         let text = std::fs::read_to_string(demo.join("Machine.tsproj"))?;
@@ -345,7 +345,7 @@ struct Line {
 }
 
 impl Line {
-    /// The line with the peak memory in MiB, where it is known.
+    /// Returns the line with the peak memory in MiB, where it is known.
     fn with_peak(mut self, peak: Option<f64>) -> Self {
         self.peak = peak;
         let separator = if self.goal.is_empty() { "" } else { ", " };
@@ -415,7 +415,7 @@ fn spawn(command: &mut Command) -> Outcome<Duration> {
     }
 }
 
-/// The peak memory of a job in MiB, where `/usr/bin/time` can tell.
+/// Returns the peak memory of a job in MiB, where `/usr/bin/time` can tell.
 fn peak(job: &Job, file: &Path) -> Option<f64> {
     let inner = command(job, file);
     let output = Command::new("/usr/bin/time")

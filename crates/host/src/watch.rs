@@ -121,7 +121,7 @@ impl fmt::Display for Progress {
     }
 }
 
-/// `[#####...............] 25 %`
+/// Returns a bar such as `[#####...............] 25 %`.
 fn bar(done: usize, all: usize) -> String {
     const WIDTH: usize = 20;
     let part = |whole: usize| done.saturating_mul(whole) / all.max(1);

@@ -54,7 +54,7 @@ impl Piece {
         }
     }
 
-    /// The place and the direction after a distance.
+    /// Returns the place and the direction after a distance.
     fn at(&self, way: f64) -> ([f64; 2], [f64; 2]) {
         match *self {
             Self::Line(from, to) => {
@@ -80,7 +80,7 @@ impl Piece {
 }
 
 impl Control {
-    /// The commanded values of a program that begins at a place in mm.
+    /// Returns the commanded values of a program that begins at a place in mm.
     pub fn run(&self, program: &Program, start: [f64; 2]) -> Commanded {
         let mut found = Commanded::default();
         let mut place = start;

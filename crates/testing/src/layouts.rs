@@ -278,7 +278,7 @@ impl Export {
     }
 }
 
-/// A trace of a SINUMERIK control.
+/// Returns a trace of a SINUMERIK control.
 pub fn sinumerik(task: &Task, are_names_apart: bool) -> String {
     let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<traceSession>\n".to_owned();
     let escape = |text: &str| {

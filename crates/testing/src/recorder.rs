@@ -63,7 +63,7 @@ impl Default for Recorder {
 }
 
 impl Recorder {
-    /// The rows of a recording as a table; positions in mm, velocities in mm/s.
+    /// Returns the rows of a recording as a table; positions in mm, velocities in mm/s.
     pub fn table(&self, run: &Run, axes: [&str; 2]) -> String {
         let mut random = Random::new(self.seed);
         let rows = run.commanded.places[0].len();

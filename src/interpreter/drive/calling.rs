@@ -201,7 +201,7 @@ impl OtherPaths {
 }
 
 impl Interpreter {
-    /// The called files that were executed to their end.
+    /// Returns the called files that were executed to their end.
     pub fn returned_files(&self) -> impl Iterator<Item = &Arc<str>> {
         let units = self.here.programs.units().iter().skip(1);
         let returned = units.filter(|unit| unit.returned);
@@ -259,7 +259,7 @@ impl OtherPaths {
         }
     }
 
-    /// The effect of a call is known: the run continues after it.
+    /// Continues the run after a call whose effect is known.
     fn go_on_after_call(
         &mut self,
         here: &mut Executor,
@@ -320,13 +320,13 @@ impl Executor {
         self.version += 1;
     }
 
-    /// The running program, which was called.
+    /// Returns the running program, which was called.
     fn called(&self) -> Option<CalledAt> {
         let frames = &self.state.control.frames;
         Some((frames.depth(), frames.program()?))
     }
 
-    /// The state in which the running program is called.
+    /// Returns the state in which the running program is called.
     fn entry_of_call(&self) -> Path {
         self.charge_copies(&self.state.control, &self.state.track.reach);
         let mut entry = self.state.arriving();

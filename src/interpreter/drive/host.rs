@@ -57,13 +57,13 @@ pub struct Interpreter {
 }
 
 impl Interpreter {
-    /// The kinds that are unknown because ways differ, with the states that are possible (R14.2).
+    /// Returns the kinds that are unknown because ways differ, with the states that are possible (R14.2).
     pub fn possible(&self) -> &[PossibleStates] {
         &self.here.shown.possible
     }
 
-    /// The answers to the condition in the last executed block, where only the machine knows which holds and none
-    /// was chosen ([`Branches::OneFollowed`](crate::interpreter::Branches::OneFollowed)).
+    /// Returns the answers to the condition in the last executed block, where only the machine knows which holds and
+    /// none was chosen ([`Branches::OneFollowed`](crate::interpreter::Branches::OneFollowed)).
     pub fn offered(&self) -> &[WayCondition] {
         &self.here.offered
     }
@@ -74,7 +74,7 @@ impl Interpreter {
         self.here.chosen.push_back(place);
     }
 
-    /// An interpreter for a machine whose compensation is in a given state.
+    /// Returns an interpreter for a machine whose compensation is in a given state.
     pub fn new(
         machine: impl Into<Arc<Machine>>,
         compensation: Compensation,
@@ -121,17 +121,17 @@ impl Interpreter {
         }
     }
 
-    /// The machine.
+    /// Returns the machine.
     pub fn machine(&self) -> &Arc<Machine> {
         &self.here.machine
     }
 
-    /// The current compensation state.
+    /// Returns the current compensation state.
     pub fn compensation(&self) -> &Compensation {
         &self.here.state.control.compensation
     }
 
-    /// The axes that occurred so far, by position; every axis of a configured machine.
+    /// Returns the axes that occurred so far, by position; every axis of a configured machine.
     pub fn occurred(&self) -> &[bool] {
         &self.here.state.occurred
     }
@@ -147,7 +147,7 @@ impl Interpreter {
         self.here.version
     }
 
-    /// The executed blocks of the session.
+    /// Returns the executed blocks of the session.
     pub fn blocks(&self) -> u64 {
         self.here.state.blocks
     }
@@ -162,24 +162,24 @@ impl Interpreter {
         self.here.state.rests_on
     }
 
-    /// The position of an axis after the last block: the programmed coordinate in mm or degrees.
+    /// Returns the position of an axis after the last block: the programmed coordinate in mm or degrees.
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         self.here.state.control.modal.position(axis)
     }
 
-    /// The G functions in force.
+    /// Returns the G functions in force.
     pub fn modal(&self) -> &Modal {
         &self.here.state.control.modal
     }
 
-    /// The variables that outlive programs and that only programs write: `V.S.`, and `V.E.` where the configuration
-    /// says so (R2.34, R2.99).
+    /// Returns the variables that outlive programs and that only programs write: `V.S.`, and `V.E.` where the
+    /// configuration says so (R2.34, R2.99).
     pub fn shared_variables(&self) -> BTreeMap<String, Value> {
         self.here.state.control.memory.shared()
     }
 
-    /// The values that the running program sees, by name: the own parameters of its call, the
-    /// parameters in the order of their numbers, and the variables.
+    /// Returns the values that the running program sees, by name: the own parameters of its call, the parameters in the
+    /// order of their numbers, and the variables.
     pub fn values(&self) -> Vec<(String, Value)> {
         let running = self.here.state.control.frames.running();
         let own = running.into_iter().flat_map(|frame| &frame.own);
@@ -194,8 +194,8 @@ impl Interpreter {
         self.here.version += 1;
     }
 
-    /// The work of the session so far, in units: characters of macros, texts and regions that were
-    /// gone through, operands that were computed, names that were compared (R2.60).
+    /// Returns the work of the session so far, in units: characters of macros, texts and regions that were gone
+    /// through, operands that were computed, names that were compared (R2.60).
     pub fn work(&self) -> u64 {
         self.here.state.work.spent()
     }

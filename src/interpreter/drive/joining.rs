@@ -175,7 +175,7 @@ impl RunState {
 }
 
 impl ControlState {
-    /// The kinds in which two ways differ, with their axes.
+    /// Returns the kinds in which two ways differ, with their axes.
     fn differing_kinds(&self, sides: &[ControlState; 2]) -> BTreeMap<Kind, Vec<AxisIndex>> {
         let mut kinds: BTreeMap<Kind, Vec<AxisIndex>> = BTreeMap::new();
         let [mine, theirs] = sides.each_ref().map(|control| &control.compensation);
@@ -259,7 +259,7 @@ fn about(condition: &Condition, outcome: &str) -> Diagnostic {
     Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(cause.advice())
 }
 
-/// The condition that separates two ways.
+/// Returns the condition that separates two ways.
 fn what_parts(mine: &Path, other: &Path) -> Option<u32> {
     let (mine, theirs) = (&mine.track.reach, &other.track.reach);
     let both: Vec<u32> = mine.conditions().chain(theirs.conditions()).collect();
@@ -323,7 +323,7 @@ impl OtherPaths {
         Some(last.by)
     }
 
-    /// The ways through the program meet at its end. Where the run has gone on after errors, one that an error has
+    /// Joins the ways through the program at its end. Where the run has gone on after errors, one that an error has
     /// ended counts only if no other went on, and the states at the errors are apart (R9.20).
     #[cold]
     pub(crate) fn meet_ended(&mut self, here: &mut Executor, by: EndedBy) -> MetWays {
@@ -376,7 +376,7 @@ pub(crate) struct MetWays {
 }
 
 impl RunState {
-    /// The places where ways end, each once.
+    /// Returns the places where ways end, each once.
     fn ends_of(&self, ended: &[EndedPath]) -> Vec<ProgramEnd> {
         let mut ends: Vec<ProgramEnd> = Vec::new();
         for end in ended {
@@ -408,7 +408,7 @@ impl RunState {
         ends
     }
 
-    /// The state that errors leave, as one.
+    /// Returns the state that errors leave, as one.
     fn stopped(&self, ended: &[EndedPath]) -> Option<StoppedState> {
         let mut ways = ended.iter().map(|end| end.path.clone());
         let mut all = ways.next()?;
@@ -428,7 +428,7 @@ impl RunState {
 }
 
 impl RunState {
-    /// FC310 at the last executed block; a program without any block is reported as such (R18.6).
+    /// Returns FC310 at the last executed block; a program without any block is reported as such (R18.6).
     pub(crate) fn missing_end(&self) -> Option<Diagnostic> {
         let place = self.last.as_ref()?.place();
         let message = "the program ends here without M30 or M02";
@@ -538,7 +538,8 @@ impl Executor {
             && matches!(self.sides.as_slice(), [only] if Some(only.to) != next)
     }
 
-    /// The block at which the sides of a question meet again, where one way is followed and the others are its shadows.
+    /// Returns the block at which the sides of a question meet again, where one way is followed and the others are its
+    /// shadows.
     fn meeting(&self, sides: &[BranchSide]) -> Option<Meeting> {
         if !self.options.follows_one_way() || sides.len() < 2 {
             return None;

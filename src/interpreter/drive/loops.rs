@@ -96,7 +96,7 @@ impl OtherPaths {
         }
     }
 
-    /// A pass of a loop that is joined begins.
+    /// Returns a pass of a loop that is joined begins.
     fn reach_head(
         &mut self,
         here: &mut Executor,
@@ -198,7 +198,7 @@ impl OtherPaths {
 }
 
 impl Executor {
-    /// The state with which a pass begins.
+    /// Returns the state with which a pass begins.
     fn at_head(&mut self, target: EntryIndex) -> Path {
         if let Some(frame) = self.state.control.frames.running_mut() {
             frame.next = target;
@@ -314,7 +314,7 @@ impl Executor {
         self.pass_over_blocks(last.head..last.from.saturating_add(1), cause, finder)
     }
 
-    /// FC910 where the innermost loop is known to be endless.
+    /// Returns FC910 where the innermost loop is known to be endless.
     pub(crate) fn endless_loop(&self) -> Option<Diagnostic> {
         let known = self.state.track.loops.last()?;
         let counters = known.endless.as_ref()?;
@@ -354,7 +354,7 @@ impl OtherPaths {
         }
     }
 
-    /// The other ways that have left the innermost loop.
+    /// Returns the other ways that have left the innermost loop.
     fn left_meanwhile<'a>(&'a self, state: &'a RunState) -> impl Iterator<Item = &'a Path> {
         let last = state.track.loops.last();
         let since = last.map_or(u64::MAX, |known| known.since);
@@ -363,7 +363,7 @@ impl OtherPaths {
         others.filter(move |path| path.parted >= since)
     }
 
-    /// The variables that must change on ways that have left the innermost loop.
+    /// Returns the variables that must change on ways that have left the innermost loop.
     fn names_of_exits(&self, state: &RunState) -> Vec<VariableName> {
         let left = self.left_meanwhile(state);
         let conditions = left.flat_map(|path| path.track.reach.conditions());

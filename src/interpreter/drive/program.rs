@@ -368,7 +368,7 @@ impl Executor {
         false
     }
 
-    /// The end of the program where all ways reach one.
+    /// Returns the end of the program where all ways reach one.
     fn own_end(&self, by: EndedBy, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
         let last = self.state.last.as_ref().map(LastBlock::place);
         let place = at.map(|end| end.place.clone()).or(last);
@@ -479,7 +479,7 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// The last line of a file that was reached, or more than all lines where the rest is checked, too.
+    /// Returns the last line of a file that was reached, or more than all lines where the rest is checked, too.
     fn reached_line(&self, number: usize, unit: &SourceUnit, by: EndedBy) -> u32 {
         if self.options.stop == StopPolicy::CheckAll {
             return u32::MAX;

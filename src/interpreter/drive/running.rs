@@ -161,7 +161,7 @@ impl Interpreter {
         }
     }
 
-    /// The next block of the running program, `Break` where the last way ends.
+    /// Returns the next block of the running program, `Break` where the last way ends.
     #[inline]
     fn due_block(&mut self, has_lines: bool) -> ControlFlow<RunOutcome, DueBlock> {
         let Some(frame) = self.here.state.control.frames.running() else {
@@ -305,8 +305,8 @@ impl Interpreter {
         flow
     }
 
-    /// Does what the words of a block ask for beyond a motion and values. Returns whether an error of the control stops
-    /// the run at it.
+    /// Executes what the words of a block ask for beyond a motion and values. Returns whether an error of the control
+    /// stops the run at it.
     #[inline(never)]
     fn act(&mut self, first: usize, at: &BlockContext<'_>, finder: &mut dyn Finder) -> bool {
         self.here.scratch.has_plain_words = false;

@@ -137,7 +137,7 @@ impl BlockMotion {
         self.dwells
     }
 
-    /// Where expressions say that the axes may come to rest.
+    /// Returns where expressions say that the axes may come to rest.
     pub(crate) fn rest_flag(&self) -> &Cell<bool> {
         &self.rests
     }
@@ -147,7 +147,7 @@ impl BlockMotion {
         self.rests.get() || self.dwells
     }
 
-    /// The geometry words of the block.
+    /// Returns the geometry words of the block.
     pub(crate) fn geometry(&mut self) -> &mut Geometry {
         self.geometry.get_or_insert_default()
     }
@@ -156,12 +156,12 @@ impl BlockMotion {
         self.geometry.is_some()
     }
 
-    /// The axis words, those of axes that move along a circle last.
+    /// Returns the axis words, those of axes that move along a circle last.
     pub(crate) fn words(&self) -> &[AxisWord] {
         &self.words
     }
 
-    /// The axis words that give targets.
+    /// Returns the axis words that give targets.
     #[inline]
     pub(crate) fn coordinates(&mut self) -> &mut [AxisWord] {
         let around = self.geometry.as_ref().map_or(0, |it| it.around);
@@ -169,17 +169,17 @@ impl BlockMotion {
         &mut self.words[..count]
     }
 
-    /// The axes that the block moves, or may, without their own word.
+    /// Returns the axes that the block moves, or may, without their own word.
     pub(crate) fn also_moved(&self) -> &[MovedAxis] {
         &self.also
     }
 
-    /// The axes that have a word, a bit each by their positions modulo 64.
+    /// Returns the axes that have a word, a bit each by their positions modulo 64.
     pub(crate) fn named(&self) -> u64 {
         self.named
     }
 
-    /// Motion of the axis words, where the G functions in force do not decide it.
+    /// Returns the motion of the axis words, where the G functions in force do not decide it.
     pub(crate) fn row(&self) -> Option<MotionEffect> {
         self.row
     }
@@ -188,17 +188,17 @@ impl BlockMotion {
         self.motion.as_ref()
     }
 
-    /// The words of the block before, unless the axes came to rest after it.
+    /// Returns the words of the block before, unless the axes came to rest after it.
     pub(crate) fn last_words(&self) -> &[AxisWord] {
         &self.last_words
     }
 
-    /// The arc of the block, and that of the block before, unless the axes came to rest after it.
+    /// Returns the arc of the block, and that of the block before, unless the axes came to rest after it.
     pub(crate) fn arcs(&self) -> [Option<&Travel>; 2] {
         [self.arc.as_ref(), self.last_arc.as_ref()]
     }
 
-    /// Every axis that the block moves, or may.
+    /// Returns every axis that the block moves, or may.
     pub(crate) fn axes(&self) -> impl Iterator<Item = AxisIndex> {
         let words = self.words.iter().map(|word| word.axis);
         words.chain(self.also.iter().map(|moved| moved.axis))
@@ -262,7 +262,7 @@ impl BlockMotion {
         self.last_words.clear();
     }
 
-    /// The words so far, and the other motions.
+    /// Returns the words so far, and the other motions.
     pub(crate) fn len(&self) -> [usize; 2] {
         [self.words.len(), self.also.len()]
     }
@@ -277,7 +277,7 @@ impl BlockMotion {
         }
     }
 
-    /// The positions of the axes of the words, where they are known.
+    /// Returns the positions of the axes of the words, where they are known.
     pub(crate) fn ends(&mut self, modal: &Modal) -> Vec<Option<f64>> {
         let words = self.coordinates().iter();
         words.map(|word| modal.position(word.axis).value).collect()
@@ -290,7 +290,8 @@ impl BlockMotion {
         !self.words.is_empty() && self.row.is_none() && modal.functions.is_feed_move() && !is_other
     }
 
-    /// The axes that the block certainly moves, with the words that move them; by homing only where that counts.
+    /// Returns the axes that the block certainly moves, with the words that move them; by homing only where that
+    /// counts.
     pub(crate) fn certain(&self, words: AxisWords, homing_counts: bool) -> Vec<(AxisIndex, Span)> {
         let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring)
             || (homing_counts && words == AxisWords::Homing);
@@ -306,7 +307,7 @@ impl BlockMotion {
             .collect()
     }
 
-    /// The axes that move to their reference points.
+    /// Returns the axes that move to their reference points.
     pub(crate) fn homed(&self, words: AxisWords) -> impl Iterator<Item = AxisIndex> {
         let is_homing = words == AxisWords::Homing;
         let of_words = self.words.iter().filter(move |_| is_homing);
@@ -457,7 +458,7 @@ fn follow(moving: &mut BTreeMap<AxisIndex, MovedAxis>, links: &[CouplingLink]) -
 }
 
 impl MotionSetting<'_> {
-    /// The axes of a frame, and whether each certainly moves with another of them.
+    /// Returns the axes of a frame, and whether each certainly moves with another of them.
     fn frame(self, name: &str) -> Option<(Vec<AxisIndex>, Certainty)> {
         if name == CUTTER_RADIUS {
             // The path of the tool centre is beside the programmed one.
@@ -485,7 +486,7 @@ impl MotionSetting<'_> {
 
 /// The path and the velocity.
 impl BlockMotion {
-    /// A circle moves both axes of its plane, even without a word for them: `G2 I5` is a full circle
+    /// Returns the axes of the plane that a circle moves, even without a word for them: `G2 I5` is a full circle
     /// (R2.46). Axes without a word end where they start. Returns those axes.
     pub(crate) fn move_around(
         &mut self,
@@ -524,7 +525,7 @@ impl BlockMotion {
         added
     }
 
-    /// The radius of the block, if it has one.
+    /// Returns the radius of the block, if it has one.
     pub(crate) fn radius(&self) -> WordValue {
         self.geometry.as_ref()?.radius
     }
@@ -710,7 +711,7 @@ impl BlockPath<'_> {
         pace.share(haste, self.words.iter().map(|word| word.axis))
     }
 
-    /// A feed in mm, or in degrees where only rotary axes move.
+    /// Returns a feed in mm, or in degrees where only rotary axes move.
     fn per_minute(self, feed: ProgrammedFeed) -> Option<f64> {
         let machine = self.setting.axes.machine;
         let is_rotary = |word: &AxisWord| machine.axis(word.axis).axis_type == AxisType::Rotary;
@@ -720,7 +721,7 @@ impl BlockPath<'_> {
         feed.unit_mm.map(|unit| feed.value * unit)
     }
 
-    /// E, which counts with G94 only (PM/206811147).
+    /// Executes E, which counts with G94 only (PM/206811147).
     fn end_feed(self) -> Option<f64> {
         let modal = self.setting.modal;
         let is_per_minute = modal.functions.feed_mode == 94 && modal.functions.motion != 0;

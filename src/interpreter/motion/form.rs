@@ -187,7 +187,7 @@ impl ArcShape {
 }
 
 impl Arc {
-    /// The arc from one place of its plane to another.
+    /// Returns the arc from one place of its plane to another.
     ///
     /// # Errors
     /// The reason why the ends and the centre make no arc.
@@ -299,7 +299,7 @@ pub struct MovedAxis {
 }
 
 impl MovedAxis {
-    /// The motion of an axis word.
+    /// Returns the motion of an axis word.
     #[inline]
     pub(crate) fn of_word(word: &AxisWord, kind: MotionKind) -> Self {
         Self {
@@ -325,8 +325,7 @@ pub struct AxisWord {
     pub from: Option<f64>,
 }
 
-/// A coordinate that counts from a place; unknown if any part is, or if the sum leaves the range of
-/// numbers.
+/// Returns a coordinate that counts from a place; unknown if any part is, or if the sum leaves the range of numbers.
 #[inline]
 pub(crate) fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
     let sum = from? + value? * scale?;

@@ -77,7 +77,7 @@ pub struct Modal {
 }
 
 impl Modal {
-    /// The defaults at program start. Axis positions are not known.
+    /// Returns the defaults at program start. Axis positions are not known.
     pub fn new(axes: usize) -> Self {
         Self {
             functions: GFunctions::default(),
@@ -96,7 +96,7 @@ impl Modal {
         }
     }
 
-    /// The state at program start in a channel.
+    /// Returns the state at program start in a channel.
     pub(crate) fn at_start(axes: usize, channel: &ChannelSettings) -> Self {
         let mut modal = Self {
             pace: Pace::new(channel.feed_unit.in_mm()),
@@ -130,7 +130,7 @@ impl Modal {
         modal
     }
 
-    /// The state at the start of the next program: the axes stay where they are.
+    /// Returns the state at the start of the next program: the axes stay where they are.
     pub(crate) fn next_program(&self, channel: &ChannelSettings) -> Self {
         Self {
             positions: self.positions.clone(),
@@ -149,8 +149,7 @@ impl Modal {
         !self.functions.unknown.contains(group)
     }
 
-    /// The axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is
-    /// not known.
+    /// Returns the axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is not known.
     pub(crate) fn main_axis(&self, letter: u8) -> Option<u8> {
         let place = usize::from(letter.checked_sub(b'X')?);
         let axes = match self.functions.plane {
@@ -198,7 +197,7 @@ impl Modal {
         };
     }
 
-    /// The parameters that a command sets.
+    /// Returns the parameters that a command sets.
     pub(crate) fn contouring_of(&mut self, command: ContouringCommand) -> &mut Contouring {
         match command {
             ContouringCommand::Contour => &mut self.contour,
@@ -215,7 +214,7 @@ impl Modal {
         (holds.contains(Simplification::Contouring)).then_some(self.contour)
     }
 
-    /// The profile of the acceleration; `None` is that of the channel.
+    /// Returns the profile of the acceleration; `None` is that of the channel.
     pub(crate) fn slope(&self) -> Option<SlopeProfile> {
         self.slope
     }
@@ -334,7 +333,7 @@ impl Modal {
         self.skewed && !self.are_offsets_suspended()
     }
 
-    /// The centre of an arc on one axis: G162 counts from the start of the arc, G161 from the origin of the
+    /// Returns the centre of an arc on one axis: G162 counts from the start of the arc, G161 from the origin of the
     /// program (PM/206537483). A word may be left out only with G162.
     pub(crate) fn centre_of(
         &self,
@@ -589,12 +588,12 @@ impl Modal {
         self.functions.perhaps_give_feeds();
     }
 
-    /// The unit in mm/min that an E word has.
+    /// Returns the unit in mm/min that an E word has.
     pub(crate) fn unit_per_min(&self) -> Option<f64> {
         self.pace.unit_per_min(self.metric())
     }
 
-    /// The programmed coordinate, without the offset of G92.
+    /// Returns the programmed coordinate, without the offset of G92.
     pub(crate) fn programmed(&self, axis: AxisIndex) -> Option<f64> {
         let position = self.positions[axis.get()].zip(self.references[axis.get()]);
         position.map(|(position, reference)| position - reference)
@@ -605,7 +604,7 @@ impl Modal {
         &self.positions
     }
 
-    /// The offset of G92 of an axis; `None` where it is not known.
+    /// Returns the offset of G92 of an axis; `None` where it is not known.
     pub(crate) fn reference(&self, axis: AxisIndex) -> Option<f64> {
         self.references[axis.get()]
     }
@@ -615,7 +614,7 @@ impl Modal {
         self.positions[axis.get()] = position;
     }
 
-    /// The position of an axis.
+    /// Returns the position of an axis.
     #[inline]
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         AxisPosition {
@@ -640,7 +639,7 @@ impl Modal {
         frames.max().unwrap_or(PositionFrame::Machine)
     }
 
-    /// The side of the programmed contour on which the tool follows it, where that is known; `None` without
+    /// Returns the side of the programmed contour on which the tool follows it, where that is known; `None` without
     /// tool radius compensation.
     pub(crate) fn tool_side(&self) -> Option<ToolSide> {
         match self.functions.tool_side {
@@ -735,7 +734,7 @@ impl Default for GFunctions {
 }
 
 impl GFunctions {
-    /// The place of the feed of the mode in force.
+    /// Returns the place of the feed of the mode in force.
     #[inline]
     fn feed_place(&self) -> usize {
         match self.feed_mode {
@@ -775,7 +774,7 @@ impl GFunctions {
         self.feed_mode == 94 && !self.unknown.contains(Group::Feed) && self.lacking.is_certain()
     }
 
-    /// The feed of the mode in force, as the program gives it.
+    /// Returns the feed of the mode in force, as the program gives it.
     pub(crate) fn programmed_feed(&self) -> Option<f64> {
         self.feeds[self.feed_place()].map(|feed| feed.value)
     }

@@ -101,8 +101,8 @@ impl Pace {
         }
     }
 
-    /// The unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; its
-    /// effect on m/min is not documented.
+    /// Returns the unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; its effect on
+    /// m/min is not documented.
     pub(crate) fn unit_per_min(&self, length_mm: Option<f64>) -> Option<f64> {
         let (unit, length) = (self.feed_unit_mm?, length_mm?);
         #[allow(clippy::float_cmp)] // both are constants
@@ -185,7 +185,7 @@ impl Pace {
         Some(path * own)
     }
 
-    /// The weight of G129 alone, which G166 does not suppress.
+    /// Returns the weight of G129 alone, which G166 does not suppress.
     pub(crate) fn weight(&self, haste: Haste) -> Option<f64> {
         let overrides = self.overrides.as_ref();
         overrides.map_or(Some(1.0), |it| it.rapid.of(haste))
@@ -236,7 +236,7 @@ const PROFILES: [(&str, SlopeProfile); 4] = [
 ];
 
 impl SlopeSelection {
-    /// The selection of a command; `None` where its bracket names no profile.
+    /// Returns the selection of a command; `None` where its bracket names no profile.
     pub(crate) fn of(
         form: SlopeForm,
         (arguments, text): (&BracketArguments, &str),
@@ -437,7 +437,7 @@ impl ContouringCommand {
 }
 
 impl Default for Contouring {
-    /// `#CONTOUR MODE` at the start of a program: `DEV` with 1 mm (PM/475164939).
+    /// Returns `#CONTOUR MODE` at the start of a program: `DEV` with 1 mm (PM/475164939).
     fn default() -> Self {
         Self {
             tolerance_mm: Some(CONTOUR_MM),
@@ -451,7 +451,7 @@ impl Default for Contouring {
 }
 
 impl Contouring {
-    /// `#HSC ON` without parameters: `OPMODE 1` (PM/207285131).
+    /// Returns `#HSC ON` without parameters: `OPMODE 1` (PM/207285131).
     pub(crate) fn high_speed() -> Self {
         Self {
             tolerance_mm: Some(CONTOUR_ERROR_MM),

@@ -254,7 +254,7 @@ impl Builder {
         self.index.refused.push(diagnostic);
     }
 
-    /// A place in a block.
+    /// Returns a place in a block.
     fn place_of(&mut self, entry: EntryIndex) -> Place {
         let known = if entry + 1 == self.at() {
             &mut self.here
@@ -324,8 +324,8 @@ impl Builder {
         }
     }
 
-    /// FC208: a control statement whose block contains anything else (PM/206890763, errors 20212 to
-    /// 20245). `$GOTO` may be among words, or after an `$IF` (PM/206915851).
+    /// Reports FC208: a control statement whose block contains anything else (PM/206890763, errors 20212 to 20245).
+    /// `$GOTO` may be among words, or after an `$IF` (PM/206915851).
     fn shares_block<'t>(&mut self, block: &Block, at: impl Fn(Span) -> Statement<'t>) {
         let jump = block.items.iter().find(|item| is_jump(item));
         let is_other = |item: &&Item| matches!(item, Item::Flow(..)) && !is_jump(item);
@@ -631,8 +631,8 @@ fn after_last(kind: ControlBlock, at: Statement<'_>) -> Fault {
     Fault::new(Code::Fc208, at.span, message).with_help(help)
 }
 
-/// The section that a run of a file begins with: blocks before any `%` line, else the first program
-/// that is not a local subprogram.
+/// Returns the section that a run of a file begins with: blocks before any `%` line, else the first program that is not
+/// a local subprogram.
 fn main_of(sections: &[ProgramSection]) -> Option<usize> {
     let is_main = |section: &ProgramSection| match section.name {
         None => section.end > section.start,

@@ -27,9 +27,9 @@ pub struct CallSite {
     pub line: u32,
 }
 
-/// The calls of other files in a text, in their order, on a control that has these programs for
-/// words and macros: `L`, `L CYCLE`, `L SEQUENCE`, and the words that call a program (R2.14, R2.75).
-/// Nothing is executed: a call counts whether it is reached or not.
+/// Returns the calls of other files in a text, in their order, on a control that has these programs for words and
+/// macros: `L`, `L CYCLE`, `L SEQUENCE`, and the words that call a program (R2.14, R2.75). Nothing is executed: a call
+/// counts whether it is reached or not.
 ///
 /// ```
 /// use frictcomp::interpreter::call_sites;
@@ -248,7 +248,7 @@ pub(crate) struct FunctionWord {
 }
 
 impl FunctionWord {
-    /// A G function.
+    /// Returns a G function.
     pub(crate) fn g(number: u32) -> Self {
         Self {
             letter: b'G',
@@ -256,7 +256,7 @@ impl FunctionWord {
         }
     }
 
-    /// The D word with the number of a T word.
+    /// Returns the D word with the number of a T word.
     pub(crate) fn of_data(self) -> Self {
         Self {
             letter: b'D',
@@ -295,7 +295,7 @@ pub(crate) struct WantedCall {
 }
 
 impl WantedCall {
-    /// A call of a program without parameters.
+    /// Returns a call of a program without parameters.
     pub(crate) fn program(scope: CallScope, name: String, span: Span) -> Self {
         Self {
             scope,
@@ -310,7 +310,7 @@ impl WantedCall {
         }
     }
 
-    /// G80 and the like, which call a program of the machine that is not known (R2.94).
+    /// Creates the call of G80 and the like: a program of the machine that is not known (R2.94).
     pub(crate) fn of_word(number: u32, span: Span) -> Self {
         Self {
             word: Some(number),
@@ -318,7 +318,7 @@ impl WantedCall {
         }
     }
 
-    /// The called program, if it is missing.
+    /// Returns the called program, if it is missing.
     pub(crate) fn missing(&self) -> MissingProgram {
         let named = || MissingProgram::Named(self.name.as_str().into());
         self.word.map_or_else(named, MissingProgram::OfG)
@@ -348,7 +348,7 @@ pub(crate) enum FileName<'a> {
 /// The letters of the words that may get a program.
 const LETTERS: [&str; 4] = ["D", "G", "M", "T"];
 
-/// The words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional. With any
+/// Returns the words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional. With any
 /// other text, the program of every word is unknown.
 pub(crate) fn file_names<'a>(hash: &Hash, text: &'a str) -> Vec<(String, FileName<'a>)> {
     let mut names = Vec::new();
@@ -403,13 +403,13 @@ pub enum NoProgram {
 
 /// Finds called programs.
 pub trait Finder {
-    /// The text of the program called `name`, asked for by the file `caller`.
+    /// Returns the text of the program called `name`, asked for by the file `caller`.
     ///
     /// # Errors
     /// It is missing.
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram>;
 
-    /// The names of further files with other content that the name may mean on the control (FC329).
+    /// Returns the names of further files with other content that the name may mean on the control (FC329).
     fn others(&mut self, _name: &str, _caller: &str) -> Vec<String> {
         Vec::new()
     }

@@ -52,7 +52,7 @@ impl ExternalNames {
         name.family() == VariableFamily::External && !self.is_stable(name)
     }
 
-    /// The variables that only programs write.
+    /// Returns the variables that only programs write.
     pub(crate) fn own(&self) -> impl Iterator<Item = &VariableName> {
         self.own.iter()
     }
@@ -85,7 +85,7 @@ impl ExternalVariables {
         !self.held.is_empty() || self.initialised.is_some()
     }
 
-    /// Another value takes the place of those that the program set, which are returned.
+    /// Releases the values that the program set, whose place another value takes, and returns them.
     #[inline]
     pub(crate) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
         if self.held.is_empty() {
@@ -135,7 +135,7 @@ pub(crate) struct HeldVariable {
 }
 
 impl HeldVariable {
-    /// A variable that the program has set.
+    /// Returns a variable that the program has set.
     pub(crate) fn of(value: Value, at: SetAt) -> Self {
         Self {
             first: at.clone(),
@@ -143,7 +143,7 @@ impl HeldVariable {
         }
     }
 
-    /// The first block that set it.
+    /// Returns the first block that set it.
     pub(crate) fn first(&self) -> &SetAt {
         &self.first
     }

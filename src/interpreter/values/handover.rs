@@ -43,7 +43,7 @@ impl FoundVariables {
         part
     }
 
-    /// The locations that may exist, with their values; none is known where anything may have been written.
+    /// Returns the locations that may exist, with their values; none is known where anything may have been written.
     pub(crate) fn values(&self) -> impl Iterator<Item = (&Location, Value)> {
         self.values.iter().map(|(location, value)| {
             let value = if self.anything {
@@ -70,7 +70,7 @@ impl FoundVariables {
     }
 }
 
-/// A value as found by the next program that is not known.
+/// Returns a value as found by the next program that is not known.
 fn unknown(location: &Location) -> Value {
     Value::Unknown(Unknown::text(location.to_string()))
 }

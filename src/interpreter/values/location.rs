@@ -137,12 +137,12 @@ impl From<UnknownText> for Arc<str> {
 }
 
 impl Unknown {
-    /// Text of a program: a parameter, a variable, an address, a command, or what is not understood.
+    /// Classifies text of a program: a parameter, a variable, an address, a command, or what is not understood.
     pub fn text(text: impl Into<Arc<str>>) -> Self {
         Self::Text(text.into().into())
     }
 
-    /// A variable after the PLC may have changed the value that the program set.
+    /// Returns a variable after the PLC may have changed the value that the program set.
     pub(crate) fn changed(name: &str, value: String, at: &SetAt) -> Self {
         Self::Changed(Arc::new(ChangedVariable {
             name: name.into(),
@@ -152,7 +152,7 @@ impl Unknown {
         }))
     }
 
-    /// Its words in a message, with the reason why it is not known, as seen from a file.
+    /// Returns its words in a message, with the reason why it is not known, as seen from a file.
     pub(crate) fn seen_from(&self, file: &str) -> String {
         match self {
             Self::SkipLevel(_) => format!("{self}, a switch of the machine"),
@@ -185,7 +185,7 @@ impl Unknown {
         }
     }
 
-    /// The advice by which a user makes it known.
+    /// Returns the advice by which a user makes it known.
     pub(crate) fn advice(&self) -> Advice {
         match self {
             Self::SkipLevel(level) => Advice::SetSkip(*level),
@@ -225,7 +225,7 @@ impl Unknown {
         }
     }
 
-    /// Its words where it decides something: `` `V.E.A` ``, a missing jump label.
+    /// Returns its words where it decides something: `` `V.E.A` ``, a missing jump label.
     pub(crate) fn quoted(&self) -> String {
         match self {
             Self::Text(_) | Self::RemedyClass | Self::Cycle(_) => format!("`{self}`"),
@@ -310,7 +310,7 @@ pub(crate) enum Location {
 }
 
 impl Location {
-    /// The parameter or variable of a name.
+    /// Returns the parameter or variable of a name.
     pub(crate) fn named(name: VariableName) -> Self {
         match name.parameter_index() {
             Some(index) => Self::Parameter(Owner::Program, index),
@@ -318,7 +318,7 @@ impl Location {
         }
     }
 
-    /// The name under which the user gives its value.
+    /// Returns the name under which the user gives its value.
     pub(crate) fn name(&self) -> VariableName {
         match self {
             Self::Parameter(Owner::Program, index) => VariableName::parameter(*index),
@@ -349,7 +349,7 @@ pub(crate) struct Denoted {
 }
 
 impl Denoted {
-    /// One of several locations.
+    /// Returns one of several locations.
     pub(crate) fn any_of(location: Location, decided_by: Unknown) -> Self {
         Self {
             location,
@@ -357,7 +357,7 @@ impl Denoted {
         }
     }
 
-    /// The name of the variable, where it is one that is known.
+    /// Returns the name of the variable, where it is one that is known.
     pub(crate) fn variable(&self) -> Option<&VariableName> {
         match &self.location {
             Location::Variable(name) => Some(name),
@@ -365,7 +365,7 @@ impl Denoted {
         }
     }
 
-    /// The location with the value that it has after an assignment.
+    /// Returns the location with the value that it has after an assignment.
     pub(crate) fn assigned(self, value: Value) -> (Location, Value) {
         let value = self.decided_by.map_or(value, Value::Unknown);
         (self.location, value)

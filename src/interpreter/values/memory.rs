@@ -104,7 +104,7 @@ impl Memory {
         self.parameters.set(index, value);
     }
 
-    /// The value of a variable, the declared default of an array element that was never written.
+    /// Returns the value of a variable, the declared default of an array element that was never written.
     pub(crate) fn variable(&self, name: &VariableName) -> Option<Value> {
         if name.family().is_of_level() {
             let mut levels = self.locals.iter().rev();
@@ -192,7 +192,7 @@ impl Memory {
         self.given.insert(name, value);
     }
 
-    /// The value that the user gave.
+    /// Returns the value that the user gave.
     pub(crate) fn given(&self, name: &VariableName) -> Option<&Value> {
         self.given.get(name)
     }
@@ -211,7 +211,7 @@ impl Memory {
         }
     }
 
-    /// The variables of the current level.
+    /// Returns the variables of the current level.
     fn level(&mut self) -> &mut VariableNames {
         if self.locals.is_empty() {
             self.locals.push(VariableNames::default());
@@ -255,7 +255,7 @@ impl Memory {
         self.declared(name).set(name, value);
     }
 
-    /// The variable of a declared name, if it outlives programs and exists, or may.
+    /// Returns the variable of a declared name, if it outlives programs and exists, or may.
     pub(crate) fn before_declaration(&self, name: &VariableName) -> Option<NamedVariable> {
         let held = self.variables.names.get(name.array());
         let held = held.filter(|_| name.family() == VariableFamily::Shared);
@@ -308,7 +308,7 @@ impl Memory {
         );
     }
 
-    /// The declaration of a variable or an array, in the level of the program or around it.
+    /// Returns the declaration of a variable or an array, in the level of the program or around it.
     pub(crate) fn declaration(&self, name: &VariableName) -> Option<Declared> {
         let levels = self.locals.iter().rev();
         let mut levels = levels.filter(|_| name.family().is_of_level());
@@ -328,7 +328,7 @@ impl Memory {
         level.names.get(name.array())?.declared
     }
 
-    /// The variable of a name that only a level around the current one has.
+    /// Returns the variable of a name that only a level around the current one has.
     pub(crate) fn of_outer_level(&self, name: &VariableName) -> Option<&NamedVariable> {
         let (current, outer) = self.locals.split_last()?;
         let found = |level: &VariableNames| level.names.get(name.array()).is_some();
@@ -364,7 +364,7 @@ impl Memory {
         }
     }
 
-    /// A declared array.
+    /// Returns a declared array.
     pub(crate) fn array(&self, name: &str) -> Option<&Array> {
         let mut levels = self.locals.iter().rev();
         let local = levels.find_map(|level| level.array(name));
@@ -441,8 +441,7 @@ impl Memory {
         self.parameters.remove(index);
     }
 
-    /// The names whose numbers differ in another memory; `None` where anything else does, or more
-    /// than a few.
+    /// Returns the names whose numbers differ in another memory; `None` where anything else does, or more than a few.
     pub(crate) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let same = self.lost == other.lost
             && self.externals == other.externals
@@ -525,8 +524,8 @@ impl Memory {
         differing + names.len()
     }
 
-    /// The variables that are read not only by the program and that differ in another memory, beyond what the PLC
-    /// may have changed.
+    /// Returns the variables that are read not only by the program and that differ in another memory, beyond what the
+    /// PLC may have changed.
     pub(crate) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
         let names = self.variables.names.differing(&other.variables.names);
         let is_lost = |memory: &Self, name: &VariableName| {
@@ -615,7 +614,7 @@ impl Memory {
         self.macros.clear();
     }
 
-    /// The code of a macro, which may be unknown.
+    /// Returns the code of a macro, which may be unknown.
     pub(crate) fn macro_code(&self, name: &str) -> Option<&Value> {
         self.macros.get(name.trim())
     }
@@ -626,7 +625,7 @@ impl Memory {
         code.unwrap_or_else(|| Value::Text(name.into()))
     }
 
-    /// The `V.S.` variables, which outlive programs.
+    /// Returns the `V.S.` variables, which outlive programs.
     pub(crate) fn shared(&self) -> BTreeMap<String, Value> {
         let held = self.variables.held().into_iter();
         let shared = held.filter(|(name, _)| {
@@ -637,7 +636,7 @@ impl Memory {
             .collect()
     }
 
-    /// The parameters, and the variables that the running program sees.
+    /// Returns the parameters, and the variables that the running program sees.
     pub(crate) fn all(&self) -> Vec<(String, Value)> {
         let parameters = self.parameters.iter();
         let parameters = parameters.map(|(index, value)| (format!("P{index}"), value.clone()));
@@ -651,7 +650,7 @@ impl Memory {
     }
 }
 
-/// The code of a macro as it is used.
+/// Returns the code of a macro as it is used.
 fn unescaped(code: &str) -> String {
     code.replace("\\\"", "\"")
 }
@@ -713,7 +712,7 @@ impl ParameterValues {
         }
     }
 
-    /// The parameters that have a value, in the order of their numbers.
+    /// Returns the parameters that have a value, in the order of their numbers.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, &Value)> {
         let direct = (0..).zip(self.pages.iter().flat_map(|page| page.iter()));
         let direct = direct.filter_map(|(index, value)| Some((index, value.as_ref()?)));
@@ -721,7 +720,7 @@ impl ParameterValues {
         direct.chain(further)
     }
 
-    /// The numbers whose values differ in another set, or that only one of the two has.
+    /// Returns the numbers whose values differ in another set, or that only one of the two has.
     pub(crate) fn differing(&self, other: &Self) -> Vec<u32> {
         let none = Shared::default();
         let mut found = Vec::new();

@@ -76,7 +76,7 @@ pub(crate) enum Misuse {
 }
 
 impl Declared {
-    /// The declaration where another way has another one, or none.
+    /// Returns the declaration where another way has another one, or none.
     fn join(mine: Option<Self>, theirs: Option<Self>) -> Option<Self> {
         let kind = match (mine, theirs) {
             (Some(mine), Some(theirs)) if mine == theirs => return Some(mine),

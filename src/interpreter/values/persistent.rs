@@ -87,7 +87,7 @@ impl<K, V> PersistentMap<K, V> {
         None
     }
 
-    /// The entries from a key on.
+    /// Returns the entries from a key on.
     pub(crate) fn from<Q>(&self, key: &Q) -> MapEntries<'_, K, V>
     where
         K: Borrow<Q>,
@@ -136,7 +136,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
         None
     }
 
-    /// The value under a key, put there first where there is none.
+    /// Returns the value under a key, put there first where there is none.
     pub(crate) fn slot(&mut self, key: K, first: impl FnOnce() -> V) -> &mut V {
         let rank = RANKS.hash_one(&key);
         let mut link = &mut self.root;
@@ -196,7 +196,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
 }
 
 impl<K: Ord + Hash + Clone, V: Clone + PartialEq> PersistentMap<K, V> {
-    /// The keys whose values differ in another map, or that only one of the two has.
+    /// Returns the keys whose values differ in another map, or that only one of the two has.
     pub(crate) fn differing(&self, other: &Self) -> Vec<K> {
         let mut keys = Vec::new();
         compare(&self.root, &other.root, &mut keys);

@@ -37,7 +37,7 @@ impl Truth {
     }
 }
 
-/// The values that follow from a condition that holds or does not: `V.E.A == 2`, `NOT`, `&&`.
+/// Returns the values that follow from a condition that holds or does not: `V.E.A == 2`, `NOT`, `&&`.
 pub(crate) fn conclusions(
     block: &Block,
     text: &str,
@@ -114,7 +114,7 @@ fn is_switch(target: &Location) -> bool {
     of_axis.is_some_and(|(variable, _)| variable.ends_with("_COMP_ACTIVE"))
 }
 
-/// A variable and the number that it equals.
+/// Returns a variable and the number that it equals.
 fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Location, Value)> {
     let [one, other] = pair;
     let known = |part| {
@@ -132,7 +132,7 @@ fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Location, 
     target.or_else(|| variable(block, text, other).zip(known(one)))
 }
 
-/// The parameter or variable of an expression that consists only of it.
+/// Returns the parameter or variable of an expression that consists only of it.
 pub(crate) fn variable(block: &Block, text: &str, part: Expression) -> Option<Location> {
     let (start, end) = (part.start as usize, part.end as usize);
     let [node] = block.nodes.get(start..end)? else {
@@ -153,7 +153,7 @@ fn target(node: Node, written: &str) -> Option<Location> {
     }
 }
 
-/// The last node of an expression and its operands.
+/// Returns the last node of an expression and its operands.
 fn root(block: &Block, part: Expression) -> Option<(Node, Vec<Expression>)> {
     let node = *block.nodes.get(part.end.checked_sub(1)? as usize)?;
     Some((node, operands_of(block, part)?))
@@ -252,7 +252,7 @@ pub(crate) struct Asking {
 }
 
 impl Asking {
-    /// A condition on something that only the machine knows.
+    /// Returns a condition on something that only the machine knows.
     pub(crate) fn of_unknown(writer: Writer, unknown: Unknown) -> Self {
         let meaning = Arc::new(ConditionMeaning {
             subject: ConditionSubject::Unknown(unknown),
@@ -262,7 +262,7 @@ impl Asking {
         Self { writer, meaning }
     }
 
-    /// The same expression for another subject.
+    /// Returns the same expression for another subject.
     pub(crate) fn about(mut self, subject: ConditionSubject) -> Self {
         Arc::make_mut(&mut self.meaning).subject = subject;
         self
@@ -304,7 +304,7 @@ pub(crate) fn reads(
     Some(Asking { writer, meaning })
 }
 
-/// The values of the machine or the control that an expression reads by their names.
+/// Returns the values of the machine or the control that an expression reads by their names.
 pub(crate) fn read_of_machine(
     block: &Block,
     text: &str,
@@ -344,7 +344,7 @@ pub(crate) fn is_written_by_machine(
     })
 }
 
-/// A subscript that is a plain number.
+/// Returns a subscript that is a plain number.
 pub(crate) fn subscript(node: &Node) -> Subscript {
     let number = match node {
         Node::Number(number) => rounded(*number),
@@ -361,7 +361,7 @@ fn is_pure(function: Function) -> bool {
     )
 }
 
-/// The text of an expression, with the brackets that belong to it, and its span.
+/// Returns the text of an expression, with the brackets that belong to it, and its span.
 pub(crate) fn text_of(block: &Block, text: &str, expression: Expression) -> (String, Span) {
     let range = expression.start as usize..expression.end as usize;
     let spans = block.spans.get(range).unwrap_or_default();

@@ -29,7 +29,7 @@ pub enum Value {
 pub(crate) type Slot = Result<Value, Box<Fault>>;
 
 impl Value {
-    /// The number, where it is one.
+    /// Returns the number, where it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(*number),
@@ -37,7 +37,7 @@ impl Value {
         }
     }
 
-    /// The value as a program writes it.
+    /// Returns the value as a program writes it.
     pub(crate) fn as_written(&self) -> String {
         match self {
             Self::Number(number) => number.to_string(),
@@ -86,7 +86,7 @@ pub(crate) fn same_case(wanted: &Value, value: &Value) -> bool {
     }
 }
 
-/// A number that is a whole number, 0 or more.
+/// Returns a number that is a whole number, 0 or more.
 #[inline]
 pub(crate) fn exact(number: f64) -> Option<u32> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
@@ -96,7 +96,7 @@ pub(crate) fn exact(number: f64) -> Option<u32> {
     is_whole.then_some(whole)
 }
 
-/// A number as a whole number, rounded half away from zero; `None` if out of range.
+/// Returns a number as a whole number, rounded half away from zero; `None` if out of range.
 pub(crate) fn rounded(number: f64) -> Option<i64> {
     // 2^53: beyond it, numbers of the language are not exact whole numbers any more.
     const LIMIT: f64 = 9_007_199_254_740_992.0;
@@ -144,7 +144,7 @@ pub(crate) enum TypedValue {
 }
 
 impl ValueType {
-    /// The type of a word in upper case, with the length in its bracket.
+    /// Returns the type of a word in upper case, with the length in its bracket.
     pub(crate) fn named(word: Option<&str>, length: Option<u32>) -> Self {
         match word {
             Some("BOOLEAN") => Self::Boolean,
@@ -159,7 +159,7 @@ impl ValueType {
         }
     }
 
-    /// The value of a variable that nothing was written to.
+    /// Returns the value of a variable that nothing was written to.
     pub(crate) fn default(self) -> Value {
         match self {
             Self::Text(_) => Value::Text("".into()),
@@ -173,7 +173,7 @@ impl ValueType {
         limits.is_none_or(|(least, most)| (least..=most).contains(&number))
     }
 
-    /// The least and the greatest of its whole numbers.
+    /// Returns the least and the greatest of its whole numbers.
     fn limits(self) -> Option<(f64, f64)> {
         let power = |bits: u8| f64::from(bits).exp2();
         match self {
@@ -221,7 +221,7 @@ pub(crate) fn wrong_type(span: Span, message: &str) -> Box<Fault> {
     fault(Code::Fc312, span, message)
 }
 
-/// The number where a number is expected; `None` for what only the machine knows, FC312 for a string (R2.37).
+/// Returns the number where a number is expected; `None` for what only the machine knows, FC312 for a string (R2.37).
 pub(crate) fn numeric(value: &Value, span: Span) -> Result<Option<f64>, Box<Fault>> {
     match value {
         Value::Text(_) => Err(wrong_type(
@@ -233,7 +233,7 @@ pub(crate) fn numeric(value: &Value, span: Span) -> Result<Option<f64>, Box<Faul
     }
 }
 
-/// The value of an operation; a reading decides whether comparisons have a tolerance (R2.112).
+/// Returns the value of an operation; a reading decides whether comparisons have a tolerance (R2.112).
 pub(crate) fn binary(
     operator: BinaryOperator,
     (left, right): (Slot, Slot),
@@ -259,7 +259,7 @@ pub(crate) fn binary(
     }
 }
 
-/// The value of an operation on two numbers.
+/// Returns the value of an operation on two numbers.
 #[inline]
 pub(crate) fn numbers(
     operator: BinaryOperator,
@@ -291,7 +291,7 @@ fn is_nearly_multiple(left: f64, right: f64) -> bool {
     rest > 0.0 && least <= ROUNDING * left.abs().max(right.abs())
 }
 
-/// The number beside which rounding decides the value of a function (R2.112).
+/// Returns the number beside which rounding decides the value of a function (R2.112).
 fn jump_of(function: Function, x: f64) -> Option<f64> {
     match function {
         Function::Ceil | Function::Floor => Some(x.round()),
@@ -303,7 +303,7 @@ fn jump_of(function: Function, x: f64) -> Option<f64> {
     }
 }
 
-/// `&&` and `||`: one operand alone may decide, whatever the other is.
+/// Returns `&&` and `||`: one operand alone may decide, whatever the other is.
 fn logic(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot {
     let deciding = operator == BinaryOperator::Or;
     let truth = |slot: &Slot| slot.as_ref().ok().and_then(Value::truth);
@@ -376,7 +376,7 @@ pub(crate) fn are_nearly_equal(left: f64, right: f64) -> bool {
     difference > 0.0 && difference <= ROUNDING * scale
 }
 
-/// FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.
+/// Returns FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.
 pub(crate) fn finite(value: f64, span: Span) -> Slot {
     if value.is_finite() {
         Ok(Value::Number(value))
@@ -398,7 +398,7 @@ fn bitwise(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Slot 
     Ok(Value::Number(bits as f64))
 }
 
-/// `IS_STRING[v]`, `IS_NUMBER[v]` (R2.79).
+/// Returns `IS_STRING[v]`, `IS_NUMBER[v]` (R2.79).
 fn type_test(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
     let [slot]: [Slot; 1] = slots
         .try_into()

@@ -63,7 +63,7 @@ impl WorkBudget {
         self.charge_ways(units.saturating_mul(PER_UNIT_READ));
     }
 
-    /// The work of following ways, and of reading blocks that are passed over.
+    /// Returns the work of following ways, and of reading blocks that are passed over.
     #[inline]
     pub(crate) fn ways(&self) -> u64 {
         self.ways.get()

@@ -68,12 +68,12 @@ impl Split {
         self.conditions().all(|it| (it as usize) < conditions)
     }
 
-    /// The conditions that both name.
+    /// Returns the conditions that both name.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.on.conditions().chain(self.off.conditions())
     }
 
-    /// The only selection that is possible on some ways.
+    /// Returns the only selection that is possible on some ways.
     fn only_on(&self, ways: &WaySet) -> Option<Membership> {
         match (self.on.is_apart_from(ways), self.off.is_apart_from(ways)) {
             (false, true) => Some(Membership::In),
@@ -82,7 +82,7 @@ impl Split {
         }
     }
 
-    /// The only selection that is possible.
+    /// Returns the only selection that is possible.
     pub(crate) fn only(&self) -> Option<Membership> {
         match (self.on.is_never(), self.off.is_never()) {
             (false, true) => Some(Membership::In),
@@ -184,7 +184,7 @@ impl KindHistory {
             .map_or_else(|| reach.clone(), |ways| ways.and(reach))
     }
 
-    /// The block with an effect, where nothing else has any on the ways of `reach`.
+    /// Returns the block with an effect, where nothing else has any on the ways of `reach`.
     fn only(&self, effect: KindEffect, reach: &WaySet) -> Option<&BlockSite> {
         let blocks: usize = self.sites.iter().map(|sites| sites.0.len()).sum();
         let site = self.sites[effect as usize].latest();
@@ -220,7 +220,7 @@ pub(crate) struct HistorySide<'a> {
 }
 
 impl HistorySide<'_> {
-    /// The ways to each state of a kind; `None` where they are not known.
+    /// Returns the ways to each state of a kind; `None` where they are not known.
     fn split(&self, (axis, kind): AxisKind) -> Option<Split> {
         if self.compensation.unknown(axis).contains(kind) {
             let split = self.history.states(axis, kind)?;
@@ -254,7 +254,7 @@ impl HistorySide<'_> {
         both[0] == both[1]
     }
 
-    /// The ways of both sides to each state of a kind; `None` where they are not known.
+    /// Returns the ways of both sides to each state of a kind; `None` where they are not known.
     fn join_states(&self, key: AxisKind, theirs: &Self) -> Option<Split> {
         let (mut split, other) = self.split(key).zip(theirs.split(key))?;
         split.on.or(&other.on);
@@ -264,7 +264,7 @@ impl HistorySide<'_> {
 }
 
 impl History {
-    /// The histories of kinds of which only the ways to their states are known.
+    /// Returns the histories of kinds of which only the ways to their states are known.
     pub(crate) fn of_states(states: impl IntoIterator<Item = (AxisKind, Split)>) -> Self {
         let mut history = Self::default();
         for ((axis, kind), split) in states {
@@ -348,12 +348,12 @@ impl History {
         self.0.values().any(|kind| kind.states.is_some())
     }
 
-    /// The ways to the states of a kind of an axis, where they differ.
+    /// Returns the ways to the states of a kind of an axis, where they differ.
     pub(crate) fn states(&self, axis: AxisIndex, kind: Kind) -> Option<&Split> {
         self.0.get(&(axis, kind))?.states.as_ref()
     }
 
-    /// The kinds whose states differ between ways.
+    /// Returns the kinds whose states differ between ways.
     pub(crate) fn open_kinds(&self) -> impl Iterator<Item = (AxisKind, &Split)> {
         let kinds = self.0.iter();
         kinds.filter_map(|(key, kind)| Some((*key, kind.states.as_ref()?)))
@@ -365,12 +365,12 @@ impl History {
         known.map_or_else(|| reach.clone(), |kind| kind.found_on(reach))
     }
 
-    /// The ways on which a kind is as the program found it, as they are; `None` for all that lead to the block.
+    /// Returns the ways on which a kind is as the program found it, as they are; `None` for all that lead to the block.
     fn found_ways(&self, axis: AxisIndex, kind: Kind) -> Option<&WaySet> {
         self.0.get(&(axis, kind))?.found.as_ref()
     }
 
-    /// The latest of the blocks with an effect on a kind of an axis.
+    /// Returns the latest of the blocks with an effect on a kind of an axis.
     pub(crate) fn latest(
         &self,
         axis: AxisIndex,
@@ -380,14 +380,14 @@ impl History {
         self.0.get(&(axis, kind))?.sites[effect as usize].latest()
     }
 
-    /// The latest of all blocks with an effect on a kind of an axis.
+    /// Returns the latest of all blocks with an effect on a kind of an axis.
     pub(crate) fn last(&self, axis: AxisIndex, kind: Kind) -> Option<(KindEffect, &BlockSite)> {
         let effects = KindEffect::ALL.into_iter();
         let sites = effects.filter_map(|it| Some((it, self.latest(axis, kind, it)?)));
         sites.max_by_key(|(_, site)| site.seq)
     }
 
-    /// The kinds of an axis that a command switches as an earlier one did on all ways of `reach`.
+    /// Returns the kinds of an axis that a command switches as an earlier one did on all ways of `reach`.
     pub(crate) fn repeated(
         &self,
         axis: AxisIndex,
@@ -485,12 +485,12 @@ impl History {
         }
     }
 
-    /// The ways of each kind that are compared where ways meet.
+    /// Returns the ways of each kind that are compared where ways meet.
     pub(crate) fn sets(&self) -> impl Iterator<Item = &WaySet> {
         self.0.values().flat_map(|kind| kind.sets())
     }
 
-    /// The conditions that ways name.
+    /// Returns the conditions that ways name.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.sets().flat_map(WaySet::conditions)
     }
@@ -585,7 +585,7 @@ pub(crate) struct FoundStates<'a> {
 }
 
 impl FoundStates<'_> {
-    /// The possible states of a kind, with some of the ways to each.
+    /// Returns the possible states of a kind, with some of the ways to each.
     pub(crate) fn states_of(
         self,
         kind: (&Compensation, AxisKind),
@@ -615,7 +615,7 @@ impl FoundStates<'_> {
         FoundOn(self.reach.clone())
     }
 
-    /// The ways on which a kind of an axis still is in that state.
+    /// Returns the ways on which a kind of an axis still is in that state.
     pub(crate) fn on(self, axis: AxisIndex, kind: Kind) -> FoundOn {
         FoundOn(self.history.found((axis, kind), self.reach))
     }
@@ -628,13 +628,13 @@ impl FoundStates<'_> {
         ways_of(&on.0, self.conditions)
     }
 
-    /// The ways on which a kind of an axis still is in that state, each a list of conditions that hold
+    /// Returns the ways on which a kind of an axis still is in that state, each a list of conditions that hold
     /// together; none where it is on all of them, or on no way.
     pub(crate) fn ways(self, axis: AxisIndex, kind: Kind) -> Vec<Vec<WayCondition>> {
         self.ways_of(&self.on(axis, kind))
     }
 
-    /// The ways on which a kind of an axis still is in that state, as seen from a file.
+    /// Returns the ways on which a kind of an axis still is in that state, as seen from a file.
     pub(crate) fn of(self, axis: AxisIndex, kind: Kind, file: &str) -> UntouchedOn {
         let ways = self.history.found((axis, kind), self.reach);
         if ways.is_never() {

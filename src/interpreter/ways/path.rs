@@ -289,8 +289,8 @@ pub(crate) struct Path {
 }
 
 impl Path {
-    /// Another way reaches the same block: what differs becomes unknown. Returns how many values do. Beside a way
-    /// that the control may take, one that an error has ended does not count.
+    /// Joins another way that reaches the same block: what differs becomes unknown. Returns how many values do. Beside
+    /// a way that the control may take, one that an error has ended does not count.
     pub(crate) fn join(&mut self, mut other: Self, cause: &Unknown) -> usize {
         if self.track.failed.is_some() != other.track.failed.is_some() {
             if self.track.failed.is_some() {
@@ -317,7 +317,7 @@ impl Path {
         }
     }
 
-    /// The conditions that its ways name.
+    /// Returns the conditions that its ways name.
     pub(crate) fn conditions(&self) -> BTreeSet<u32> {
         let named = self.control.history.conditions();
         named.chain(self.track.reach.conditions()).collect()
@@ -349,8 +349,8 @@ impl Path {
 }
 
 impl Path {
-    /// Another way begins a pass of the loop at whose head this state is kept. The conditions that only that way has
-    /// asked are left out of what leads here: they are asked in every pass.
+    /// Joins another way that begins a pass of the loop at whose head this state is kept. The conditions that only that
+    /// way has asked are left out of what leads here: they are asked in every pass.
     pub(crate) fn take_in(&mut self, way: Self, cause: &Unknown) -> Arrival {
         let named: BTreeSet<u32> = self.track.reach.conditions().collect();
         let mut reach = way.track.reach.clone();
@@ -386,7 +386,7 @@ impl RunState {
         }
     }
 
-    /// The part of the way that later ways to the same block are compared with.
+    /// Returns the part of the way that later ways to the same block are compared with.
     pub(crate) fn arriving(&self) -> Path {
         let track = &self.track;
         Path {
@@ -429,7 +429,7 @@ pub(crate) struct BranchSide {
 }
 
 impl BranchSide {
-    /// A side that leads to a block and implies nothing else.
+    /// Returns a side that leads to a block and implies nothing else.
     pub(crate) fn to(ways: WaySet, to: EntryIndex) -> Self {
         Self {
             ways,
@@ -503,7 +503,7 @@ pub(crate) struct Loop {
 }
 
 impl Loop {
-    /// The section that contains it.
+    /// Returns the section that contains it.
     pub(crate) fn program(&self) -> ProgramId {
         ProgramId {
             unit: self.unit,
@@ -511,7 +511,7 @@ impl Loop {
         }
     }
 
-    /// Its place among the loops whose condition is not known.
+    /// Returns its place among the loops whose condition is not known.
     pub(crate) fn place(&self) -> (usize, usize, EntryIndex) {
         (self.depth, self.unit, self.head)
     }

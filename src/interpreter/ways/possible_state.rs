@@ -60,15 +60,14 @@ impl Serialize for PossibleStates {
 }
 
 impl PossibleStates {
-    /// The words of the ways to a state, as seen from a file: `if V.E.A == 2 (line 12), or if skip level 1
-    /// is on`, or `only if V.E.A changes between lines 1 and 9`; `None` where it is the state otherwise, or
-    /// not possible.
+    /// Returns the words of the ways to a state, as seen from a file: `if V.E.A == 2 (line 12), or if skip level 1 is
+    /// on`, or `only if V.E.A changes between lines 1 and 9`; `None` where it is the state otherwise, or not possible.
     pub fn ways_to(&self, state: State, file: &str) -> Option<String> {
         let found = self.states.iter().find(|it| it.state == state)?;
         found.words(file)
     }
 
-    /// The states in words, as seen from a file: `inactive if V.E.A == 2 (line 12), else active`.
+    /// Returns the states in words, as seen from a file: `inactive if V.E.A == 2 (line 12), else active`.
     pub fn in_words(&self, file: &str) -> String {
         let named = self.states.iter().map(|state| match state.words(file) {
             Some(words) => format!("{} {words}", state.state),
@@ -118,7 +117,7 @@ impl PossibleStates {
         found.is_some_and(PossibleState::needs_change)
     }
 
-    /// The ways to a state; `None` where it is the state otherwise.
+    /// Returns the ways to a state; `None` where it is the state otherwise.
     pub(crate) fn ways(&self, state: State) -> Option<&[Vec<WayCondition>]> {
         let found = self.states.iter().find(|it| it.state == state)?;
         found.ways.as_deref()
@@ -259,7 +258,7 @@ fn named(state: State, ways: &WaySet, conditions: &[Condition]) -> PossibleState
     }
 }
 
-/// The ways with the texts of their conditions; none where one of them only needs values to stay as the program
+/// Returns the ways with the texts of their conditions; none where one of them only needs values to stay as the program
 /// set them: it is taken for granted, and the others are exceptions (R2.99).
 pub(crate) fn ways_of(ways: &WaySet, conditions: &[Condition]) -> Vec<Vec<WayCondition>> {
     let mut all: Vec<Vec<WayCondition>> = Vec::new();
@@ -292,7 +291,7 @@ pub(crate) fn ways_of(ways: &WaySet, conditions: &[Condition]) -> Vec<Vec<WayCon
     all
 }
 
-/// The change without which a condition has only the answer that the program set.
+/// Returns the change without which a condition has only the answer that the program set.
 pub(crate) fn change_since(kept: &KeptAnswer) -> WayChange {
     let names: Vec<String> = kept.names.iter().map(ToString::to_string).collect();
     WayChange {
@@ -449,7 +448,7 @@ impl CarriedWays {
             && states.all(|it| machine.find(&it.axis).is_some() && it.ways.fits(conditions))
     }
 
-    /// The conditions, and the states of those kinds that are unknown.
+    /// Returns the conditions, and the states of those kinds that are unknown.
     pub(crate) fn into_parts(
         self,
         machine: &Machine,

@@ -120,7 +120,7 @@ pub(crate) struct Condition {
 }
 
 impl Condition {
-    /// A condition that is asked for the first time.
+    /// Returns a condition that is asked for the first time.
     pub(crate) fn new(
         kind: ConditionKind,
         place: Place,
@@ -188,7 +188,7 @@ pub(crate) struct ImpliedValues {
 }
 
 impl ImpliedValues {
-    /// A variable for which no value gives both answers.
+    /// Returns a variable for which no value gives both answers.
     fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a Location> {
         let differs = |(target, value): &&(Location, Value)| {
             let mut known = other.is.iter();
@@ -229,7 +229,7 @@ impl RememberedCondition {
         }
     }
 
-    /// The pairs of answers of this condition and a later one that no value gives.
+    /// Returns the pairs of answers of this condition and a later one that no value gives.
     fn clashes(&self, later: &Self) -> Vec<Clash> {
         let named = |name: String, answers| Clash {
             earlier: self.condition,
@@ -258,7 +258,7 @@ impl RememberedCondition {
         found
     }
 
-    /// The variables that it reads, or what it asks for.
+    /// Returns the variables that it reads, or what it asks for.
     fn names(&self) -> String {
         if let ConditionSubject::Unknown(unknown) = &self.meaning.subject {
             return unknown.to_string();
@@ -287,7 +287,7 @@ impl RememberedConditions {
         self.0.is_empty()
     }
 
-    /// A condition is asked: the answers that contradict earlier ones.
+    /// Adds a condition that is asked, and returns the answers that contradict earlier ones.
     pub(crate) fn ask(&mut self, reading: RememberedCondition) -> Vec<Clash> {
         let earlier = self.0.iter();
         let clashes = earlier.flat_map(|it| it.clashes(&reading)).collect();
@@ -365,7 +365,7 @@ impl RememberedConditions {
     }
 }
 
-/// The clash of an answer with an earlier one of the same way, the nearest of them.
+/// Returns the clash of an answer with an earlier one of the same way, the nearest of them.
 pub(crate) fn clash<'a>(
     answer: &WayAnswer,
     way: &Way,

@@ -39,7 +39,7 @@ impl Default for WaySet {
 }
 
 impl WaySet {
-    /// Every way.
+    /// Returns every way.
     pub(crate) fn always() -> Self {
         Self(vec![Vec::new()])
     }
@@ -49,7 +49,7 @@ impl WaySet {
         Self(Vec::new())
     }
 
-    /// The ways on which a condition has an answer.
+    /// Returns the ways on which a condition has an answer.
     pub(crate) fn of(answer: WayAnswer) -> Self {
         if answer.is_any() {
             Self::always()
@@ -70,18 +70,18 @@ impl WaySet {
         &self.0
     }
 
-    /// The conditions that the ways name.
+    /// Returns the conditions that the ways name.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.0.iter().flatten().map(|answer| answer.condition)
     }
 
-    /// The number of its answers that are compared with each of its ways.
+    /// Returns the number of its answers that are compared with each of its ways.
     pub(crate) fn pairs(&self) -> u64 {
         let answers: usize = self.0.iter().map(|way| 1 + way.len()).sum();
         (answers as u64).saturating_mul(self.0.len() as u64)
     }
 
-    /// The ways on which both hold; ways that contradict each other are dropped.
+    /// Returns the ways on which both hold; ways that contradict each other are dropped.
     pub(crate) fn and(&self, other: &Self) -> Self {
         if other.is_always() {
             return self.clone();
@@ -100,7 +100,7 @@ impl WaySet {
         Self(both.ways)
     }
 
-    /// The ways on which a condition has an answer, without naming it.
+    /// Returns the ways on which a condition has an answer, without naming it.
     pub(crate) fn given(&self, answer: WayAnswer) -> Self {
         if let [way] = self.0.as_slice()
             && let [only] = way.as_slice()
@@ -317,7 +317,7 @@ fn without(bits: u64, place: usize) -> u64 {
     (bits & below) | (bits >> 1 & !below)
 }
 
-/// The condition that most ways name.
+/// Returns the condition that most ways name.
 fn most_named(ways: &[Way]) -> Option<u32> {
     let answers = ways.iter().flatten();
     let mut named: Vec<u32> = answers.map(|answer| answer.condition).collect();
@@ -353,7 +353,7 @@ fn relation(inner: &Way, outer: &Way) -> Relation {
     }
 }
 
-/// The first answer of a way that differs from that of one that contains the rest of it, and the sides that the
+/// Returns the first answer of a way that differs from that of one that contains the rest of it, and the sides that the
 /// other one adds.
 fn adjacent(inner: &Way, outer: &Way) -> Option<(usize, u64)> {
     let mut theirs = outer.iter().peekable();
@@ -364,7 +364,7 @@ fn adjacent(inner: &Way, outer: &Way) -> Option<(usize, u64)> {
     })
 }
 
-/// Both ways together; `None` where they contradict each other.
+/// Returns both ways together; `None` where they contradict each other.
 fn together(mine: &Way, theirs: &Way) -> Option<Way> {
     if contradict(mine, theirs) {
         return None;

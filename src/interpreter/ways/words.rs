@@ -138,7 +138,7 @@ pub(crate) fn ways_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
     in_words(&ways[..named], ways.len() - named, ", or if ", file)
 }
 
-/// The words after `if`, or after `only if` where a value of the machine must change on each way.
+/// Returns the words after `if`, or after `only if` where a value of the machine must change on each way.
 pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
     let named = ways.len().min(MAX_NAMED);
     after_if(&ways[..named], ways.len() - named, file)
@@ -179,7 +179,7 @@ pub(crate) fn after_if(ways: &[Vec<WayCondition>], more: usize, file: &str) -> S
     format!("{only}if {}", in_words(ways, more, ", or if ", file))
 }
 
-/// The words for all other ways.
+/// Returns the words for all other ways.
 pub(crate) fn unless(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     format!("unless {}", in_words(ways, more, ", or ", file))
 }
@@ -195,7 +195,7 @@ fn in_words(ways: &[Vec<WayCondition>], more: usize, or: &str, file: &str) -> St
     words
 }
 
-/// One way in words; two conditions between which a value changes are named as that change.
+/// Returns one way in words; two conditions between which a value changes are named as that change.
 fn way_in_words(way: &[WayCondition], file: &str) -> String {
     let changes = way.iter().filter_map(WayCondition::changed);
     let is_earlier = |condition: &WayCondition| {
@@ -211,7 +211,7 @@ fn way_in_words(way: &[WayCondition], file: &str) -> String {
 }
 
 impl WayChange {
-    /// `V.E.A changes between lines 1 and 9`.
+    /// Returns `V.E.A changes between lines 1 and 9`.
     pub(crate) fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
         let Self {
             name, line: since, ..
@@ -234,7 +234,7 @@ pub(crate) fn seen_from((of, line): (&str, u32), file: &str) -> String {
 }
 
 impl WayCondition {
-    /// The condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
+    /// Returns the condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
     pub fn in_words(&self, file: &str) -> String {
         if let Some((change, (of, line))) = self.changed().zip(self.place()) {
             return change.in_words((of, line), file);
@@ -327,7 +327,7 @@ impl WayCondition {
 }
 
 impl WayCondition {
-    /// The condition that holds where this one of a block does not.
+    /// Returns the condition that holds where this one of a block does not.
     pub(crate) fn affirmed(&self) -> Option<Self> {
         let mut affirmed = self.clone();
         let (Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked)) = &mut affirmed else {
@@ -338,7 +338,7 @@ impl WayCondition {
         is_denied.then_some(affirmed)
     }
 
-    /// The change of a value without which it contradicts an earlier condition of its way.
+    /// Returns the change of a value without which it contradicts an earlier condition of its way.
     fn changed(&self) -> Option<&WayChange> {
         match self {
             Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) | Self::Probe(asked) => {
@@ -377,7 +377,7 @@ impl BlockCondition {
 /// Limit of the axes that a message names.
 const MAX_NAMED_AXES: usize = 8;
 
-/// The name of a kind of several axes in a message.
+/// Returns the name of a kind of several axes in a message.
 pub(crate) fn of_axes(kind: Kind, axes: &[&str]) -> String {
     let mut shown: Vec<String> = axes
         .iter()

@@ -160,7 +160,8 @@ impl Executor {
         Ok(())
     }
 
-    /// The value that a declaration without one gives. A `V.I.` variable may exist, and then keeps its own (R2.102).
+    /// Returns the value that a declaration without one gives. A `V.I.` variable may exist, and then keeps its own
+    /// (R2.102).
     fn default_of(&self, name: &VariableName, kind: ValueType) -> Value {
         if name.family() != VariableFamily::Internal {
             return kind.default();
@@ -210,7 +211,7 @@ impl Executor {
         }
     }
 
-    /// The value that a variable of a type has after an assignment (R2.101).
+    /// Returns the value that a variable of a type has after an assignment (R2.101).
     pub(crate) fn typed(
         &mut self,
         kind: ValueType,
@@ -269,8 +270,8 @@ impl RunState {
     }
 }
 
-/// The name of the element at a place in row order; `None` where an unknown dimension decides which it
-/// is. The first dimension does not.
+/// Returns the name of the element at a place in row order; `None` where an unknown dimension decides which it is. The
+/// first dimension does not.
 fn element(
     name: &VariableName,
     dimensions: &[Result<u32, Value>],
@@ -332,7 +333,7 @@ enum OwnVariable {
 }
 
 impl Executor {
-    /// The value of an operand.
+    /// Returns the value of an operand.
     pub(crate) fn value(
         &mut self,
         operand: Operand,
@@ -477,7 +478,7 @@ impl Executor {
         self.own_variable(name).is_some()
     }
 
-    /// The kind of an axis whose state a variable shows.
+    /// Returns the kind of an axis whose state a variable shows.
     pub(crate) fn active_variable(&self, name: &VariableName) -> Option<(AxisIndex, Kind)> {
         match self.own_variable(name)? {
             OwnVariable::Active(axis, kind) => Some((axis, kind)),
@@ -485,7 +486,7 @@ impl Executor {
         }
     }
 
-    /// The variable of an axis whose value follows from the state of the run.
+    /// Returns the variable of an axis whose value follows from the state of the run.
     fn own_variable(&self, name: &VariableName) -> Option<OwnVariable> {
         let (variable, axis) = name.of_axis()?;
         let axis = match axis {
@@ -573,7 +574,7 @@ impl Executor {
         Ok(())
     }
 
-    /// A value as the variable that it is assigned to takes it (R2.101, R2.102).
+    /// Returns a value as the variable that it is assigned to takes it (R2.101, R2.102).
     pub(crate) fn as_declared(
         &mut self,
         place: Option<&Denoted>,
@@ -666,7 +667,7 @@ impl Executor {
         }
     }
 
-    /// A variable with a value from the user that the program counts on from there: the user's value was its
+    /// Returns a variable with a value from the user that the program counts on from there: the user's value was its
     /// first one, and is not what the PLC writes.
     fn counts_given(
         &self,
@@ -680,7 +681,7 @@ impl Executor {
         (is_given && reads_itself(assignment, name, at)).then(|| name.clone())
     }
 
-    /// The number that an operand is, if it is known; FC312 for a string (R2.37).
+    /// Returns the number that an operand is, if it is known; FC312 for a string (R2.37).
     pub(crate) fn number(
         &mut self,
         operand: Operand,
@@ -690,7 +691,7 @@ impl Executor {
         numeric(&self.value(operand, at)?, span)
     }
 
-    /// The number that an argument of a command means; `None` where it is not known.
+    /// Returns the number that an argument of a command means; `None` where it is not known.
     pub(crate) fn argument_number(
         &mut self,
         argument: &Argument,
@@ -699,7 +700,7 @@ impl Executor {
         self.operand_number(argument.value?, at)
     }
 
-    /// The number of a value; `None` where it is not known.
+    /// Returns the number of a value; `None` where it is not known.
     pub(crate) fn operand_number(&mut self, value: Operand, at: &BlockContext<'_>) -> Option<f64> {
         match self.value(value, at) {
             Ok(Value::Number(number)) => Some(number),
@@ -744,7 +745,7 @@ impl ControlState {
     }
 }
 
-/// The number in `V.G.@P[1].VALID`.
+/// Returns the number in `V.G.@P[1].VALID`.
 fn given_parameter(name: &VariableName) -> Option<u32> {
     match name.subscripts().as_slice() {
         [Subscript::Number(index), Subscript::Field(field)]

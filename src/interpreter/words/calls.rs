@@ -73,7 +73,7 @@ impl Executor {
         }
     }
 
-    /// The name of a called program.
+    /// Returns the name of a called program.
     fn called_name(&mut self, name: CallName, at: &BlockContext<'_>) -> Result<Value, Box<Fault>> {
         Ok(match name {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
@@ -355,8 +355,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// The calls of a block with the modal cycle after them, unless the block is one of the
-    /// cycle's.
+    /// Returns the calls of a block with the modal cycle after them, unless the block is one of the cycle's.
     pub(crate) fn repetition(
         &mut self,
         step: Option<ControlStep>,
@@ -383,7 +382,7 @@ impl Executor {
         (!calls.is_empty()).then_some(ControlStep::Call(calls))
     }
 
-    /// A modal cycle after a block that made some calls.
+    /// Returns a modal cycle after a block that made some calls.
     fn repeat(
         &mut self,
         cycle: Repeated,
@@ -419,7 +418,7 @@ impl Executor {
         })
     }
 
-    /// The blocks that a call asks for; `Err` where they are not in the program.
+    /// Returns the blocks that a call asks for; `Err` where they are not in the program.
     pub(crate) fn passage(
         &mut self,
         wanted: &WantedCall,
@@ -678,7 +677,7 @@ impl Executor {
     }
 }
 
-/// FC902: a block of a program whose lines are read one after another and not kept.
+/// Returns FC902: a block of a program whose lines are read one after another and not kept.
 fn not_kept(name: &LabelName, span: Span, then: &str) -> Fault {
     let message = format!(
         "`{name}` is in a part of the program that was read line by line and is not kept; {then}, and every axis becomes unknown"

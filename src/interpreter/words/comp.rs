@@ -120,7 +120,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(diagnostic);
     }
 
-    /// The refusal of a command that the control does not accept under the selected readings (R1.8, R1.25,
+    /// Returns the refusal of a command that the control does not accept under the selected readings (R1.8, R1.25,
     /// R1.26).
     fn read_as_refused(
         &mut self,

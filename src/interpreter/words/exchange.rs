@@ -155,7 +155,7 @@ impl Executor {
         }
     }
 
-    /// The coupling group that `[1, …]` or `[P1+1]` names; empty without one.
+    /// Returns the coupling group that `[1, …]` or `[P1+1]` names; empty without one.
     fn group_of(&mut self, hash: &Hash, at: &BlockContext<'_>) -> String {
         let Some(group) = hash.brackets.iter().next() else {
             return String::new();
@@ -307,7 +307,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// The axis that a COMP command switches under the current names.
+    /// Returns the axis that a COMP command switches under the current names.
     pub(crate) fn addressed(&self, name: &str) -> Result<Addressed, CompensationError> {
         Ok(match self.channel_axes.meaning(name) {
             None => Addressed::Axis(self.compensation.resolve(name)?),
@@ -326,7 +326,7 @@ struct NamedInExchange<'a> {
 }
 
 impl<'a> NamedInExchange<'a> {
-    /// The names: of `[X, B]` and `[NAME=X]` of a release, of each bracket of a request.
+    /// Returns the names: of `[X, B]` and `[NAME=X]` of a release, of each bracket of a request.
     fn names(self, exchange: Exchange) -> Vec<&'a str> {
         match exchange {
             Exchange::Release => {
@@ -340,8 +340,8 @@ impl<'a> NamedInExchange<'a> {
         }
     }
 
-    /// The name and the logical number of each bracket, `[X, 1, 0]` or `[NAME=X NR=1 IDX=0]`, unless it holds switches
-    /// for conflicts, `[NAM, NBR, IDX]`.
+    /// Returns the name and the logical number of each bracket, `[X, 1, 0]` or `[NAME=X NR=1 IDX=0]`, unless it holds
+    /// switches for conflicts, `[NAM, NBR, IDX]`.
     fn axes(self) -> impl Iterator<Item = (&'a str, Option<&'a Argument>)> {
         self.arguments.groups().filter_map(move |group| {
             let mut items = group.chunk_by(|one, other| one.item == other.item);
@@ -361,13 +361,13 @@ impl<'a> NamedInExchange<'a> {
         argument.key.is_some_and(|it| it.of(self.text) == key)
     }
 
-    /// The value of a key, `X` of `NAME = X NR = 1`.
+    /// Returns the value of a key, `X` of `NAME = X NR = 1`.
     fn keyed(self, arguments: &[Argument], key: &str) -> Option<&'a str> {
         let argument = arguments.iter().find(|it| self.has_key(it, key))?;
         Some(argument.span.of(self.text))
     }
 
-    /// The text of arguments without commas in between.
+    /// Returns the text of arguments without commas in between.
     fn whole(self, item: &[Argument]) -> &'a str {
         let start = item.first().map(|first| first.key.unwrap_or(first.span));
         let whole = start.zip(item.last());

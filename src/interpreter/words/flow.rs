@@ -30,7 +30,7 @@ struct Count {
 }
 
 impl Executor {
-    /// The condition of `$IF c $GOTO …`; `None` for any other statement.
+    /// Returns the condition of `$IF c $GOTO …`; `None` for any other statement.
     pub(crate) fn one_line_condition(
         &mut self,
         flow: &Flow,
@@ -154,7 +154,7 @@ impl Executor {
         })
     }
 
-    /// `$CONTINUE` in a `$SWITCH` outside a loop is allowed (P-ERR-20244), and no page says what it does.
+    /// Executes `$CONTINUE` in a `$SWITCH` outside a loop: it is allowed (P-ERR-20244), and no page says what it does.
     fn continue_in_switch(
         &mut self,
         rest: Range<EntryIndex>,
@@ -243,8 +243,8 @@ impl Executor {
         })
     }
 
-    /// The branches after the one that was executed are passed over. Without `$ENDIF` there is nothing to be found after
-    /// them.
+    /// Returns the branches after the one that was executed are passed over. Without `$ENDIF` there is nothing to be
+    /// found after them.
     fn skip_other_branches(&mut self, links: Links, after: ControlStep) -> ControlStep {
         if self.position().is_unclosed(links.opener) {
             self.state.control.seek(Seeking::Condition);
@@ -350,7 +350,7 @@ impl Executor {
         })))
     }
 
-    /// `$ENDFOR`: counts, and looks at the end again.
+    /// Executes `$ENDFOR`: counts, and looks at the end again.
     fn next_pass(
         &mut self,
         opener: EntryIndex,
@@ -505,7 +505,7 @@ fn flow_span(block: &Block) -> Span {
         .unwrap_or_default()
 }
 
-/// FC209.
+/// Returns FC209.
 pub(crate) fn missing_label(label: &LabelName, span: Span) -> Fault {
     let message = format!("jump label `{label}` does not exist in this program");
     Fault::new(Code::Fc209, span, message)

@@ -480,8 +480,8 @@ pub(crate) fn enables(arguments: &BracketArguments, text: &str) -> bool {
 }
 
 impl Executor {
-    /// The axes whose list a command transfers again, with the kinds that NC commands have set there:
-    /// all kinds where it writes a parameter of friction compensation.
+    /// Returns the axes whose list a command transfers again, with the kinds that NC commands have set there: all kinds
+    /// where it writes a parameter of friction compensation.
     pub(crate) fn transferred(
         &mut self,
         hash: &Hash,
@@ -510,7 +510,7 @@ impl Executor {
         lost.filter(|(_, kinds)| !kinds.is_empty()).collect()
     }
 
-    /// The axes that the command may name in blocks that are passed over.
+    /// Returns the axes that the command may name in blocks that are passed over.
     pub(crate) fn perhaps_transferred(
         &self,
         arguments: &BracketArguments,
@@ -526,7 +526,7 @@ impl Executor {
     }
 }
 
-/// The axes with a logical number; those without one may have any.
+/// Returns the axes with a logical number; those without one may have any.
 fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
     let number = number.and_then(|number| u32::try_from(number).ok());
     let has = |wanted: Option<u32>| {
@@ -542,7 +542,8 @@ fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
     }
 }
 
-/// The axis of a name, in either case. A command that names none writes to any axis, unless it is about the channel.
+/// Returns the axis of a name, in either case. A command that names none writes to any axis, unless it is about the
+/// channel.
 fn named(machine: &Machine, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
     match arguments.after("AX", text) {
         Some(argument) => {

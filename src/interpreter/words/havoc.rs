@@ -110,7 +110,7 @@ impl ControlState {
         open.is_some()
     }
 
-    /// FC208: the program ends inside a description.
+    /// Returns FC208: the program ends inside a description.
     pub(crate) fn open_description(&mut self) -> Option<Diagnostic> {
         let open = self.described.take()?;
         let end = open.opener.until?;
@@ -145,8 +145,8 @@ impl Executor {
         }
     }
 
-    /// The next program finds a kind of an axis selected or not. Returns the number of the condition, of which the first
-    /// answer is that it is; `None` where too many are asked.
+    /// Opens whether the next program finds a kind of an axis selected. Returns the number of the condition, of which
+    /// the first answer is that it is; `None` where too many are asked.
     pub(crate) fn find_open(&mut self, axis: AxisIndex, kind: Kind) -> Option<u32> {
         let name: Arc<str> = self.machine.axis(axis).name.as_str().into();
         let compensation = &mut self.state.control.compensation;

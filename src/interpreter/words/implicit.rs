@@ -193,7 +193,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// The text of a variable, or the cause why it is unknown.
+    /// Returns the text of a variable, or the cause why it is unknown.
     fn named_elsewhere(&mut self, name: &str) -> Value {
         match self.memory.variable(&VariableName::read(name)) {
             Some(value @ Value::Text(_)) => value,
@@ -203,7 +203,7 @@ impl ControlState {
 }
 
 impl Executor {
-    /// The program for a word, `G80`, `M6`, else for its letter.
+    /// Returns the program for a word, `G80`, `M6`, else for its letter.
     pub(crate) fn configured(&self, word: FunctionWord) -> Configured {
         let letter = char::from(word.letter);
         let word = word.number.map(|number| format!("{letter}{number}"));

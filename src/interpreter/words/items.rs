@@ -98,7 +98,7 @@ impl Executor {
         }
     }
 
-    /// The rest of the block is to the right of what the control refuses. `Break` where it stops there.
+    /// Refuses the rest of the block, to the right of what the control refuses. `Break` where it stops there.
     #[cold]
     fn refuse_from(&mut self, limit: &mut u32, at: &BlockContext<'_>) -> ControlFlow<()> {
         if self.options.stop == StopPolicy::FirstError {
@@ -392,7 +392,7 @@ impl Executor {
         Err(Box::new(fault))
     }
 
-    /// A macro with unknown code, which may do anything (R2.51).
+    /// Returns a macro with unknown code, which may do anything (R2.51).
     fn lost_macro(
         &mut self,
         span: Span,

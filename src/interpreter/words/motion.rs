@@ -447,7 +447,7 @@ impl Executor {
     }
 }
 
-/// The place of the F word of a block.
+/// Returns the place of the F word of a block.
 fn feed_word(block: &Block) -> Option<Span> {
     let is_feed = |word: &&Word| word.address == Address::Letter(b'F');
     block.all_words().find(is_feed).map(|word| word.span)
@@ -475,7 +475,7 @@ impl Executor {
         }
     }
 
-    /// The state in which the block moves an axis (R1.9).
+    /// Returns the state in which the block moves an axis (R1.9).
     fn state_in_motion(&self, axis: AxisIndex, kind: Kind) -> State {
         let mut changes = self.scratch.changes.iter();
         let first = changes.find(|change| (change.axis, change.kind) == (axis, kind));
@@ -553,7 +553,7 @@ impl Executor {
     }
 }
 
-/// P-ERR-70435: an axis moves without a compensation that it requires.
+/// Returns P-ERR-70435: an axis moves without a compensation that it requires.
 fn moves_without(name: &str, kind: Kind, span: Span, at: &BlockContext<'_>) -> Diagnostic {
     let keyword = kind.as_str();
     let fault = Fault::new(

@@ -82,7 +82,7 @@ impl Executor {
         self.part(question, vec![yes, no], at)
     }
 
-    /// The question whether a condition holds.
+    /// Returns the question whether a condition holds.
     fn question_of(
         &self,
         condition: Expression,
@@ -108,7 +108,7 @@ impl Executor {
         }
     }
 
-    /// The state that a condition asks for, where it is unknown because ways differ.
+    /// Returns the state that a condition asks for, where it is unknown because ways differ.
     fn tested_state(
         &self,
         condition: Operand,
@@ -274,7 +274,8 @@ impl Executor {
         self.part_by_cause(ConditionKind::Case, (cause, span), sides, at);
     }
 
-    /// The blocks of the cases of a `$SWITCH`, whichever values they have, each with its name, and the block after it.
+    /// Returns the blocks of the cases of a `$SWITCH`, whichever values they have, each with its name, and the block
+    /// after it.
     fn each_case(
         &mut self,
         unit: usize,
@@ -423,7 +424,8 @@ impl Executor {
         }
     }
 
-    /// The jump at a place of a block or after it, before its next condition; `None` where its label does not exist.
+    /// Returns the jump at a place of a block or after it, before its next condition; `None` where its label does not
+    /// exist.
     fn jump_after(&mut self, place: Span, at: &BlockContext<'_>) -> ConditionalJump {
         let mut items = at.block.items.iter();
         let after = items
@@ -471,7 +473,8 @@ impl Executor {
         }
     }
 
-    /// The jump after a condition of which the answer does not say what it is about: a missing label may end the program.
+    /// Returns the jump after a condition of which the answer does not say what it is about: a missing label may end
+    /// the program.
     fn possible_jump(&mut self, place: Span, at: &BlockContext<'_>) -> Option<(Goal, Span)> {
         match self.jump_after(place, at) {
             ConditionalJump::To(goal, span) => Some((goal, span)),
@@ -530,7 +533,7 @@ impl Executor {
         self.part(question, goals, at)
     }
 
-    /// The cases of the `$SWITCH` being executed, with their values, and the target of everything else.
+    /// Returns the cases of the `$SWITCH` being executed, with their values, and the target of everything else.
     fn cases(&mut self, at: &BlockContext<'_>) -> Option<(Vec<(EntryIndex, Value)>, Goal)> {
         let unit = self.state.control.frames.running()?.unit;
         let whole = self.position().current_block();
@@ -670,7 +673,7 @@ impl ControlState {
     }
 }
 
-/// The condition that a case applies.
+/// Returns the condition that a case applies.
 fn compared(subject: &str, case: &Flow, block: (&Block, &str)) -> Arc<str> {
     let value = match case {
         Flow::Case(operand) => operand_text(*operand, block),

@@ -386,7 +386,7 @@ impl EffectReader<'_> {
         self.block(&at.in_macro(&code, at.in_block(used), &shown));
     }
 
-    /// The name of a called program; `None` where only the machine knows it.
+    /// Returns the name of a called program; `None` where only the machine knows it.
     fn program_name(&self, name: CallName, at: &BlockContext<'_>) -> Option<String> {
         match name {
             CallName::Literal(span) => Some(span.of(at.text).trim().to_owned()),
@@ -759,14 +759,14 @@ impl Executor {
         (self.state.control, self.state.track) = here;
     }
 
-    /// The kinds of each axis that are unknown.
+    /// Returns the kinds of each axis that are unknown.
     fn unknown_kinds(&self) -> Vec<KindSet> {
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         axes.map(|axis| self.state.control.compensation.unknown(axis))
             .collect()
     }
 
-    /// The kinds that are unknown and were not before, with their axes.
+    /// Returns the kinds that are unknown and were not before, with their axes.
     pub(crate) fn newly_unknown(&self, before: &[KindSet]) -> Vec<String> {
         let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
         for (place, now) in self.unknown_kinds().into_iter().enumerate() {

@@ -224,7 +224,7 @@ impl Executor {
     }
 }
 
-/// FC318: the program reports an error of its own, with a remedy class that stops it.
+/// Returns FC318: the program reports an error of its own, with a remedy class that stops it.
 fn error_with(class: &str, span: Span, at: &BlockContext<'_>) -> Diagnostic {
     let message = format!("the control stops here: the program reports an error with {class}");
     let fault = Fault::new(Code::Fc318, span, message)
@@ -257,7 +257,7 @@ impl From<Option<u32>> for PossibleRefusal {
 }
 
 impl PossibleRefusal {
-    /// One about which readings decide.
+    /// Returns one about which readings decide.
     pub(crate) fn asked(number: impl Into<Option<u32>>, question: Question) -> Self {
         Self {
             number: number.into(),
@@ -475,7 +475,7 @@ impl Executor {
         }
     }
 
-    /// The way that leads here ends the program.
+    /// Returns the way that leads here ends the program.
     pub(crate) fn ended_path(&mut self, by: EndedBy) -> EndedPath {
         let mut path = self.state.leave_path();
         path.track.assumed.undo(&mut path.control.memory);
@@ -506,8 +506,8 @@ impl Executor {
         self.scratch.changes.truncate(changes);
     }
 
-    /// The ways on which the channel is reset after the error, and those on which the control is restarted, where that
-    /// leaves another state (R1.28, R1.29).
+    /// Returns the ways on which the channel is reset after the error, and those on which the control is restarted,
+    /// where that leaves another state (R1.28, R1.29).
     fn sides_after(
         &mut self,
         ways: &WaySet,

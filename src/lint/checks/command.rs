@@ -6,7 +6,8 @@ use crate::interpreter::Executed;
 use crate::lint::linter::{Linter, Taken};
 use crate::lint::memory::place;
 
-/// FC402: a command that repeats an earlier one of the program, or switches off a kind that is not configured (R1.51, R18.3).
+/// Returns FC402: a command that repeats an earlier one of the program, or switches off a kind that is not configured
+/// (R1.51, R18.3).
 pub(super) fn repeated(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
     let command = &taken.outcome.command;
@@ -80,7 +81,7 @@ fn what(selection: Selection) -> String {
     }
 }
 
-/// FC408: a command to an axis that is not described, whose effect is therefore not known (R1.37, R18.2).
+/// Returns FC408: a command to an axis that is not described, whose effect is therefore not known (R1.37, R18.2).
 pub(super) fn undescribed(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let command = &taken.outcome.command;
     let axis = linter.machine.axis(taken.axis);
@@ -100,7 +101,7 @@ pub(super) fn undescribed(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diag
     )
 }
 
-/// FC405: the command takes effect before the motion of its block (R1.9, R1.55).
+/// Returns FC405: the command takes effect before the motion of its block (R1.9, R1.55).
 pub(super) fn shared_block(executed: &Executed<'_>) -> Option<Diagnostic> {
     if executed.moved.is_empty() {
         return None;

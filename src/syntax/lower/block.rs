@@ -74,7 +74,7 @@ fn give_up(fault: Fault, block: &mut Block) {
     block.faults.push(fault);
 }
 
-/// The parser took too many steps, or too much of the stack.
+/// Returns the fault of a parser that took too many steps, or too much of the stack.
 fn too_much_to_read(span: Span) -> Fault {
     let message = "the block is not understood: reading it takes more steps than frictcomp allows";
     Fault::new(Code::Fc913, span, message).with_help("split the block into several")
@@ -283,7 +283,7 @@ pub(super) fn span_of(pair: &Pair<'_, Rule>) -> Span {
     Span::new(span.start(), span.end())
 }
 
-/// The span without the blanks that pest leaves at its end.
+/// Returns the span without the blanks that pest leaves at its end.
 pub(super) fn trimmed(span: Span, code: &str) -> Span {
     let text = span.of(code);
     let length = text.trim_end_matches(is_blank).len();

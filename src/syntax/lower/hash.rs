@@ -110,7 +110,7 @@ impl BlockLowering<'_> {
         }));
     }
 
-    /// The arguments at the start of the text after the words of a command.
+    /// Returns the arguments at the start of the text after the words of a command.
     fn arguments(&self, command: HashWords, behind: Span) -> Span {
         let is_argument = |pair: &Pair<'_, Rule>| match pair.as_rule() {
             Rule::hash_coordinate => command.arguments == HashArguments::Coordinates,
@@ -190,7 +190,7 @@ impl BlockLowering<'_> {
             .collect()
     }
 
-    /// The value of `RC` among the words of `#ERROR`.
+    /// Returns the value of `RC` among the words of `#ERROR`.
     fn remedy_class(&mut self, rest: Span) -> Option<Operand> {
         let words = NcParser::parse(Rule::error_words, rest.of(self.read)).ok()?;
         let mut words = words.flat_map(Pair::into_inner);
@@ -199,7 +199,7 @@ impl BlockLowering<'_> {
         Some(expression::lower(value, rest.start, self.block))
     }
 
-    /// The parameters and variables that a text names.
+    /// Returns the parameters and variables that a text names.
     fn places_in(&mut self, rest: Span) -> Vec<Target> {
         let text = rest.of(self.read);
         let mut places = Vec::new();

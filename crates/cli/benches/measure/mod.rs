@@ -11,7 +11,7 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// As often as `FRICTCOMP_BENCH_RUNS` says, or else so often.
+    /// Creates a benchmark with as many runs as `FRICTCOMP_BENCH_RUNS` says, or else with the given number.
     pub(crate) fn new(runs: u32) -> Self {
         let given = std::env::var("FRICTCOMP_BENCH_RUNS");
         let given = given.ok().and_then(|runs| runs.parse().ok());
@@ -20,7 +20,7 @@ impl Bench {
         }
     }
 
-    /// The times of a piece of work, the shortest first.
+    /// Returns the times of a piece of work, the shortest first.
     pub(crate) fn times(self, mut work: impl FnMut()) -> Vec<Duration> {
         let once = |_| {
             let start = Instant::now();
@@ -32,13 +32,13 @@ impl Bench {
         times
     }
 
-    /// The shortest time of a piece of work; other work on the machine only adds.
+    /// Returns the shortest time of a piece of work; other work on the machine only adds.
     pub(crate) fn fastest(self, work: impl FnMut()) -> Duration {
         self.times(work)[0]
     }
 }
 
-/// The middle one of several times.
+/// Returns the middle one of several times.
 pub(crate) fn median(times: impl IntoIterator<Item = Duration>) -> Duration {
     let mut times: Vec<Duration> = times.into_iter().collect();
     times.sort();

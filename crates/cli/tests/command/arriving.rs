@@ -14,7 +14,7 @@ fn tool() -> Command {
     command
 }
 
-/// The output of a call with a text on standard input.
+/// Returns the output of a call with a text on standard input.
 fn output(arguments: &[&str], input: &[u8]) -> String {
     let mut child = tool()
         .args(arguments)

@@ -115,7 +115,7 @@ fn is_accepted(said: &str) -> bool {
     said.contains("accepted: X m/lists")
 }
 
-/// The verdict on the lists of the last round.
+/// Returns the verdict on the lists of the last round.
 fn verdict(said: &str) -> &'static str {
     match is_accepted(said) {
         true => "accepted",
@@ -124,7 +124,7 @@ fn verdict(said: &str) -> &'static str {
     }
 }
 
-/// A machine of which both stages are recorded without a fault.
+/// Returns a machine of which both stages are recorded without a fault.
 fn recorded(site: Site, recorder: &Recorder) -> Site {
     site.record_all(Stage::Off, recorder);
     let lists = site.provisional();

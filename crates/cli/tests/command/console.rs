@@ -20,11 +20,11 @@ pub(crate) trait Stage {
         true
     }
 
-    /// The folder in which a command is called.
+    /// Returns the folder in which a command is called.
     fn folder(&mut self, command: &str) -> PathBuf;
 }
 
-/// The document with the current output below each command.
+/// Returns the document with the current output below each command.
 pub(crate) fn replayed(text: &str, stage: &mut impl Stage) -> String {
     let mut fresh = String::new();
     let mut lines = text.split_inclusive('\n');
@@ -119,7 +119,7 @@ impl Typed {
     }
 }
 
-/// The words of a line; what is quoted has blanks.
+/// Returns the words of a line; what is quoted has blanks.
 fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut quote = None;
@@ -139,7 +139,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Git in a folder, without the settings of the user.
+/// Returns the command git in a folder, without the settings of the user.
 pub(crate) fn git(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new("git");
     command.current_dir(folder).stdin(Stdio::null());

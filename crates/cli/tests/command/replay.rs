@@ -40,7 +40,7 @@ const CONTROL: Control = Control {
 };
 
 impl Control {
-    /// The recording of a program: each motion is three samples, each command none.
+    /// Returns the recording of a program: each motion is three samples, each command none.
     fn record(self, program: &str) -> String {
         let mut text = String::from(if self.with_lines {
             "t,line,active_X,pos_X\n"

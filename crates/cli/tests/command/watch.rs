@@ -57,7 +57,7 @@ impl Watching {
         }
     }
 
-    /// The lines that were printed so far.
+    /// Returns the lines that were printed so far.
     fn printed(&self) -> Vec<String> {
         let mut lines = Vec::new();
         while let Ok(line) = self.printed.recv_timeout(QUIET) {

@@ -32,7 +32,7 @@ impl Tally {
     }
 }
 
-/// The number of runs that the state has counted; it must be complete.
+/// Returns the number of runs that the state has counted; it must be complete.
 fn counted(bench: &Bench) -> u64 {
     let state = json(&bench.read("s.json"));
     let runs = state["variables"]["V.S.RUNS"]["Number"].as_f64();

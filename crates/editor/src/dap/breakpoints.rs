@@ -166,7 +166,7 @@ fn filled(message: &str, here: &Interpreter) -> String {
     text + rest
 }
 
-/// The lines on which blocks start, from 1.
+/// Returns the lines on which blocks start, from 1.
 fn block_lines(text: &str) -> BTreeSet<u32> {
     let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
     let mut block = Block::default();

@@ -261,7 +261,7 @@ pub(super) struct Stepper {
 }
 
 impl Stepper {
-    /// The run of a program on the machine of its folder, before its first block.
+    /// Returns the run of a program on the machine of its folder, before its first block.
     ///
     /// # Errors
     /// The program or its configuration cannot be read.
@@ -327,7 +327,7 @@ impl Stepper {
         }
     }
 
-    /// The interpreter before the block that is shown.
+    /// Returns the interpreter before the block that is shown.
     pub(super) fn interpreter(&self) -> &Interpreter {
         &self.settled
     }
@@ -342,12 +342,12 @@ impl Stepper {
         self.is_shown = true;
     }
 
-    /// The names of the values that the shown block reads and only the machine knows.
+    /// Returns the names of the values that the shown block reads and only the machine knows.
     pub(super) fn wanted(&self) -> &BTreeSet<String> {
         &self.wanted
     }
 
-    /// The answers to the condition of the shown block, in words; none where there is nothing to choose.
+    /// Returns the answers to the condition of the shown block, in words; none where there is nothing to choose.
     pub(super) fn answers(&self) -> impl Iterator<Item = String> {
         let file = match &self.position {
             RunPosition::Before(sites) => sites.last().map(|site| &*site.file),
@@ -546,7 +546,7 @@ fn site(block: &Executed<'_>) -> BlockOfCall {
     }
 }
 
-/// The names of the values that a block reads and only the machine knows.
+/// Returns the names of the values that a block reads and only the machine knows.
 pub(super) fn unknown_names(block: &Executed<'_>) -> BTreeSet<String> {
     let notes = block.notes.iter();
     let unknown = notes.filter(|note| note.kind == NoteKind::Unknown);
@@ -559,7 +559,7 @@ fn messages(said: &[Diagnostic]) -> impl Iterator<Item = OutputText> {
         .map(|said| OutputText::Message(Box::new(said)))
 }
 
-/// A message in one line: `P-ERR-70495: ...`.
+/// Returns a message in one line: `P-ERR-70495: ...`.
 pub(super) fn in_words(said: &Diagnostic) -> String {
     format!("{}[{}]: {}", said.severity, said.code, said.message)
 }

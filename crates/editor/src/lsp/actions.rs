@@ -16,7 +16,7 @@ use frictcomp::session::allow_here;
 use frictcomp::text::{LineIndex, SourceFile, shown_path};
 use frictcomp_host::read_text;
 
-/// The actions at a place of a text.
+/// Returns the actions at a place of a text.
 pub(super) fn code_actions(
     view: &RequestView,
     params: &CodeActionParams,
@@ -67,7 +67,7 @@ fn messages<'a>(view: &'a RequestView, document: &OpenDocument) -> Vec<&'a Diagn
     here.filter(|said| is_new(said)).collect()
 }
 
-/// The fixes of a message, and the comment that silences it.
+/// Returns the fixes of a message, and the comment that silences it.
 fn quick_fixes(
     view: &RequestView,
     document: &OpenDocument,
@@ -126,7 +126,7 @@ fn title(document: &OpenDocument, fix: &Fix) -> String {
     format!("{what} in {}", name.to_string_lossy())
 }
 
-/// The words of a text on one line, at most forty characters.
+/// Returns the words of a text on one line, at most forty characters.
 fn short(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     let words = words.join(" ");
@@ -150,8 +150,8 @@ fn fix_all(view: &RequestView, document: &OpenDocument) -> Option<CodeAction> {
     })
 }
 
-/// The first safe change of each message about a text. A comment that silences nothing in one run may
-/// be needed in another: it goes only if no run needs it (R9.82).
+/// Returns the first safe change of each message about a text. A comment that silences nothing in one run may be needed
+/// in another: it goes only if no run needs it (R9.82).
 fn safe_fixes(view: &RequestView, document: &OpenDocument) -> Vec<Fix> {
     let name = shown_path(&document.path);
     let mut proposed: HashMap<&Fix, (Code, usize)> = HashMap::new();
@@ -195,7 +195,7 @@ fn workspace_edit<'a>(
     Some(as_edit(view, changes))
 }
 
-/// The edits of a file; `None` if its lines have changed since the fixes were made.
+/// Returns the edits of a file; `None` if its lines have changed since the fixes were made.
 fn text_edits(
     view: &RequestView,
     file: &str,

@@ -181,7 +181,7 @@ impl AnalysisJob {
         }
     }
 
-    /// The build of the machine that a list belongs to, if a configuration names it.
+    /// Returns the build of the machine that a list belongs to, if a configuration names it.
     fn build(&self, disk: &Disk, registry: &FileRegistry) -> Option<CncBuild> {
         let folder = self.document.path.parent()?;
         let mut machines = Machines::new(MachineOptions::default(), registry).on_disk(disk);
@@ -197,8 +197,7 @@ pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions
     loaded.session(run).with_wording(Some(editor))
 }
 
-/// The budgets of a program in an editor: the more blocks are checked, the longer loops and calls may
-/// run, too.
+/// Returns the budgets of a program in an editor: the more blocks are checked, the longer loops and calls may run, too.
 pub(super) fn limits(max_blocks: u64) -> Limits {
     let limits = Limits::brief().with_blocks(max_blocks);
     limits.with_repeats(

@@ -21,7 +21,7 @@ pub(super) struct LspClient {
 }
 
 impl LspClient {
-    /// The client of an `initialize` request, and the settings that cannot be used.
+    /// Returns the client of an `initialize` request, and the settings that cannot be used.
     pub(super) fn new(params: &InitializeParams) -> (Self, Vec<String>) {
         let mut settings = Settings::default();
         let given = params.initialization_options.as_ref();
@@ -90,7 +90,7 @@ impl LspClient {
     }
 }
 
-/// The folder of the project, if the client names one.
+/// Returns the folder of the project, if the client names one.
 #[allow(deprecated, reason = "older clients name nothing else")]
 pub(super) fn project(params: &InitializeParams) -> Option<PathBuf> {
     let folders = params

@@ -107,7 +107,7 @@ pub(super) struct StateSegment {
     pub(super) states: Vec<State>,
 }
 
-/// The states at a place.
+/// Returns the states at a place.
 pub(super) fn states(view: &RequestView, params: &StatesParams) -> Option<BlockStates> {
     let document = view.document(&params.text_document.uri)?;
     let wanted = RequestView::block_at(document, params.position);
@@ -149,7 +149,7 @@ fn add(states: &mut Vec<State>, state: Option<State>) {
     }
 }
 
-/// `X active`, `X active → inactive`, `X active or inactive`.
+/// Returns `X active`, `X active → inactive`, `X active or inactive`.
 fn in_words(axis: &AxisStates) -> String {
     let words = |states: &[State]| {
         let words: Vec<&str> = states.iter().map(|state| state.as_str()).collect();
@@ -162,8 +162,8 @@ fn in_words(axis: &AxisStates) -> String {
     format!("{name} {} \u{2192} {after}", words(&axis.before))
 }
 
-/// The states of a program over its lines. Before the first executed block they are those at its start;
-/// lines that are not executed have those of the block above.
+/// Returns the states of a program over its lines. Before the first executed block they are those at its start; lines
+/// that are not executed have those of the block above.
 pub(super) fn timeline(view: &RequestView, params: &TimelineParams) -> Option<Timeline> {
     let document = view.document(&params.text_document.uri)?;
     let (_, run, name) = view.runs(document).into_iter().next()?;

@@ -56,7 +56,7 @@ impl OpenDocument {
         }
     }
 
-    /// Its text.
+    /// Returns its text.
     pub(super) fn text(&self) -> &str {
         &self.text
     }
@@ -70,13 +70,13 @@ impl OpenDocument {
         }
     }
 
-    /// A line, from 0, without its end; empty past the last one.
+    /// Returns a line, from 0, without its end; empty past the last one.
     pub(super) fn line(&self, line: u32) -> &str {
         let number = self.lines.first().saturating_add(line);
         self.lines.line_span(&self.text, number).of(&self.text)
     }
 
-    /// Its text in place of its file.
+    /// Returns its text in place of its file.
     pub(super) fn open_text(&self) -> OpenText {
         OpenText {
             path: self.path.clone(),
@@ -84,8 +84,8 @@ impl OpenDocument {
         }
     }
 
-    /// The line, from 0, on which the block of a line begins: after a line that ends in `\`, a block
-    /// continues on the next one.
+    /// Returns the line, from 0, on which the block of a line begins: after a line that ends in `\`, a block continues
+    /// on the next one.
     pub(super) fn block_line(&self, line: u32) -> u32 {
         let mut first = line;
         while first > 0 && self.line(first - 1).trim_end().ends_with('\\') {
@@ -94,12 +94,12 @@ impl OpenDocument {
         first
     }
 
-    /// The byte offset of a position.
+    /// Returns the byte offset of a position.
     pub(super) fn offset(&self, position: Position, encoding: Encoding) -> usize {
         encoding.place(&self.text, &self.lines, position)
     }
 
-    /// The range of a span.
+    /// Returns the range of a span.
     pub(super) fn range(&self, span: Span, encoding: Encoding) -> Range {
         Range {
             start: encoding.position(&self.text, &self.lines, span.start),
@@ -202,7 +202,7 @@ impl Documents {
         Some(closed)
     }
 
-    /// An open text.
+    /// Returns an open text.
     pub(super) fn get(&self, uri: &Uri) -> Option<&Arc<OpenDocument>> {
         self.open.get(&uri.0)
     }
@@ -212,17 +212,17 @@ impl Documents {
         self.open.iter().map(|(_, document)| document)
     }
 
-    /// The folder of the project.
+    /// Returns the folder of the project.
     pub(super) fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The disk of the system with the open texts in place of their files.
+    /// Returns the disk of the system with the open texts in place of their files.
     pub(super) fn disk(&self) -> Disk {
         Disk::with_placed(self.texts.clone())
     }
 
-    /// The URI of a file as the client writes it, if the client has the file open.
+    /// Returns the URI of a file as the client writes it, if the client has the file open.
     pub(super) fn uri(&self, path: &Path) -> Uri {
         match self.names.get(path).and_then(BTreeSet::first) {
             Some(name) => Uri(name.clone()),
@@ -230,7 +230,7 @@ impl Documents {
         }
     }
 
-    /// The file of a name in messages, which may be relative to the current folder.
+    /// Returns the file of a name in messages, which may be relative to the current folder.
     pub(super) fn path(name: &str) -> PathBuf {
         Disk::default()
             .absolute(Path::new(name))
@@ -238,7 +238,7 @@ impl Documents {
     }
 }
 
-/// A file name for a text that has no file.
+/// Returns a file name for a text that has no file.
 fn file_name(uri: &str) -> String {
     let name = uri.rsplit(['/', ':']).next().unwrap_or_default();
     let usable = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);

@@ -63,7 +63,7 @@ impl Lanes {
 }
 
 impl RoutedRequest {
-    /// The answer; `None` if the client has cancelled the request.
+    /// Returns the answer; `None` if the client has cancelled the request.
     fn answer(self) -> Option<Response> {
         if self.view.cancel.is_set() {
             return None;

@@ -14,7 +14,7 @@ pub(super) enum Refusal {
 }
 
 impl Refusal {
-    /// The refusal of a question.
+    /// Returns the refusal of a question.
     pub(super) fn of(self, id: RequestId) -> Response {
         let (code, message) = match self {
             Self::Params(message) => (ErrorCode::InvalidParams, message),

@@ -578,7 +578,7 @@ fn read<P: DeserializeOwned>(params: Value) -> Result<P, serde_json::Error> {
     serde_json::from_value(params)
 }
 
-/// The thread of the checks.
+/// Returns the thread of the checks.
 fn checking(done: Sender<FinishedWork>) -> io::Result<Worker<AnalysisJob>> {
     Worker::new("checks", move |job: AnalysisJob| {
         // The receiver is gone with the server.

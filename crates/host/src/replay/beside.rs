@@ -112,12 +112,12 @@ impl AxisBeside<'_> {
         begins
     }
 
-    /// The number of switches before a step.
+    /// Returns the number of switches before a step.
     fn passed(&self, step: usize) -> usize {
         self.dry_run.switches.partition_point(|it| it.at < step)
     }
 
-    /// The state of the dry run after some of its switches.
+    /// Returns the state of the dry run after some of its switches.
     fn state_after(&self, passed: usize) -> Option<bool> {
         match passed.checked_sub(1) {
             Some(last) => self.dry_run.switches.get(last)?.to,

@@ -41,7 +41,7 @@ impl CircularTest {
 }
 
 impl Comparison {
-    /// The result of runs that were made one by one, in any order.
+    /// Returns the result of runs that were made one by one, in any order.
     pub fn of(laps: impl IntoIterator<Item = Lap>) -> Self {
         let (mut off, mut on) = (Paths::default(), Paths::default());
         let mut saturated_cycles = 0;

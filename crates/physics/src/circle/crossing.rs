@@ -35,7 +35,7 @@ frictcomp::words! {
 }
 
 impl PlaneAxis {
-    /// The other axis of the plane.
+    /// Returns the other axis of the plane.
     pub(super) fn other(self) -> Self {
         match self {
             Self::X => Self::Y,
@@ -45,7 +45,7 @@ impl PlaneAxis {
 }
 
 impl Crossing {
-    /// The angle from X+ counter-clockwise.
+    /// Returns the angle from X+ counter-clockwise.
     pub fn angle_deg(self) -> u16 {
         match self {
             Self::XPlus => 0,
@@ -55,7 +55,7 @@ impl Crossing {
         }
     }
 
-    /// The axis that reverses.
+    /// Returns the axis that reverses.
     pub fn axis(self) -> PlaneAxis {
         match self {
             Self::XPlus | Self::XMinus => PlaneAxis::X,

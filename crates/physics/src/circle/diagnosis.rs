@@ -241,7 +241,7 @@ fn of_shapes(paths: &[&PathShape]) -> Vec<Diagnosis> {
     advice
 }
 
-/// The shapes that a recording supports, and the residual.
+/// Returns the shapes that a recording supports, and the residual.
 fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
     let peak = |axis: PlaneAxis| {
         let peaks = paths.iter().map(|shape| shape.axis(axis).peak_um.abs());
@@ -424,7 +424,7 @@ fn step(paths: &[&AxisShape]) -> Option<(Finding, f64)> {
     ))
 }
 
-/// A path that is still bent by peaks where the steps are evaluated is fitted equally well by steps and by an
+/// Returns a path that is still bent by peaks where the steps are evaluated is fitted equally well by steps and by an
 /// ellipse: an ellipse that is not larger than such a step is neither.
 ///
 /// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the

@@ -23,8 +23,8 @@ pub(crate) struct CircleDrift {
 }
 
 impl CircleDrift {
-    /// The shift shown by differences between two turns, each with the effects of a constant and of a shift
-    /// of either axis; `None` if they do not show one.
+    /// Returns the shift shown by differences between two turns, each with the effects of a constant and of a shift of
+    /// either axis; `None` if they do not show one.
     pub(crate) fn shown(differences: &[([f64; 3], f64)]) -> Option<Self> {
         Self::fit(differences).filter(Self::is_carried)
     }

@@ -54,7 +54,7 @@ pub struct CircleEvidence {
 }
 
 impl CircleEvidence {
-    /// The evidence in the paths; `None` if the masked reversals leave too little of a turn.
+    /// Returns the evidence in the paths; `None` if the masked reversals leave too little of a turn.
     pub(super) fn of<'a>(
         paths: impl Iterator<Item = (Direction, &'a RadialProfile)>,
         quality: Quality,
@@ -111,7 +111,7 @@ impl CircleEvidence {
         })
     }
 
-    /// The shapes of the residual.
+    /// Returns the shapes of the residual.
     pub(super) fn others(&self) -> impl Iterator<Item = OtherShape> {
         [self.other, self.second].into_iter().flatten()
     }
@@ -194,13 +194,13 @@ fn explained(
     })
 }
 
-/// The residual that neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or
-/// of the fine ones, in which a fast oscillation is visible.
+/// Returns the residual that neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or of
+/// the fine ones, in which a fast oscillation is visible.
 fn rest(shapes: &Shapes, fine: &[AngleSeries], noise_um: f64) -> f64 {
     beyond_noise(&shapes.left, noise_um).max(beyond_noise(fine, noise_um))
 }
 
-/// The shift of each axis in µm per turn.
+/// Returns the shift of each axis in µm per turn.
 fn drifts(drift: CircleDrift) -> [Term; 2] {
     const UM_PER_MM: f64 = 1000.0;
     let sizes = drift.per_turn_mm.into_iter().zip(drift.error_mm);

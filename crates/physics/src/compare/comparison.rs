@@ -97,22 +97,22 @@ impl VersionComparison {
         }
     }
 
-    /// The switches of both versions in their order.
+    /// Returns the switches of both versions in their order.
     pub fn pairs(&self) -> &[PairedSwitch] {
         &self.pairs
     }
 
-    /// The states at the program end that differ.
+    /// Returns the states at the program end that differ.
     pub fn ends(&self) -> &[ChangedEnd] {
         &self.ends
     }
 
-    /// The feed moves that only one version makes without friction compensation.
+    /// Returns the feed moves that only one version makes without friction compensation.
     pub fn moves(&self) -> &[ChangedMoves] {
         &self.moves
     }
 
-    /// The switches of only one version.
+    /// Returns the switches of only one version.
     pub fn differences(&self) -> impl Iterator<Item = (Which, &Switch)> {
         self.pairs.iter().filter_map(|pair| match pair {
             PairedSwitch::Both { .. } => None,

@@ -39,7 +39,7 @@ pub struct BlockChange {
 }
 
 impl BlockChange {
-    /// The additional deviation of the new version there, in µm.
+    /// Returns the additional deviation of the new version there, in µm.
     pub fn more_um(&self) -> f64 {
         self.new.deviation_um - self.old.map_or(0.0, |(_, um)| um)
     }
@@ -141,7 +141,7 @@ impl ContourComparison {
         }
     }
 
-    /// The blocks of the new version that deviate more, those with the largest difference first.
+    /// Returns the blocks of the new version that deviate more, those with the largest difference first.
     pub fn more(&self) -> &[BlockChange] {
         &self.more
     }

@@ -70,7 +70,7 @@ impl WorstPlace {
 }
 
 impl BlockDeviation {
-    /// The largest deviation in µm, 0 if the block is never cut.
+    /// Returns the largest deviation in µm, 0 if the block is never cut.
     pub fn max_um(&self) -> f64 {
         let stretches = self.stretches.iter().map(|it| it.deviation_um);
         stretches.fold(0.0, f64::max)
@@ -126,7 +126,7 @@ struct Cut {
 }
 
 impl BlockDeviations {
-    /// The blocks.
+    /// Returns the blocks.
     pub fn into_blocks(self) -> Vec<BlockDeviation> {
         self.blocks
     }

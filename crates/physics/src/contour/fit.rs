@@ -24,7 +24,7 @@ pub struct ListFit {
 }
 
 impl ListFit {
-    /// The added force as a share of the friction; `None` without friction.
+    /// Returns the added force as a share of the friction; `None` without friction.
     pub fn share(&self) -> Option<f64> {
         (self.friction_n > 0.0).then(|| self.added_n / self.friction_n)
     }

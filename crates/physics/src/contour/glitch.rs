@@ -92,7 +92,7 @@ impl Course {
         moment
     }
 
-    /// The direction of the path.
+    /// Returns the direction of the path.
     pub(super) fn direction(&self) -> Places {
         self.along
     }
@@ -118,7 +118,7 @@ pub(super) struct ReversalWindow {
 type WindowSide = Vec<(f64, [f64; 3])>;
 
 impl ReversalWindow {
-    /// The window of a reversal at the last cycle of a course.
+    /// Returns the window of a reversal at the last cycle of a course.
     pub(super) fn begin(course: &Course, normal: Places) -> Self {
         let last = course.moments.back();
         let mut window = Self {
@@ -151,7 +151,7 @@ impl ReversalWindow {
         window
     }
 
-    /// The time from the reversal to a cycle, and the angle by which the path turns.
+    /// Returns the time from the reversal to a cycle, and the angle by which the path turns.
     fn since(&self, moment: &CycleValues) -> (f64, f64) {
         (
             (moment.time_s - self.time_s).abs(),
@@ -196,7 +196,7 @@ impl ReversalWindow {
         ControlFlow::Continue(())
     }
 
-    /// The glitch of each run in µm; `None` if the window is too short or a side is missing.
+    /// Returns the glitch of each run in µm; `None` if the window is too short or a side is missing.
     pub(super) fn figure(&self) -> Option<[f64; 3]> {
         let end = self.ended?;
         if end < SHORTEST_S || self.before.len() < FEWEST || self.after.len() < FEWEST {
@@ -215,7 +215,7 @@ impl ReversalWindow {
         }))
     }
 
-    /// The straight line through both sides: its value at the reversal, and its slope per second.
+    /// Returns the straight line through both sides: its value at the reversal, and its slope per second.
     fn line(&self, run: usize) -> (f64, f64) {
         let (mut count, mut sums) = (0.0, [0.0; 4]);
         for (at, values) in self.before.iter().chain(&self.after) {

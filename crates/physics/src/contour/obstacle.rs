@@ -91,7 +91,7 @@ impl ContourObstacle {
         }
     }
 
-    /// The obstacle of a message on a stretch that only the machine decides.
+    /// Returns the obstacle of a message on a stretch that only the machine decides.
     pub(super) fn undecided(said: &Diagnostic) -> Self {
         let cause = said.message.split(';').next().unwrap_or_default();
         Self::Undecided(place_of(said), cause.to_owned())

@@ -40,7 +40,7 @@ pub struct ContourAxis {
 }
 
 impl ContourAxis {
-    /// The force of a drive unit of the list, in N.
+    /// Returns the force of a drive unit of the list, in N.
     pub fn newtons_per_unit(&self) -> f64 {
         self.drive.force_per_unit_n * self.torque_scale
     }

@@ -135,7 +135,7 @@ struct Tracer<S> {
 }
 
 impl<S: ContourSink> ProgramContour<S> {
-    /// The contour of a program on a machine.
+    /// Returns the contour of a program on a machine.
     pub fn new(machine: &Machine, options: ContourOptions, sink: S) -> Self {
         let followed: Vec<AxisIndex> = options.axes.iter().map(|axis| axis.axis).collect();
         let current = |axis: &ContourAxis| {
@@ -214,13 +214,13 @@ impl<S: ContourSink> ProgramContour<S> {
         &self.tracer().due
     }
 
-    /// The programmed and the reached feed.
+    /// Returns the programmed and the reached feed.
     pub fn feed(&self) -> &FeedReached {
         &self.tracer().feed
     }
 
-    /// The share of the cutting time that runs below 80 % of F because of assumed limits (R11.23): it
-    /// would not if the moving axes had no limits other than those of the configuration.
+    /// Returns the share of the cutting time that runs below 80 % of F because of assumed limits (R11.23): it would not
+    /// if the moving axes had no limits other than those of the configuration.
     pub fn slow_share_by_assumed(&self) -> f64 {
         let unlimited = self.unlimited.as_ref().map(ProgramTrace::sink_ref);
         unlimited.map_or(0.0, |FeedOnly(unlimited)| {
@@ -228,7 +228,7 @@ impl<S: ContourSink> ProgramContour<S> {
         })
     }
 
-    /// The assumed limits of the axes that the program moves.
+    /// Returns the assumed limits of the axes that the program moves.
     pub fn assumed_limits(&self) -> impl Iterator<Item = &AssumedLimits> {
         let assumed = self.assumed.iter();
         let moving = assumed.filter(|(axis, _)| self.moving.contains(*axis));
@@ -249,7 +249,7 @@ impl<S: ContourSink> ProgramContour<S> {
         self.left_out() == 0 && self.obstacles().iter().all(is_beside)
     }
 
-    /// The axes that are cut while their state is not known.
+    /// Returns the axes that are cut while their state is not known.
     fn unknown_states(&self) -> impl Iterator<Item = ContourObstacle> {
         let tracer = self.tracer();
         let axes = tracer.options.axes.iter().zip(&tracer.unknown);
@@ -304,17 +304,17 @@ impl<S: ContourSink> ProgramContour<S> {
         obstacles
     }
 
-    /// The reversals of each axis, those of the plane first.
+    /// Returns the reversals of each axis, those of the plane first.
     pub fn axes(&self) -> &[ContourSummary] {
         &self.tracer().axes
     }
 
-    /// The machine time in s that was driven.
+    /// Returns the machine time in s that was driven.
     pub fn machine_time_s(&self) -> f64 {
         seconds(self.tracer().cycles, self.tracer().options.planner.cycle_s)
     }
 
-    /// The machine time in s in which positions were not those of the machine (R11.8).
+    /// Returns the machine time in s in which positions were not those of the machine (R11.8).
     pub fn time_not_of_the_machine_s(&self) -> f64 {
         let cycles = self.tracer().not_of_the_machine;
         seconds(cycles, self.tracer().options.planner.cycle_s)
@@ -341,23 +341,23 @@ impl<S: ContourSink> ProgramContour<S> {
         self.tracer().is_unstable
     }
 
-    /// The axes, their drives and their lists.
+    /// Returns the axes, their drives and their lists.
     pub fn options(&self) -> &ContourOptions {
         &self.tracer().options
     }
 
-    /// The errors that the session reported, then the messages about the trace.
+    /// Returns the errors that the session reported, then the messages about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         self.trace.diagnostics()
     }
 
-    /// The listener to the contour.
+    /// Returns the listener to the contour.
     pub fn sink(&mut self) -> &mut S {
         &mut self.trace.sink().sink
     }
 }
 
-/// Largest lag of a drive in cycles: the part of the lag `v/Kv` that the feed forward leaves, plus 20 ms
+/// Returns the largest lag of a drive in cycles: the part of the lag `v/Kv` that the feed forward leaves, plus 20 ms
 /// for the loops and an overshoot.
 fn lag_cycles(options: &ContourOptions) -> u64 {
     let lags = options.axes.iter().map(|axis| {
@@ -479,7 +479,7 @@ impl<S: ContourSink> Tracer<S> {
         self.runs = None;
     }
 
-    /// One CNC cycle of all runs.
+    /// Computes one CNC cycle of all runs.
     fn drive(&mut self, cycle: &Cycle, to: &Places) -> ControlFlow<()> {
         let options = &self.options;
         let runs = self
@@ -578,7 +578,7 @@ fn widened(values: &[f64]) -> Places {
     places
 }
 
-/// The additive currents as they reach the drives, scaled by the control on the way (R7.8).
+/// Returns the additive currents as they reach the drives, scaled by the control on the way (R7.8).
 fn units(samples: &[CurrentSample], axes: &[ContourAxis]) -> Places {
     let mut added = [0.0; MOST_AXES];
     for ((added, sample), axis) in added.iter_mut().zip(samples).zip(axes) {

@@ -186,7 +186,7 @@ impl ReversalFinder {
         self.friction = Some(Arc::clone(&measured.cause.friction));
     }
 
-    /// The axes whose compensation is switched during their motion in a feed move.
+    /// Returns the axes whose compensation is switched during their motion in a feed move.
     fn switched(&self, measured: &MeasuredCycle<'_>) -> Vec<usize> {
         let now = &measured.cause.friction;
         let Some(before) = self.friction.as_ref().filter(|before| before != &now) else {

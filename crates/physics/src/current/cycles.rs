@@ -109,12 +109,12 @@ pub enum CyclesError {
     },
 }
 
-/// A time in ms without the rounding error of its difference.
+/// Returns a time in ms without the rounding error of its difference.
 fn milliseconds(seconds: f64) -> ReadableNumber {
     ReadableNumber((seconds * 1e9).round() / 1e6)
 }
 
-/// The cycle of a trace: the given one, otherwise the usual step of its times.
+/// Returns the cycle of a trace: the given one, otherwise the usual step of its times.
 ///
 /// # Errors
 /// A cycle that no control has.
@@ -123,7 +123,7 @@ pub(super) fn cycle_of(times_s: Option<&[f64]>, given: Option<f64>) -> Result<f6
     check_cycle(given.or_else(usual).unwrap_or(DEFAULT_CYCLE_S))
 }
 
-/// The median of the steps forward.
+/// Returns the median of the steps forward.
 fn usual_step(times_s: &[f64]) -> Option<f64> {
     let steps = times_s.windows(2).map(|pair| pair[1] - pair[0]);
     let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
@@ -238,7 +238,7 @@ pub(super) fn resample(
     Ok((columns, said))
 }
 
-/// The rows whose time is after that of every row above.
+/// Returns the rows whose time is after that of every row above.
 fn rising(times_s: &[f64]) -> Vec<usize> {
     let mut latest = f64::NEG_INFINITY;
     let rows = times_s.iter().enumerate();

@@ -134,7 +134,7 @@ struct Cycles<S> {
 }
 
 impl<S: CurrentSink> ProgramCurrents<S> {
-    /// The currents of some axes of a machine.
+    /// Returns the currents of some axes of a machine.
     pub fn new(
         machine: &Machine,
         followed: &[AxisIndex],
@@ -170,12 +170,12 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         }
     }
 
-    /// The errors that the session reported, then the messages about the trace.
+    /// Returns the errors that the session reported, then the messages about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         self.trace.diagnostics()
     }
 
-    /// The first messages on stretches that only the machine decides, which are not in the trace (R14.8).
+    /// Returns the first messages on stretches that only the machine decides, which are not in the trace (R14.8).
     pub fn undecided(&self) -> &[Diagnostic] {
         self.trace.undecided()
     }
@@ -200,12 +200,12 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.sink().count
     }
 
-    /// The number of cycles in which the output of each axis was limited to 16 bit.
+    /// Returns the number of cycles in which the output of each axis was limited to 16 bit.
     pub fn saturated(&mut self) -> impl Iterator<Item = u64> {
         self.trace.sink().followers.saturated()
     }
 
-    /// The number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
+    /// Returns the number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
     pub fn at_rest(&mut self) -> impl Iterator<Item = u64> {
         self.trace.sink().followers.at_rest()
     }
@@ -278,7 +278,7 @@ impl<S: CurrentSink> TraceSink for Cycles<S> {
     }
 }
 
-/// The value list of an axis; an empty one if the control would not accept any.
+/// Returns the value list of an axis; an empty one if the control would not accept any.
 fn values(friction: &Parameterisation) -> FrictionList {
     match friction {
         Parameterisation::Accepted(list) => list.clone(),

@@ -124,7 +124,7 @@ impl Reading {
         self
     }
 
-    /// The questions whose readings, as selected by a machine, decide the current of a list (R4.2 to R4.7,
+    /// Returns the questions whose readings, as selected by a machine, decide the current of a list (R4.2 to R4.7,
     /// R15.3); those that were chosen otherwise are not among them.
     pub fn rests_on(self, readings: &Readings, list: &FrictionList) -> QuestionSet {
         let mut questions = QuestionSet::default();
@@ -185,7 +185,7 @@ impl ChosenOptions {
 impl FromStr for ChosenOptions {
     type Err = UnknownReading;
 
-    /// As for [`Reading`].
+    /// Reads an option as for [`Reading`].
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let words = text.split(',').map(str::trim);
         let words = words.filter(|word| !word.is_empty());
@@ -238,8 +238,8 @@ impl From<&Readings> for Reading {
 impl FromStr for Reading {
     type Err = UnknownReading;
 
-    /// `standstill=zero,below=origin,delay=reversal`, each of them optional; of two that exclude
-    /// each other the later one counts.
+    /// Reads `standstill=zero,below=origin,delay=reversal`, each of them optional; of two that exclude each other the
+    /// later one counts.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let chosen: ChosenOptions = text.parse()?;
         Ok(chosen.over(Self::default()))

@@ -132,7 +132,7 @@ impl CommandedTrace {
         &self.remarks
     }
 
-    /// The cycles in their order.
+    /// Returns the cycles in their order.
     pub fn rows(&self) -> impl Iterator<Item = CommandedRow> {
         let numbers = self.times_s.iter().zip(&self.positions);
         let numbers = numbers.zip(&self.velocities).zip(&self.switched);
@@ -146,7 +146,7 @@ impl CommandedTrace {
         )
     }
 
-    /// The cycles in their order, with the addition of `current` in each.
+    /// Returns the cycles in their order, with the addition of `current` in each.
     pub fn currents(
         &self,
         current: &mut AdditiveCurrent,

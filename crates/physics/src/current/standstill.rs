@@ -93,7 +93,7 @@ fn changes(velocities: &[f64]) -> Vec<usize> {
     changes
 }
 
-/// The stretches in which the direction only toggles.
+/// Returns the stretches in which the direction only toggles.
 fn toggling(velocities: &[f64], positions: &[f64]) -> Vec<(usize, usize)> {
     let changes = changes(velocities);
     let is_short = |pair: &[usize]| {

@@ -36,10 +36,9 @@ pub(super) enum Junction {
 }
 
 impl Junction {
-    /// The transition between two pieces of the path. In a CNC cycle, in which the path turns from
-    /// one slope to another, the velocity of an axis jumps by `v·Δx'` and its acceleration by
-    /// `v²·Δx'' + a·Δx'`; the jumps stay within a share of the acceleration and the jerk of the
-    /// axis in that cycle.
+    /// Returns the transition between two pieces of the path. In a CNC cycle, in which the path turns from one slope to
+    /// another, the velocity of an axis jumps by `v·Δx'` and its acceleration by `v²·Δx'' + a·Δx'`; the jumps stay
+    /// within a share of the acceleration and the jerk of the axis in that cycle.
     pub(super) fn between(
         before: &PathSegment,
         after: &PathSegment,
@@ -90,7 +89,7 @@ impl Junction {
         }
     }
 
-    /// The stricter of the known bound and one more kink.
+    /// Returns the stricter of the known bound and one more kink.
     fn and(self, velocity: f64, passing: bool) -> Self {
         let velocity = velocity.min(self.velocity());
         match self {
@@ -100,7 +99,7 @@ impl Junction {
         }
     }
 
-    /// The highest path velocity in it.
+    /// Returns the highest path velocity in it.
     pub(super) fn velocity(self) -> f64 {
         match self {
             Self::Smooth => f64::INFINITY,

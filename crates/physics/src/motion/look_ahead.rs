@@ -52,7 +52,7 @@ impl LookAhead {
         }
     }
 
-    /// The path velocity along a segment at which one axis moves at its limit.
+    /// Returns the path velocity along a segment at which one axis moves at its limit.
     pub(super) fn fastest(&self, segment: &PathSegment) -> f64 {
         segment.fastest(self.limits_of(segment))
     }
@@ -68,7 +68,7 @@ impl LookAhead {
         }
     }
 
-    /// The sampled seconds.
+    /// Returns the sampled seconds.
     pub(super) fn time_s(&self) -> f64 {
         self.sampler.time_s()
     }
@@ -199,7 +199,7 @@ impl LookAhead {
         kept
     }
 
-    /// A plan for the whole queue.
+    /// Returns a plan for the whole queue.
     fn plan(&mut self) -> Vec<ProfileSpan> {
         let stages: Vec<PlanInput> = self.queue.iter().map(|queued| self.stage(queued)).collect();
         if let Some(stretches) = plan(&stages, self.velocity) {

@@ -34,7 +34,7 @@ pub enum ToolRadii {
 }
 
 impl ToolRadii {
-    /// The radius with the tool data of a number, where one is known to be in force.
+    /// Returns the radius with the tool data of a number, where one is known to be in force.
     fn of(&self, data: Option<u32>) -> Option<f64> {
         match self {
             Self::Unknown => None,
@@ -151,7 +151,7 @@ enum PlanObstacle {
 }
 
 impl TrajectoryPlanner {
-    /// A planner for some axes of a machine, before the first block.
+    /// Returns a planner for some axes of a machine, before the first block.
     pub fn new(machine: &Machine, followed: &[AxisIndex], options: PlannerOptions) -> Self {
         let limits = MachineLimits::of(machine, options.cycle_s);
         let sampler = Sampler::new(followed, options.cycle_s, options.max_cycles);
@@ -304,7 +304,7 @@ impl TrajectoryPlanner {
         }
     }
 
-    /// The axes of the plane in force.
+    /// Returns the axes of the plane in force.
     fn plane(&self, row: &Row<'_>) -> Option<[usize; 2]> {
         let axis = |name: &str| self.names.iter().position(|it| it == name);
         let [one, two] = match row.modal.functions.plane {
@@ -316,7 +316,7 @@ impl TrajectoryPlanner {
         Some([axis(one)?, axis(two)?])
     }
 
-    /// Where the tool follows the contour, if its radius and the plane are known.
+    /// Returns where the tool follows the contour, if its radius and the plane are known.
     fn beside(&self, row: &Row<'_>, travel: &Travel) -> Option<ToolOffset> {
         let radius = self.tool_radii.of(row.modal.functions.tool_data);
         Some(ToolOffset::of(travel.tool?, self.plane(row)?, radius?))
@@ -367,7 +367,7 @@ impl TrajectoryPlanner {
         ControlFlow::Continue(())
     }
 
-    /// The segment of a motion; `None` if nothing moves.
+    /// Returns the segment of a motion; `None` if nothing moves.
     fn segment(
         &mut self,
         row: &Row<'_>,
@@ -506,7 +506,7 @@ impl TrajectoryPlanner {
         self.remarks.note_before(row, names);
     }
 
-    /// The axes that matter to a motion and whose position before it is not known.
+    /// Returns the axes that matter to a motion and whose position before it is not known.
     fn unknown_at_start(&self, travel: &Travel) -> impl Iterator<Item = usize> {
         let ends = travel.from.iter().zip(&travel.to).enumerate();
         let matters = |axis, to: &Option<f64>| {

@@ -17,7 +17,7 @@ pub(super) enum Share {
 pub(super) const KINK_SHARE: f64 = 0.25;
 
 impl Share {
-    /// The limits of an axis under this share.
+    /// Returns the limits of an axis under this share.
     pub(super) fn of(self, limits: &AxisLimits) -> Bounds {
         let (acceleration, jerk) = match self {
             Self::Whole => (1.0, 1.0),

@@ -34,7 +34,7 @@ pub(super) struct ToolOffset {
 }
 
 impl ToolOffset {
-    /// The offset in the plane of these axes, with the radius of a tool in mm.
+    /// Returns the offset in the plane of these axes, with the radius of a tool in mm.
     pub(super) fn of(side: ToolSide, axes: [usize; 2], radius_mm: f64) -> Self {
         let left = match side {
             ToolSide::Left => radius_mm,
@@ -169,7 +169,7 @@ impl ToolPath {
         ControlFlow::Continue(())
     }
 
-    /// A block without compensation: it starts where the tool is.
+    /// Returns a block without compensation: it starts where the tool is.
     fn leave(
         &mut self,
         (segment, contouring): (PathSegment, Option<Contouring>),
@@ -235,7 +235,7 @@ impl ToolPath {
         ControlFlow::Continue(())
     }
 
-    /// A block that does not move in the plane: the tool stays where it is there.
+    /// Takes a block that does not move in the plane: the tool stays where it is there.
     fn pass_beside(&mut self, block: HeldBlock, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.rest_beside(sink)?;
         let Held::Place(axes, place) = self.held else {
@@ -247,7 +247,7 @@ impl ToolPath {
         self.hand_on(line, block.contouring, sink)
     }
 
-    /// A straight piece of a block in the plane, at its start.
+    /// Returns a straight piece of a block in the plane, at its start.
     fn straight(&self, block: &HeldBlock, places: [[f64; 2]; 2]) -> Option<PathSegment> {
         let starts = block.segment.starts();
         let [from, to] = places.map(|place| at_place(starts, block.beside.axes, place));
@@ -314,7 +314,7 @@ fn at_place(positions: &[f64], axes: [usize; 2], place: [f64; 2]) -> Vec<f64> {
 }
 
 impl CornerBeside {
-    /// The corner between two blocks beside the contour.
+    /// Returns the corner between two blocks beside the contour.
     fn between(
         last: &PathSegment,
         next: &PathSegment,
@@ -375,7 +375,7 @@ fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
     (one[0] - other[0]).hypot(one[1] - other[1])
 }
 
-/// The places where two outlines meet.
+/// Returns the places where two outlines meet.
 fn meetings(outlines: [SegmentOutline; 2]) -> [Option<[f64; 2]>; 2] {
     match outlines {
         [
@@ -426,7 +426,7 @@ fn meetings(outlines: [SegmentOutline; 2]) -> [Option<[f64; 2]>; 2] {
     }
 }
 
-/// The places where a line meets a circle.
+/// Returns the places where a line meets a circle.
 fn on_chord(
     through: [f64; 2],
     direction: [f64; 2],

@@ -66,12 +66,12 @@ impl<const N: usize> Drives<N> {
         }
     }
 
-    /// The drives, in their order.
+    /// Returns the drives, in their order.
     pub fn drives(&self) -> &[Drive; N] {
         &self.axes
     }
 
-    /// The number of cycles of the speed loop in which a force was limited, of all drives together.
+    /// Returns the number of cycles of the speed loop in which a force was limited, of all drives together.
     pub fn saturated_cycles(&self) -> u64 {
         self.axes.iter().map(Drive::saturated_cycles).sum()
     }

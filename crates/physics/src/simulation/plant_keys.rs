@@ -131,7 +131,7 @@ impl StictionKey {
         Self::Feed,
     ];
 
-    /// The units are those of the manual; only MP1511 has a documented range (R8.3).
+    /// Returns the facts on a key; the units are those of the manual, and only MP1511 has a documented range (R8.3).
     pub(super) const fn facts(self) -> KeyFacts {
         let (key, unit, range) = match self {
             Self::Factor => ("mp1511", "µs", [0.0, 16_777_215.0]),

@@ -48,7 +48,7 @@ pub const FORMULAS: [Formula; 3] = [
 ];
 
 impl Formula {
-    /// The quantities in it.
+    /// Returns the quantities in it.
     pub fn quantities(&self) -> impl Iterator<Item = Quantity> {
         self.terms.iter().map(|(quantity, _)| *quantity)
     }
@@ -58,8 +58,8 @@ impl Formula {
         self.quantities().any(|it| it == quantity)
     }
 
-    /// The value of one quantity when the others are known; `None` if the formula cannot be
-    /// solved for it because of a value that is 0.
+    /// Returns the value of one quantity when the others are known; `None` if the formula cannot be solved for it
+    /// because of a value that is 0.
     pub(super) fn value(&self, wanted: Quantity, known: impl Fn(Quantity) -> f64) -> Option<f64> {
         let power = self
             .terms

@@ -24,7 +24,7 @@ pub enum Guideline {
     Mp1512,
 }
 
-/// The guidelines that the known values do not keep.
+/// Returns the guidelines that the known values do not keep.
 pub(super) fn not_kept(mp1511_us: Option<f64>, mp1512: Option<f64>) -> Vec<Guideline> {
     let factor = mp1511_us.filter(|it| !MP1511_GUIDELINE_US.contains(it));
     let limit = mp1512.filter(|it| *it >= MP1512_GUIDELINE);

@@ -35,7 +35,7 @@ impl Default for StictionParameters {
 }
 
 impl StictionParameters {
-    /// `Δs_a,limit` in µm (R8.1).
+    /// Returns `Δs_a,limit` in µm (R8.1).
     pub fn limit_um(&self) -> f64 {
         self.mp1512 * self.gp_um / 256.0
     }
@@ -47,7 +47,7 @@ impl StictionParameters {
             .is_none_or(|most| feed_m_per_min <= most)
     }
 
-    /// The guidelines of the manual that are not kept (R8.3).
+    /// Returns the guidelines of the manual that are not kept (R8.3).
     pub fn guidelines(&self) -> Vec<Guideline> {
         not_kept(Some(self.mp1511_us), Some(self.mp1512))
     }

@@ -115,7 +115,7 @@ pub enum UnitError {
 }
 
 impl Quantity {
-    /// Every quantity, in the order of the formulas.
+    /// Returns every quantity, in the order of the formulas.
     pub fn all() -> impl Iterator<Item = Self> {
         TABLE.iter().map(|row| row.quantity)
     }
@@ -125,22 +125,22 @@ impl Quantity {
         row.expect("every quantity has a row")
     }
 
-    /// The key in records, such as `delta_sa`.
+    /// Returns the key in records, such as `delta_sa`.
     pub fn as_str(self) -> &'static str {
         self.facts().name
     }
 
-    /// The symbol of the manual, such as `Δs_a`.
+    /// Returns the symbol of the manual, such as `Δs_a`.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol
     }
 
-    /// The unit of a value without one; empty for counting steps.
+    /// Returns the unit of a value without one; empty for counting steps.
     pub fn unit(self) -> &'static str {
         self.facts().unit
     }
 
-    /// A value with its unit, without the digits that only come from its binary form.
+    /// Returns a value with its unit, without the digits that only come from its binary form.
     pub fn shown(self, value: f64) -> String {
         let rounded = format!("{value:.9e}").parse().unwrap_or(value);
         format!("{rounded} {}", self.unit()).trim_end().to_owned()

@@ -145,7 +145,7 @@ impl State {
         self.get(Quantity::DeltaSaLimit).map(|limit| limit / 1000.0)
     }
 
-    /// The value of a quantity for a formula: `Δs_a` is cut to its limit (R8.1).
+    /// Returns the value of a quantity for a formula: `Δs_a` is cut to its limit (R8.1).
     fn effective(&self, quantity: Quantity) -> f64 {
         let value = self.get(quantity).unwrap_or(f64::NAN);
         match (quantity, self.limit_mm()) {

@@ -117,7 +117,7 @@ impl FollowedPosition {
     }
 }
 
-/// The mean number of samples for which an actual position is held in fast motion, if that is more than one.
+/// Returns the mean number of samples for which an actual position is held in fast motion, if that is more than one.
 fn held_samples(commanded: &[f64], errors: &[f64], velocities: &[f64]) -> Option<f64> {
     /// The part of the greatest speed that is fast.
     const FAST: f64 = 0.5;
@@ -137,8 +137,8 @@ fn held_samples(commanded: &[f64], errors: &[f64], velocities: &[f64]) -> Option
     (held > SEVERAL && held.is_finite()).then_some(held)
 }
 
-/// The number of samples over which each one is an average. Such a sample differs from the one before by a new value
-/// and by the one that drops out, so that differences as many samples apart are opposed, and no others are.
+/// Returns the number of samples over which each one is an average. Such a sample differs from the one before by a new
+/// value and by the one that drops out, so that differences as many samples apart are opposed, and no others are.
 pub(super) fn averaged_samples(values: &[f64]) -> Option<usize> {
     /// Differences are taken over this many samples, in which the averaged noise exceeds that of rounding.
     const OVER: usize = 4;
@@ -185,7 +185,7 @@ pub(super) fn averaged_samples(values: &[f64]) -> Option<usize> {
     (beside(lag) < limit && beside(other) > ALONE * beside(lag)).then_some(lag)
 }
 
-/// The time in s over which the positions of an axis are averages in a stage: a recorder averages in all of its
+/// Returns the time in s over which the positions of an axis are averages in a stage: a recorder averages in all of its
 /// recordings, and what one of them shows alone is chance.
 fn averaged_in(recorded: &[&RecordingOutcome], axis: usize) -> Option<f64> {
     const SAME: f64 = 0.1;

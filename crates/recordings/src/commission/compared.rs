@@ -57,7 +57,7 @@ impl PlaceCompared {
         self.on.um < self.off.um * part
     }
 
-    /// The axis with its direction, for a sentence.
+    /// Returns the axis with its direction, for a sentence.
     pub(super) fn name(&self) -> String {
         match &self.direction {
             Some(direction) => format!("{} {direction}", self.axis),
@@ -72,12 +72,12 @@ impl PlaceCompared {
 }
 
 impl BeforeAfter {
-    /// The axis and direction of another feed, here.
+    /// Returns the axis and direction of another feed, here.
     pub(super) fn at(&self, other: &PlaceCompared) -> Option<&PlaceCompared> {
         self.places.iter().find(|it| it.is_as(other))
     }
 
-    /// The places of an axis.
+    /// Returns the places of an axis.
     pub(super) fn of_axis(&self, axis: &str) -> impl Iterator<Item = &PlaceCompared> {
         self.places.iter().filter(move |it| it.axis == axis)
     }
@@ -94,7 +94,7 @@ impl BeforeAfter {
     }
 }
 
-/// The glitch of a place in one of several recordings: the smallest without, the largest with compensation.
+/// Returns the glitch of a place in one of several recordings: the smallest without, the largest with compensation.
 fn taken(
     recordings: &[&AtFeed],
     place: GlitchPlace,
@@ -111,10 +111,10 @@ fn taken(
     })
 }
 
-/// The feeds that were recorded with compensation off and on, and with no reasons against the recordings, slowest
-/// first. Programs are recognised by their numbers. Of several recordings those count that were driven at the feed of
-/// the program, otherwise those next to it; of those the smallest glitch without and the largest with compensation,
-/// for each axis and direction.
+/// Returns the feeds that were recorded with compensation off and on, and with no reasons against the recordings,
+/// slowest first. Programs are recognised by their numbers. Of several recordings those count that were driven at the
+/// feed of the program, otherwise those next to it; of those the smallest glitch without and the largest with
+/// compensation, for each axis and direction.
 pub(super) fn before_after(
     results: &[RecordingResult],
     axes: &[MeasuredAxis],
@@ -188,7 +188,7 @@ impl AtFeed {
         (SLOWEST..=FASTEST).contains(&(self.driven / self.feed))
     }
 
-    /// The deviation from the planned feed as a part of it; 0 within 2 %.
+    /// Returns the deviation from the planned feed as a part of it; 0 within 2 %.
     pub(super) fn beside(&self) -> f64 {
         let part = (self.driven / self.feed - 1.0).abs();
         if part <= ON_FEED { 0.0 } else { part }

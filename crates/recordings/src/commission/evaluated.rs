@@ -77,7 +77,7 @@ pub struct ResultsReport {
 }
 
 impl ResultsReport {
-    /// The programs of stage 1 and of the last round that have no usable recording.
+    /// Returns the programs of stage 1 and of the last round that have no usable recording.
     pub fn missing(&self) -> Vec<String> {
         let last = self.plans.len().saturating_sub(1);
         let plans = self.plans.iter().enumerate();
@@ -109,7 +109,7 @@ impl ResultsReport {
             && self.rounds.last().is_some_and(Round::is_accepted)
     }
 
-    /// The friction from which the list of an axis is made.
+    /// Returns the friction from which the list of an axis is made.
     pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
         let from = axis.from.as_ref()?;
         self.results.iter().find_map(|it| match &it.found {

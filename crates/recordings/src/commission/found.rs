@@ -149,8 +149,8 @@ impl FrictionFound {
         }
     }
 
-    /// The largest difference in friction between two recordings of one program, as a part of the first;
-    /// `None` if they have no common speed.
+    /// Returns the largest difference in friction between two recordings of one program, as a part of the first; `None`
+    /// if they have no common speed.
     pub fn apart_from(&self, other: &Self) -> Option<f64> {
         let pairs = self
             .speeds
@@ -188,7 +188,7 @@ impl FrictionFound {
         }
     }
 
-    /// The recorded speed in mm/s or °/s at which a list adds most of the friction, and the ratio to the
+    /// Returns the recorded speed in mm/s or °/s at which a list adds most of the friction, and the ratio to the
     /// friction there; `None` without friction.
     pub fn strongest(&self, list: &FrictionList) -> Option<(f64, f64)> {
         let points: Vec<[f64; 2]> = list.table.iter().map(|it| [it.input, it.output]).collect();
@@ -201,7 +201,7 @@ impl FrictionFound {
         parts.max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
-    /// The value list with the friction at its points and everything else as the control assumes it.
+    /// Returns the value list with the friction at its points and everything else as the control assumes it.
     pub fn list(&self) -> FrictionList {
         let points = self.table.iter();
         let points = points.map(|&[input, output]| TablePoint { input, output });
@@ -215,7 +215,7 @@ impl FrictionFound {
         }
     }
 
-    /// The list with no output above the greatest part of the friction that may be added.
+    /// Returns the list with no output above the greatest part of the friction that may be added.
     #[must_use]
     pub fn bounded(&self, list: &FrictionList) -> FrictionList {
         let scale = f64::from(list.scaling_factor) / f64::from(UNSCALED);
@@ -262,7 +262,7 @@ fn uneven(found: &Identified) -> Option<String> {
     })
 }
 
-/// The part of the friction by which the offset grows with it; `None` if friction differs too little over the
+/// Returns the part of the friction by which the offset grows with it; `None` if friction differs too little over the
 /// speeds, or the offset too much from a line, to determine it.
 fn growing_offset(found: &Identified) -> Option<f64> {
     const TIMES: f64 = 3.0;
@@ -287,8 +287,8 @@ fn growing_offset(found: &Identified) -> Option<f64> {
     (differs && slope.abs() > TIMES * error).then_some(slope)
 }
 
-/// The recorded speeds as a part of the planned ones, the part next to 1 that explains them; `None` if there is none.
-/// An axis may miss speeds, as the fastest where its torque is clipped, but has none that was not planned.
+/// Returns the recorded speeds as a part of the planned ones, the part next to 1 that explains them; `None` if there is
+/// none. An axis may miss speeds, as the fastest where its torque is clipped, but has none that was not planned.
 fn override_of(found: &Identified, planned: &[f64]) -> Option<f64> {
     let fastest = found.pairs.last()?.speed;
     let explains = |part: &f64| {
@@ -395,7 +395,7 @@ impl CirclesFound {
         }
     }
 
-    /// The glitch at the feed that was driven; `None` if that is not known.
+    /// Returns the glitch at the feed that was driven; `None` if that is not known.
     pub(super) fn at_feed(&self) -> Option<AtFeed> {
         let of = |it: &DirectionGlitches| {
             let mut directions = Direction::ALL.into_iter();
@@ -409,7 +409,7 @@ impl CirclesFound {
         })
     }
 
-    /// The deviation from the planned feed as a part of it; 0 within 2 %, infinite if it is not known.
+    /// Returns the deviation from the planned feed as a part of it; 0 within 2 %, infinite if it is not known.
     pub fn beside(&self) -> f64 {
         self.at_feed().map_or(f64::INFINITY, |it| it.beside())
     }
@@ -439,12 +439,12 @@ impl DirectionGlitches {
         })
     }
 
-    /// The larger glitch of an axis, by its place in the plan, at its two crossings.
+    /// Returns the larger glitch of an axis, by its place in the plan, at its two crossings.
     pub fn of_axis(&self, axis: usize) -> MeasuredGlitch {
         self.crossings[axis % 2].larger(self.crossings[axis % 2 + 2])
     }
 
-    /// The largest glitch, with its crossing.
+    /// Returns the largest glitch, with its crossing.
     fn largest(&self) -> (Crossing, MeasuredGlitch) {
         let each = Crossing::ALL.into_iter().zip(self.crossings);
         let largest = each.max_by(|one, other| one.1.um.total_cmp(&other.1.um));
@@ -501,7 +501,7 @@ impl IsoFigures {
     }
 }
 
-/// A recording whose circles run in the opposite direction to those of the programs.
+/// Returns a recording whose circles run in the opposite direction to those of the programs.
 fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     let begin = |direction: Direction| {
         let mut circles = circles.iter();
@@ -516,7 +516,7 @@ fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     })
 }
 
-/// The time in s over which each position is an average, if its noise shows one (R16.14).
+/// Returns the time in s over which each position is an average, if its noise shows one (R16.14).
 fn averaged_over(circle: &RecordedCircle) -> Option<f64> {
     let step_s = circle.turn_s? / count(circle.points);
     averaged_samples(&circle.radii_mm()).map(|it| count(it) * step_s)
@@ -545,7 +545,7 @@ fn gap(circle: &RecordedCircle) -> Option<String> {
     ))
 }
 
-/// A sample that is missing in a turn, too few for a reversal to be among them (R16.18).
+/// Returns a sample that is missing in a turn, too few for a reversal to be among them (R16.18).
 fn missing_row(circle: &RecordedCircle) -> Option<String> {
     const STEPS: f64 = 1.6;
     let step_s = circle.turn_s? / count(circle.points);
@@ -583,7 +583,7 @@ fn driven_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     })
 }
 
-/// A direction with less recorded than its program drives: three turns with the halves before and after.
+/// Returns a direction with less recorded than its program drives: three turns with the halves before and after.
 fn cut_short(circle: &RecordedCircle) -> Option<String> {
     const DRIVEN: f64 = 3.0;
     const NEARLY: f64 = 0.9;

@@ -105,7 +105,7 @@ fn worse(
     }
 }
 
-/// The feeds, slowest first, at which off and on are alike on an axis in both directions, although at the
+/// Returns the feeds, slowest first, at which off and on are alike on an axis in both directions, although at the
 /// neighbouring feeds they are not. At the slowest one they may be: there compensation takes little away.
 fn without_effect(recorded: &[BeforeAfter], axis: &str) -> Vec<f64> {
     const BETWEEN: f64 = 0.8;
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
     use frictcomp_physics::circle::MeasuredGlitch;
 
-    /// A glitch whose turns scatter, the largest of which counts.
+    /// Returns a glitch whose turns scatter, the largest of which counts.
     fn glitch(um: f64, median_um: f64, spread_um: f64) -> MeasuredGlitch {
         const NOISE_UM: f64 = 0.1;
         let mut glitch = MeasuredGlitch::of(um, spread_um.hypot(NOISE_UM));

@@ -134,7 +134,7 @@ fn times(count: usize) -> String {
 }
 
 impl LearnError {
-    /// Advice for the user.
+    /// Returns advice for the user.
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoTimes(_) => "record the time in s as well, or name its channel",
@@ -260,7 +260,7 @@ fn is_same(one: f64, other: f64) -> bool {
     (one / other - 1.0).abs() <= SAME
 }
 
-/// The turns of each feed in mm/min, the slowest first.
+/// Returns the turns of each feed in mm/min, the slowest first.
 fn by_feed(turns: &[RecordedTurn]) -> Result<Vec<(f64, Vec<&RecordedTurn>)>, LearnError> {
     let mut timed = Vec::new();
     for turn in turns {
@@ -281,7 +281,7 @@ fn by_feed(turns: &[RecordedTurn]) -> Result<Vec<(f64, Vec<&RecordedTurn>)>, Lea
     Ok(groups)
 }
 
-/// Both recordings of a feed, each with its directions.
+/// Returns both recordings of a feed, each with its directions.
 fn twice<'a>(
     feed: f64,
     group: &[&'a RecordedTurn],

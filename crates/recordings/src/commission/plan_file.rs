@@ -58,7 +58,7 @@ pub struct PlanReport {
 }
 
 impl PlanReport {
-    /// The content of `plan.json`.
+    /// Returns the content of `plan.json`.
     pub fn file(&self) -> PlanFile {
         PlanFile {
             schema: PlanFile::SCHEMA,

@@ -152,7 +152,7 @@ pub struct TunedList {
 }
 
 impl PlantAxis {
-    /// The parameters of a fitted drive.
+    /// Returns the parameters of a fitted drive.
     pub fn of(axis: &str, fitted: &FittedDrive) -> Self {
         Self {
             axis: axis.to_owned(),
@@ -287,7 +287,7 @@ impl PlantFound {
         self.held_out.iter().any(|it| it.total_cmp(&feed).is_eq())
     }
 
-    /// The glitch of an axis that is predicted at a feed with a list.
+    /// Returns the glitch of an axis that is predicted at a feed with a list.
     pub fn predicted(&self, axis: &str, feed: f64, list: Option<&str>) -> Option<f64> {
         let found = self.glitches.iter().find(|it| {
             it.axis == axis && it.feed.total_cmp(&feed).is_eq() && it.list.as_deref() == list
@@ -315,7 +315,8 @@ impl PlantFound {
         compared.collect()
     }
 
-    /// The largest predicted glitch of an axis with a list over all recorded feeds; `None` without a prediction.
+    /// Returns the largest predicted glitch of an axis with a list over all recorded feeds; `None` without a
+    /// prediction.
     pub fn largest(&self, axis: &str, list: &str) -> Option<f64> {
         let feeds = self.feeds().into_iter();
         let predicted = feeds.filter_map(|feed| self.predicted(axis, feed, Some(list)));
@@ -334,8 +335,8 @@ impl PlantFound {
         })
     }
 
-    /// Held-out feeds at which a list is predicted to leave more than is left without a list, or with the old
-    /// one.
+    /// Returns the held-out feeds at which a list is predicted to leave more than is left without a list, or with the
+    /// old one.
     pub fn fails_held_out(&self, axis: &str, list: &str, old: Option<&str>) -> Vec<String> {
         let mut against = Vec::new();
         for &feed in &self.held_out {
@@ -390,7 +391,7 @@ pub fn against_plant(feeds: &[f64]) -> Vec<String> {
     against
 }
 
-/// The drive of a plant with the friction that `identify` found, in drive units.
+/// Returns the drive of a plant with the friction that `identify` found, in drive units.
 pub fn with_friction(drive: &DriveParameters, fit: &Fit) -> DriveParameters {
     const MM_PER_M: f64 = 1000.0;
     let mut drive = drive.clone();

@@ -37,7 +37,7 @@ pub struct PlantVerdict {
 }
 
 impl Plants {
-    /// The plants themselves.
+    /// Returns the plants themselves.
     pub fn found(&self) -> impl Iterator<Item = &PlantFound> {
         self.verdicts.iter().map(|it| &it.found)
     }
@@ -67,7 +67,7 @@ impl PlantVerdict {
         self.rejected.is_empty() && self.retired.is_empty()
     }
 
-    /// The tuned lists, unless the plant is rejected or retired.
+    /// Returns the tuned lists, unless the plant is rejected or retired.
     pub fn lists(&self) -> &[TunedList] {
         if self.holds() { &self.found.lists } else { &[] }
     }

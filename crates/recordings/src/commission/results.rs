@@ -67,7 +67,7 @@ impl RecordingOutcome {
         self.against().is_empty() && self.reversals().all(|it| it.is_near())
     }
 
-    /// The recorded feeds as a part of the planned ones, if they are known.
+    /// Returns the recorded feeds as a part of the planned ones, if they are known.
     pub fn driven_part(&self) -> Option<f64> {
         match self {
             Self::Friction(found) => found.override_part,
@@ -113,7 +113,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// The time in s over which the positions of an axis are averages, if they are.
+    /// Returns the time in s over which the positions of an axis are averages, if they are.
     pub(super) fn averaged_s(&self, axis: usize) -> Option<f64> {
         let of_axis = self.followed(axis).and_then(|it| it.averaged_s);
         match self {
@@ -122,7 +122,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// The unit of its glitches.
+    /// Returns the unit of its glitches.
     pub(super) fn unit(&self) -> &str {
         match self {
             Self::Strokes(found) => &found.unit,
@@ -130,7 +130,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// The largest glitch in µm or 0.001° that it shows; 0 if none.
+    /// Returns the largest glitch in µm or 0.001° that it shows; 0 if none.
     pub(super) fn largest_glitch(&self) -> f64 {
         let reversals = self.reversals();
         let glitches = reversals.flat_map(|it| it.glitches);
@@ -146,7 +146,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// The results of reversals at each feed.
+    /// Returns the results of reversals at each feed.
     pub(super) fn reversals(&self) -> impl Iterator<Item = AtFeed> {
         let circles = match self {
             Self::Circles(found) => found.at_feed(),

@@ -33,7 +33,7 @@ pub struct Round {
     pub not_shown: Vec<String>,
 }
 
-/// The unit of the glitches of a plan.
+/// Returns the unit of the glitches of a plan.
 fn glitch_unit(plan: &Plan) -> &'static str {
     match plan.axes.first() {
         Some(axis) if axis.axis_type != AxisType::Linear => "0.001°",

@@ -123,7 +123,7 @@ impl StrokesFound {
         self.reversals.iter().map(|it| it.count).sum()
     }
 
-    /// The largest glitch of all feeds.
+    /// Returns the largest glitch of all feeds.
     pub fn worst(&self) -> f64 {
         self.reversals
             .iter()

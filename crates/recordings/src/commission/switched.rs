@@ -73,7 +73,7 @@ impl Shows {
         }
     }
 
-    /// The number of recordings that have to agree.
+    /// Returns the number of recordings that have to agree.
     fn fewest(self) -> usize {
         match self {
             Self::Contour => 2,
@@ -252,7 +252,7 @@ impl StagesOfAxis<'_> {
         )
     }
 
-    /// The range of the shares that show something, if they are enough and more than the others.
+    /// Returns the range of the shares that show something, if they are enough and more than the others.
     fn agreed(&self, shares: &[[f64; 2]], shows: impl Fn(&[f64; 2]) -> bool) -> Option<[f64; 2]> {
         let agree: Vec<&[f64; 2]> = shares.iter().filter(|it| shows(it)).collect();
         let is_enough = agree.len() >= self.shows.fewest() && 2 * agree.len() > shares.len();
@@ -266,7 +266,7 @@ impl StagesOfAxis<'_> {
     }
 }
 
-/// The range of shares of several recordings together, each weighted by its own range.
+/// Returns the range of shares of several recordings together, each weighted by its own range.
 fn together(shares: &[[f64; 2]]) -> Option<[f64; 2]> {
     /// The least half of a range: what the delays that all recordings share leave unknown.
     const LEAST: f64 = 0.02;
@@ -316,7 +316,7 @@ mod tests {
         }
     }
 
-    /// The states of an axis in a round and in stage 1, whose recordings show these.
+    /// Returns the states of an axis in a round and in stage 1, whose recordings show these.
     fn states(off: &[CompensationShown], on: &[CompensationShown]) -> [SwitchedAs; 2] {
         let [off, on] = [off, on].map(|it| it.iter().collect::<Vec<_>>());
         let stages = StagesOfAxis {

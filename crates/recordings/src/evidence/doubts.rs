@@ -50,7 +50,7 @@ pub(super) fn unseen(recorded: &EvidenceRecording, motion: &CycleMotion) -> &'st
     }
 }
 
-/// The motion that a question needs and the recording lacks.
+/// Returns the motion that a question needs and the recording lacks.
 pub(super) fn not_moved(
     question: Question,
     list: &FrictionList,
@@ -88,7 +88,7 @@ pub(super) fn not_moved(
     Some(lacking.to_owned())
 }
 
-/// The standstills after a motion, by the velocities before and after each.
+/// Returns the standstills after a motion, by the velocities before and after each.
 fn stops<'a>(rows: &'a [&'a CommandedRow]) -> impl Iterator<Item = (f64, Option<f64>)> + 'a {
     let pairs = rows.windows(2).enumerate();
     let begins = pairs.filter(|(_, pair)| pair[0].velocity != 0.0 && pair[1].velocity == 0.0);

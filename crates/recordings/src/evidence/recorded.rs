@@ -52,7 +52,7 @@ pub(super) struct CycleMotion {
 }
 
 impl Samples {
-    /// The value at a time: that of the last sample up to it.
+    /// Returns the value at a time: that of the last sample up to it.
     pub(super) fn at(&self, time_s: f64) -> Option<f64> {
         let after = self.times_s.partition_point(|it| *it <= time_s);
         self.values.get(after.checked_sub(1)?).copied()
@@ -60,7 +60,7 @@ impl Samples {
 }
 
 impl EvidenceRecording {
-    /// The motion in CNC cycles, compensation switched as recorded.
+    /// Returns the motion in CNC cycles, compensation switched as recorded.
     ///
     /// # Errors
     /// The times are not those of a recording, or have a gap.
@@ -102,7 +102,7 @@ impl EvidenceRecording {
         self.cycle_s.or(of_motion).unwrap_or(USUAL_CYCLE_S)
     }
 
-    /// The step of the slower of motion and current.
+    /// Returns the step of the slower of motion and current.
     pub(super) fn step_s(&self) -> f64 {
         let current = self.current.as_ref().and_then(|it| step(&it.times_s));
         let motion = step(&self.times_s);
@@ -115,7 +115,7 @@ impl EvidenceRecording {
     }
 }
 
-/// The usual step of times.
+/// Returns the usual step of times.
 pub(super) fn step(times_s: &[f64]) -> Option<f64> {
     let mut steps: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = steps.len() / 2;
@@ -125,7 +125,7 @@ pub(super) fn step(times_s: &[f64]) -> Option<f64> {
     Some(*steps.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// The time at which a gap begins.
+/// Returns the time at which a gap begins.
 fn gap(times_s: &[f64]) -> Option<f64> {
     let usual = step(times_s)?;
     let mut pairs = times_s.windows(2);

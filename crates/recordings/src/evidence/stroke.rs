@@ -28,7 +28,7 @@ pub(super) struct StrokeOut {
 }
 
 impl StrokeOut {
-    /// The stroke of a recording.
+    /// Returns the stroke of a recording.
     ///
     /// # Errors
     /// Nothing moves, no state was recorded, or too rarely.
@@ -92,7 +92,7 @@ impl StrokeOut {
         })
     }
 
-    /// The lowest speed around a part of the stroke, as a part of its usual speed.
+    /// Returns the lowest speed around a part of the stroke, as a part of its usual speed.
     pub(super) fn slowest_at(&self, part: f64) -> f64 {
         let around = self.out.iter().filter(|it| (it.1 - part).abs() <= AROUND);
         let slowest = around.fold(f64::INFINITY, |least, it| least.min(it.2));

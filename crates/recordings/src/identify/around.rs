@@ -74,7 +74,7 @@ impl Instruments {
         })
     }
 
-    /// A signal in all windows, divided by its size.
+    /// Returns a signal in all windows, divided by its size.
     pub(super) fn column(
         &self,
         windows: &[SignalWindow],
@@ -131,7 +131,7 @@ impl Instruments {
         }
     }
 
-    /// The squares of the part of a signal with these moments that the instruments find.
+    /// Returns the squares of the part of a signal with these moments that the instruments find.
     pub(super) fn found_in(&self, moments: &[f64]) -> f64 {
         dot(moments, &times(&self.all, moments))
     }
@@ -153,13 +153,13 @@ pub(super) struct SignalAround {
 }
 
 impl SignalAround {
-    /// The product of the prediction of this signal with another signal.
+    /// Returns the product of the prediction of this signal with another signal.
     pub(super) fn expected_with(&self, other: &Self) -> f64 {
         let pairs = self.expected.iter().zip(&other.moments);
         pairs.map(|(one, other)| dot(one, other)).sum()
     }
 
-    /// The product of the predictions of both.
+    /// Returns the product of the predictions of both.
     pub(super) fn both_expected(&self, other: &Self) -> f64 {
         let pairs = self.expected.iter().zip(&other.spread);
         pairs.map(|(one, other)| dot(one, other)).sum()

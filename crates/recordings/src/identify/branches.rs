@@ -41,7 +41,7 @@ pub struct DirectionBranches {
 }
 
 impl DirectionBranches {
-    /// The branches of pairs; `None` where both directions differ by an offset at most.
+    /// Returns the branches of pairs; `None` where both directions differ by an offset at most.
     pub(super) fn of(pairs: &[Pair]) -> Option<Self> {
         let both: Vec<(&Pair, f64)> = pairs
             .iter()
@@ -79,7 +79,7 @@ impl DirectionBranches {
         })
     }
 
-    /// The point at which one list for both directions is farthest from them, and the distance in drive units:
+    /// Returns the point at which one list for both directions is farthest from them, and the distance in drive units:
     /// at positive velocity the torque is larger by it, at negative velocity smaller.
     pub fn cost(&self) -> Option<(f64, f64)> {
         let costs = self.points.iter();

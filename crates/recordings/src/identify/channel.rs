@@ -65,8 +65,8 @@ pub(super) fn drop_held(
     Ok(Some(TraceFinding::new(Code::Fc525, message, help)))
 }
 
-/// FC522 for a torque that reverses later than drives and filters cause: at three quarters of the reversals between
-/// segments or more.
+/// Returns FC522 for a torque that reverses later than drives and filters cause: at three quarters of the reversals
+/// between segments or more.
 pub(super) fn late(samples: &AxisSamples, segments: &[Segment]) -> Option<TraceFinding> {
     let torques = moving_average(&samples.torques, samples_in(SMOOTHED_S, samples.step_s));
     let mean = |segment: &Segment| trimmed_mean(&samples.torques[segment.samples.clone()]);

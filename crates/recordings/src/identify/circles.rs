@@ -29,7 +29,7 @@ pub struct OnCircles {
 }
 
 impl OnCircles {
-    /// The value list: the points, the first one held down to standstill.
+    /// Returns the value list: the points, the first one held down to standstill.
     pub fn list(&self) -> FrictionList {
         let held = self.points.first().map(|point| [0.0, point[1]]);
         let points = held.into_iter().chain(self.points.iter().copied());

@@ -25,7 +25,7 @@ const MUCH_OF_RATED: f64 = 0.5;
 /// Number of standard errors that is significant.
 const SIGNIFICANT: f64 = 3.0;
 
-/// A fault that rules out a list.
+/// Returns a fault that rules out a list.
 pub(super) fn refused(code: Code, message: String, help: &str) -> IdentifyError {
     IdentifyError::Refused(TraceFinding::new(code, message, help))
 }
@@ -93,7 +93,7 @@ fn unsigned_velocity(message: &str) -> IdentifyError {
     )
 }
 
-/// A speed in apparently one direction with torques that differ as in both directions.
+/// Returns a speed in apparently one direction with torques that differ as in both directions.
 fn two_torques(samples: &AxisSamples, segments: &[Segment]) -> Option<(f64, [f64; 2])> {
     /// A difference by this part of the greater one is not drift.
     const APART: f64 = 0.3;
@@ -238,7 +238,7 @@ fn check_unsigned_torque(pairs: &[Pair], samples: &AxisSamples) -> Result<(), Id
     Ok(())
 }
 
-/// Friction that opposes the motion at some speeds, or at all of them.
+/// Checks for friction that opposes the motion at some speeds, or at all of them.
 fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, IdentifyError> {
     let is_so = |sign: f64| {
         move |it: &&Pair| it.friction * sign > SIGNIFICANT * it.error && it.offset.is_some()
@@ -297,7 +297,7 @@ fn accelerates_rightly(samples: &AxisSamples) -> bool {
     product > CLEAR * (squares * torques).sqrt() && squares > 0.0
 }
 
-/// The part of the rated torque that is friction.
+/// Returns the part of the rated torque that is friction.
 fn against_rated(
     pairs: &[Pair],
     measured: &Measured,
@@ -391,7 +391,7 @@ pub(super) fn check_compensation(
     }
 }
 
-/// The recording contradicts a statement about it: no list unless it does not matter.
+/// Returns a finding on a recording that contradicts a statement about it; there is no list unless it does not matter.
 fn contradicted(
     contradiction: Contradiction,
     measured: &Measured,
@@ -418,7 +418,7 @@ fn contradicted(
     Err(refused(Code::Fc521, message, help))
 }
 
-/// A place where the axis moves harder in both directions.
+/// Returns a place where the axis moves harder in both directions.
 pub(super) fn tight(
     samples: &AxisSamples,
     segments: &[Segment],

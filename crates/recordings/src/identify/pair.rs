@@ -62,7 +62,7 @@ pub(super) struct PairedSpeeds {
 }
 
 impl PairedSpeeds {
-    /// The pairs of a recording of a length in s, with their offset and their drift.
+    /// Returns the pairs of a recording of a length in s, with their offset and their drift.
     pub(super) fn of(samples: &AxisSamples, segments: &[Segment], duration_s: f64) -> Self {
         let groups = speeds_of(segments);
         let step = resolution(&samples.torques);
@@ -179,8 +179,8 @@ impl Measure<'_> {
         }
     }
 
-    /// The samples of two segments where both were at the same positions: what depends on the position
-    /// is then the same in both.
+    /// Returns the samples of two segments where both were at the same positions: what depends on the position is then
+    /// the same in both.
     fn common(&self, forth: &Segment, back: &Segment) -> [Range<usize>; 2] {
         let positions = &self.samples.positions;
         let ends = |segment: &Segment| {
@@ -254,7 +254,7 @@ pub struct Drift {
     pub is_seen: bool,
 }
 
-/// The drift of all speeds that were visited more than once; `None` if there are too few.
+/// Returns the drift of all speeds that were visited more than once; `None` if there are too few.
 fn drift(pairs: &[Pair], duration_s: f64) -> Option<Drift> {
     /// Standard errors from which a difference counts as real.
     const SIGNIFICANT: f64 = 4.0;

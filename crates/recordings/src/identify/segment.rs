@@ -50,7 +50,7 @@ pub struct Segment {
 const SAME: f64 = 0.05;
 
 impl Segment {
-    /// The time in its middle, in s.
+    /// Returns the time in its middle, in s.
     pub(super) fn middle_s(&self) -> f64 {
         f64::midpoint(self.from_s, self.to_s)
     }
@@ -63,7 +63,7 @@ impl Segment {
     }
 }
 
-/// The segments of a recording in their order.
+/// Returns the segments of a recording in their order.
 pub(super) fn segments(samples: &AxisSamples) -> Vec<Segment> {
     let speeds = SteadySpeeds::of(samples);
     let mut found = Vec::new();
@@ -126,7 +126,7 @@ impl<'a> SteadySpeeds<'a> {
         }
     }
 
-    /// A stretch without its ends, unless nothing is left of it or the axis hardly moves.
+    /// Returns a stretch without its ends, unless nothing is left of it or the axis hardly moves.
     fn cut(&self, samples: &AxisSamples, range: Range<usize>) -> Option<Segment> {
         let length = count(range.len());
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // parts of a length
@@ -237,7 +237,7 @@ fn unbroken(samples: &AxisSamples) -> Vec<Range<usize>> {
     stretches
 }
 
-/// The longest successive stretches within which no two speeds differ by more than twice the permitted
+/// Returns the longest successive stretches within which no two speeds differ by more than twice the permitted
 /// difference.
 fn steady(averaged: &[f64], noise: f64, shortest: usize) -> Vec<Range<usize>> {
     let admitted = |speed: f64| {

@@ -58,7 +58,7 @@ impl ComparedStates {
         }
     }
 
-    /// The row with the largest spread; `None` if no two states have a common speed.
+    /// Returns the row with the largest spread; `None` if no two states have a common speed.
     pub fn widest(&self) -> Option<&StateRow> {
         let spread = |row: &&StateRow| row.spread;
         let rows = self.rows.iter().filter(|row| spread(row).is_some());

@@ -46,7 +46,7 @@ impl Sums {
         self.squares += value * value;
     }
 
-    /// The mean if it is significant.
+    /// Returns the mean if it is significant.
     fn significant(&self) -> Option<f64> {
         let mean = self.sum / self.count;
         let spread = (self.squares / self.count - mean * mean).max(0.0);
@@ -56,7 +56,7 @@ impl Sums {
     }
 }
 
-/// The tightest place of the travel, against a friction of `level` with its sign.
+/// Returns the tightest place of the travel, against a friction of `level` with its sign.
 pub(super) fn tight_spot(
     samples: &AxisSamples,
     segments: &[Segment],

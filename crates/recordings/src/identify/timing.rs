@@ -103,7 +103,7 @@ impl ActingShare {
         excludes(0.0) && excludes(1.0) && self.high - self.low < 2.0 * (1.0 - ACTING)
     }
 
-    /// The part with its interval, for a sentence.
+    /// Returns the part with its interval, for a sentence.
     fn words(&self) -> String {
         let Self { share, low, high } = self;
         format!("{share:.2} of its current is in the torque, between {low:.2} and {high:.2}")
@@ -111,7 +111,7 @@ impl ActingShare {
 }
 
 impl Timing {
-    /// The sentence about it.
+    /// Returns the sentence about it.
     pub fn sentence(&self) -> String {
         match self {
             Self::Open => "whether the list acted, and its timing, are open: that takes the following error at two \
@@ -145,7 +145,7 @@ impl Timing {
         }
     }
 
-    /// `early` or `late`, if the following error shows it.
+    /// Returns `early` or `late`, if the following error shows it.
     pub fn early_or_late(&self) -> Option<&'static str> {
         let Self::On {
             swing_um, error_um, ..
@@ -208,7 +208,7 @@ impl FollowedRecording<'_> {
         }
     }
 
-    /// The first swing of the following error at the reversals.
+    /// Returns the first swing of the following error at the reversals.
     fn swing(&self, share: ActingShare) -> Timing {
         let [before, after] = [BEFORE_S, AFTER_S].map(|it| samples_in(it, self.samples.step_s));
         let swing = |&turn: &usize| {

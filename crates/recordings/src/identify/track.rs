@@ -31,7 +31,7 @@ impl Track {
         }
     }
 
-    /// The samples from a time in s on.
+    /// Returns the samples from a time in s on.
     #[must_use]
     pub fn since(mut self, time_s: f64) -> Self {
         let before = self.times_s.partition_point(|it| *it < time_s);

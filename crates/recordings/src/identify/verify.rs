@@ -237,7 +237,7 @@ pub fn verify_followed(
 const MOST_CYCLES: f64 = 100.0;
 
 impl Predictor<'_> {
-    /// The speeds from rest to the last point of the list that no range holds.
+    /// Returns the speeds from rest to the last point of the list that no range holds.
     fn not_judged(&self, ranges: &[ScaleRange]) -> Vec<RangeInclusive<f64>> {
         let last = self.list.table.last();
         let fastest = last.map_or(0.0, |point| point.input / 1000.0);
@@ -252,7 +252,7 @@ impl Predictor<'_> {
             .collect()
     }
 
-    /// The additive current at each sample, of an axis with these velocities in mm/s.
+    /// Returns the additive current at each sample, of an axis with these velocities in mm/s.
     fn currents(&self, samples: &AxisSamples, velocities: &[f64]) -> Vec<f64> {
         let mut current = AdditiveCurrent::new(self.list, self.reading);
         let cycle_s = self.cycle_s.unwrap_or(samples.step_s);
@@ -349,7 +349,7 @@ impl PredictedMotion {
         }
     }
 
-    /// The speed from which on there are enough samples to judge a list.
+    /// Returns the speed from which on there are enough samples to judge a list.
     fn slowest(&self, used: &[usize]) -> f64 {
         let mut speeds: Vec<f64> = used.iter().map(|&at| self.velocities[at].abs()).collect();
         speeds.sort_unstable_by(f64::total_cmp);
@@ -369,7 +369,7 @@ impl PredictedMotion {
             .collect()
     }
 
-    /// The samples in motion, without those shortly after a change of direction: some samples, and some way.
+    /// Returns the samples in motion, without those shortly after a change of direction: some samples, and some way.
     fn used(&self, after: usize, (positions, way): (&[f64], f64)) -> Vec<usize> {
         let mut since = 0;
         let mut from = positions[0];
@@ -462,7 +462,7 @@ impl Regression {
     }
 }
 
-/// The torque as the prediction times a scale, which may differ between ranges, an inertia times the
+/// Returns the torque as the prediction times a scale, which may differ between ranges, an inertia times the
 /// acceleration, and an offset.
 fn regress(
     samples: &AxisSamples,

@@ -85,8 +85,8 @@ impl NotAligned {
 const BRIDGED: f64 = 5.0;
 
 impl TraceRecording {
-    /// The samples of some channels on the clock of the fastest one, the others interpolated. Rows
-    /// without times are `cycle_s` apart.
+    /// Returns the samples of some channels on the clock of the fastest one, the others interpolated. Rows without
+    /// times are `cycle_s` apart.
     ///
     /// # Errors
     /// The channels have no times in common, or none that rise.
@@ -152,7 +152,7 @@ impl TraceRecording {
         Ok(aligned)
     }
 
-    /// A channel with the times of its group.
+    /// Returns a channel with the times of its group.
     fn span(&self, track: &TimedChannel<'_>) -> String {
         format!(
             "`{}` ({} to {} s)",
@@ -256,7 +256,7 @@ impl TraceRecording {
     }
 }
 
-/// A time without the rounding error of a difference.
+/// Returns a time without the rounding error of a difference.
 fn readable(seconds: f64) -> ReadableNumber {
     ReadableNumber((seconds * 1e6).round() / 1e6)
 }
@@ -298,7 +298,7 @@ impl TimedChannel<'_> {
         }
     }
 
-    /// The values at some rising times.
+    /// Returns the values at some rising times.
     fn at(&self, times_s: &[f64]) -> Vec<f64> {
         let mut after = 0;
         let value = |&time: &f64| {

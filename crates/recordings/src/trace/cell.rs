@@ -21,7 +21,7 @@ impl Separator {
         }
     }
 
-    /// The cells of a row without quotes.
+    /// Returns the cells of a row without quotes.
     pub(super) fn cells(self, row: &[u8]) -> Cells<'_> {
         Cells {
             rest: match self {
@@ -32,7 +32,7 @@ impl Separator {
         }
     }
 
-    /// The cells of a row in which some may be in quotes, without these.
+    /// Returns the cells of a row in which some may be in quotes, without these.
     pub(super) fn quoted_cells(self, row: &[u8]) -> Vec<Vec<u8>> {
         let mut cells = Vec::new();
         let mut rest = Some(row);
@@ -58,7 +58,7 @@ impl Separator {
     }
 }
 
-/// The text up to the closing quote, and what follows it. Two quotes are one.
+/// Returns the text up to the closing quote, and what follows it. Two quotes are one.
 fn unquoted(row: &[u8]) -> (Vec<u8>, &[u8]) {
     let mut cell = Vec::new();
     let mut at = 0;
@@ -247,7 +247,7 @@ pub(super) fn is_data(line: &[u8], separator: Option<Separator>) -> bool {
     begins && values >= others
 }
 
-/// A text of a header.
+/// Returns a text of a header.
 pub(super) fn text(cell: &[u8]) -> String {
     let text = match std::str::from_utf8(cell) {
         Ok(text) => text.to_owned(),

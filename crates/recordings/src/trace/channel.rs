@@ -9,12 +9,12 @@ use super::unit::split_unit;
 pub struct ChannelIndex(pub(super) usize);
 
 impl ChannelIndex {
-    /// From an index of [`TraceRecording::channels`](super::TraceRecording::channels).
+    /// Converts from an index of [`TraceRecording::channels`](super::TraceRecording::channels).
     pub(crate) fn new(index: usize) -> Self {
         Self(index)
     }
 
-    /// As an index of [`TraceRecording::channels`](super::TraceRecording::channels).
+    /// Converts to an index of [`TraceRecording::channels`](super::TraceRecording::channels).
     pub fn get(self) -> usize {
         self.0
     }
@@ -45,7 +45,7 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// The unit that the file gives, in a row of units or in the name.
+    /// Returns the unit that the file gives, in a row of units or in the name.
     pub fn named_unit(&self) -> Option<&str> {
         let unit = self.unit.as_deref();
         let unit = unit.or_else(|| split_unit(&self.name).1);
@@ -147,12 +147,12 @@ pub struct CncObject {
 }
 
 impl CncObject {
-    /// The number of the axis, 0 for an object without an axis.
+    /// Returns the number of the axis, 0 for an object without an axis.
     pub fn axis(self) -> u32 {
         self.offset >> 16
     }
 
-    /// The number of the object below its axis.
+    /// Returns the number of the object below its axis.
     pub fn element(self) -> u32 {
         self.offset & 0xffff
     }
@@ -165,7 +165,7 @@ impl fmt::Display for CncObject {
     }
 }
 
-/// A whole number as headers write it, `1180416` or `0x120300`.
+/// Returns a whole number as headers write it, `1180416` or `0x120300`.
 pub(super) fn parse_address(text: &str) -> Option<u32> {
     let text = text.trim();
     match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {

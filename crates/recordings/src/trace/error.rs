@@ -105,7 +105,7 @@ pub enum TraceProblem {
 }
 
 impl TraceProblem {
-    /// The line of the file, if it is about one value.
+    /// Returns the line of the file, if it is about one value.
     pub fn line(&self) -> Option<u64> {
         match self {
             Self::Number { line, .. } | Self::Switch { line, .. } => Some(*line),

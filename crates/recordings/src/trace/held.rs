@@ -75,7 +75,7 @@ impl HeldSignal {
 }
 
 impl Grid {
-    /// The times without a record before the one at `time`.
+    /// Returns the times without a record before the one at `time`.
     pub(super) fn until(&self, time: f64, stated: StatedSamples) -> impl Iterator<Item = f64> {
         let steps = self.last.zip(stated.interval_s).map(|(last, interval)| {
             let steps = (time - last) / interval;
@@ -89,7 +89,7 @@ impl Grid {
             .map(move |step| decimal(last + step * interval))
     }
 
-    /// The times after the last record, up to the stated number of samples.
+    /// Returns the times after the last record, up to the stated number of samples.
     pub(super) fn rest(&self, stated: StatedSamples) -> impl Iterator<Item = f64> {
         let left = stated.count.unwrap_or_default().saturating_sub(self.count);
         let from = self.last.zip(stated.interval_s);
@@ -111,7 +111,7 @@ impl Grid {
     }
 }
 
-/// A time as a file writes it.
+/// Returns a time as a file writes it.
 fn decimal(time: f64) -> f64 {
     (time * DECIMALS).round() / DECIMALS
 }

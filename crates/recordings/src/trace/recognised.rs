@@ -54,7 +54,7 @@ const OBJECTS: [(u32, ChannelRole); 4] = [
 ];
 
 impl ChannelRole {
-    /// The role of a commanded or measured quantity.
+    /// Returns the role of a commanded or measured quantity.
     pub(super) fn of(quantity: ChannelQuantity) -> Option<Self> {
         match quantity {
             ChannelQuantity::Time => None,
@@ -64,7 +64,7 @@ impl ChannelRole {
         }
     }
 
-    /// The quantity of its unit.
+    /// Returns the quantity of its unit.
     pub(super) fn quantity(self) -> ChannelQuantity {
         match self {
             Self::Position | Self::ActualPosition | Self::FollowingError => {

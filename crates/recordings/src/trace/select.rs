@@ -99,8 +99,8 @@ impl ChannelSelection {
         }
     }
 
-    /// The channel of a quantity, if there is one: that which the user names, else that of its short name, else the only
-    /// one that is recognised.
+    /// Returns the channel of a quantity, if there is one: that which the user names, else that of its short name, else
+    /// the only one that is recognised.
     ///
     /// # Errors
     /// No channel fits what the user names, or several do; or it is in an unknown unit.
@@ -134,7 +134,7 @@ impl ChannelSelection {
         }
     }
 
-    /// The only channel of the axis that is recognised as a quantity.
+    /// Returns the only channel of the axis that is recognised as a quantity.
     ///
     /// # Errors
     /// Scope scales its unit.
@@ -205,7 +205,7 @@ impl ChannelSelection {
         role.map_or_else(Vec::new, |role| self.candidates(role, channels))
     }
 
-    /// The channels that are recognised as a quantity: those of the axis, or else those that name none.
+    /// Returns the channels that are recognised as a quantity: those of the axis, or else those that name none.
     fn candidates(&self, role: ChannelRole, channels: &[Channel]) -> Vec<usize> {
         let recognised = channels.iter().enumerate().filter_map(|(at, channel)| {
             let found = channel.recognised().filter(|it| it.role == role)?;
@@ -261,7 +261,7 @@ impl ChannelSelection {
         })
     }
 
-    /// A channel by the user's description, with the unit for a quantity.
+    /// Returns a channel by the user's description, with the unit for a quantity.
     ///
     /// # Errors
     /// No channel fits, or several do.
@@ -274,8 +274,9 @@ impl ChannelSelection {
         self.pick(self.named(wanted, channels)?, quantity, channels)
     }
 
-    /// The channel of the positions of an axis: the one that has the name of the axis alone, with its unit if that is
-    /// one of positions, in mm where it names none; or the one that is recognised as the actual position of the axis.
+    /// Returns the channel of the positions of an axis: the one that has the name of the axis alone, with its unit if
+    /// that is one of positions, in mm where it names none; or the one that is recognised as the actual position of the
+    /// axis.
     ///
     /// # Errors
     /// Scope scales the unit.
@@ -301,7 +302,7 @@ impl ChannelSelection {
         Ok(Some(pick))
     }
 
-    /// The only channel that is recognised as the actual position of an axis, by its name or its number.
+    /// Returns the only channel that is recognised as the actual position of an axis, by its name or its number.
     ///
     /// # Errors
     /// Scope scales the unit.
@@ -324,7 +325,7 @@ impl ChannelSelection {
             .transpose()
     }
 
-    /// The channel that has the short name of a quantity.
+    /// Returns the channel that has the short name of a quantity.
     fn taken(
         quantity: ChannelQuantity,
         channels: &[Channel],
@@ -420,7 +421,7 @@ impl ChannelSelection {
             })
     }
 
-    /// The channel whose unit the user gives.
+    /// Returns the channel whose unit the user gives.
     fn unit_target(
         &self,
         name: &str,
@@ -492,7 +493,7 @@ impl ChannelSelection {
     }
 }
 
-/// The names of channels, for a list of the existing ones.
+/// Returns the names of channels, for a list of the existing ones.
 fn shown(channels: &[Channel]) -> Vec<String> {
     channels
         .iter()
@@ -504,7 +505,7 @@ fn holds(text: &str, wanted: &str) -> bool {
     wanted.len() > 2 && text.to_lowercase().contains(&wanted.to_lowercase())
 }
 
-/// The only one of some channels; Scope writes a channel once for each chart that shows it.
+/// Returns the only one of some channels; Scope writes a channel once for each chart that shows it.
 fn only(found: &[usize], channels: &[Channel]) -> Option<ChannelIndex> {
     let first = found.first()?;
     all_alike(found, channels).then_some(ChannelIndex(*first))
@@ -543,7 +544,7 @@ fn full_name(channel: &Channel) -> String {
     }
 }
 
-/// The channel that by its name, symbol or comment may be a quantity.
+/// Returns the channel that by its name, symbol or comment may be a quantity.
 pub(super) fn guess(quantity: ChannelQuantity, channels: &[Channel]) -> Option<String> {
     let names = NAMES.iter().find(|names| names.quantity == quantity)?;
     names.hints.iter().find_map(|hint| {

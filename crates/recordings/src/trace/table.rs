@@ -290,7 +290,7 @@ impl ChannelTable {
         })
     }
 
-    /// The channels with their samples.
+    /// Returns the channels with their samples.
     pub(super) fn finish(mut self) -> TraceRecording {
         let mut samples: Vec<Option<ChannelSamples>> = vec![None; self.channels.len()];
         let mut clocks: Vec<Vec<f64>> = self.groups.into_iter().map(|it| it.values).collect();
@@ -327,7 +327,7 @@ impl ChannelTable {
     }
 }
 
-/// A time as Scope writes it, in seconds.
+/// Returns a time as Scope writes it, in seconds.
 fn scope_time(cell: &[u8], origin: &mut Option<u64>) -> (CellValue, Decimals) {
     /// Fewer digits count milliseconds: a hundred thousand years of them.
     const FILETIME_DIGITS: usize = 15;

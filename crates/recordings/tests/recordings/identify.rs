@@ -28,7 +28,7 @@ fn identified(bench: &Bench) -> Identified {
     identify(&track(bench.record()), &IdentifyOptions::default()).expect("friction")
 }
 
-/// The value of a list at a speed in mm/s.
+/// Returns the value of a list at a speed in mm/s.
 fn along(points: &[TablePoint], speed: f64) -> f64 {
     let at = points.partition_point(|point| point.input < speed * 1000.0);
     match (at.checked_sub(1).map(|at| &points[at]), points.get(at)) {
@@ -137,7 +137,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// The 95th percentile.
+/// Returns the 95th percentile.
 fn percentile(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[(values.len() * 95).div_ceil(100) - 1]

@@ -28,7 +28,7 @@ fn read(text: &str) -> Result<TraceRecording, TraceProblem> {
     read_pieces(text.as_bytes(), 7)
 }
 
-/// The channel of a name, taken as a torque.
+/// Returns the channel of a name, taken as a torque.
 fn torque(recording: &TraceRecording, name: &str) -> Pick {
     let (selection, channels) = (ChannelSelection::default(), recording.channels());
     let picked = selection.pick_named(name, ChannelQuantity::Torque, channels);
@@ -39,7 +39,7 @@ fn problem(text: &str) -> TraceProblem {
     read(text).expect_err("a problem")
 }
 
-/// The samples of a channel by its name.
+/// Returns the samples of a channel by its name.
 fn values<'a>(recording: &'a TraceRecording, name: &str) -> &'a [f64] {
     let found = recording
         .kept()
@@ -153,7 +153,7 @@ fn number_the_names(export: &mut Export) {
     }
 }
 
-/// The words of a comment, wherever its lines end.
+/// Returns the words of a comment, wherever its lines end.
 fn words_of(comment: &str) -> Vec<&str> {
     comment.split_whitespace().collect()
 }

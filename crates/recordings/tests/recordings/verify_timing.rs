@@ -24,7 +24,7 @@ fn track(recorded: &Recorded) -> Track {
     }
 }
 
-/// The list of the axis, whose whole current is a share of 1.
+/// Returns the list of the axis, whose whole current is a share of 1.
 fn list(bench: &Bench) -> FrictionList {
     // Finer steps at low speeds, where the curve bends.
     let speed = |at: u32| 0.25 * (f64::from(at) / 200.0).powi(3);

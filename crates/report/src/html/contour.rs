@@ -57,7 +57,7 @@ pub fn render_contour(
     })
 }
 
-/// The reversals of each line, the lines with the worst first.
+/// Returns the reversals of each line, the lines with the worst first.
 fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
     let mut lines: BTreeMap<(&str, u32, &str), Vec<&ContourReversal>> = BTreeMap::new();
     for reversal in reversals {

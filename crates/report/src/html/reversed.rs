@@ -51,7 +51,7 @@ impl<'a> ReversedFiles<'a> {
         Self(files)
     }
 
-    /// The link to a line with reversals.
+    /// Returns the link to a line with reversals.
     pub(super) fn link(&self, file: &str, line: u32) -> Option<String> {
         let at = self.0.iter().position(|(name, _)| *name == file)?;
         let is_shown = self.0[at].1.contains_key(&line);

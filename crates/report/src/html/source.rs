@@ -16,7 +16,7 @@ use frictcomp::text::LineSource;
 
 /// Gives the lines of a program once more, after its run.
 pub trait Sources {
-    /// The lines of the file with this name in the records; `None` if it cannot be read again.
+    /// Returns the lines of the file with this name in the records; `None` if it cannot be read again.
     fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>>;
 }
 
@@ -274,7 +274,7 @@ impl SourceLines<'_, '_> {
         }
     }
 
-    /// The line with the spans of its messages underlined.
+    /// Returns the line with the spans of its messages underlined.
     fn marked(&self, line: u32, text: &str, event: &LineDigest) -> Markup {
         let spans = self.spans(line, text, event);
         let begins = iter::once(0).chain(spans.iter().map(|span| span.end));

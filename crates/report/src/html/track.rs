@@ -46,7 +46,7 @@ pub(super) struct StateTrack {
 const MAX_STRETCHES: usize = 2048;
 
 impl StateTrack {
-    /// A track that begins with a state.
+    /// Returns a track that begins with a state.
     pub(super) fn new(axis: AxisIndex, kind: Kind, now: StateOnWays, start_up: State) -> Self {
         Self {
             axis,

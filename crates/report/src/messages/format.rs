@@ -33,7 +33,7 @@ macro_rules! formats {
             /// Every format.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$format),+];
 
-            /// The name of the format.
+            /// Returns the name of the format.
             pub fn as_str(self) -> &'static str {
                 match self { $(Self::$format => $name,)+ }
             }

@@ -60,7 +60,7 @@ pub struct BandChart {
 }
 
 impl BandChart {
-    /// The picture. Bars that are too narrow to be seen are drawn as one that is `changing`.
+    /// Returns the picture. Bars that are too narrow to be seen are drawn as one that is `changing`.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::headed(Head {
             title: &self.title,
@@ -115,12 +115,12 @@ impl BandChart {
 /// The height of a row.
 const ROW: f64 = 26.0;
 
-/// The height that rows need.
+/// Returns the height that rows need.
 pub(super) fn height(rows: &[BandRow]) -> f64 {
     ROW * f64::from(u32::try_from(rows.len()).unwrap_or(u32::MAX))
 }
 
-/// The width that the labels of rows need.
+/// Returns the width that the labels of rows need.
 pub(super) fn label_width(rows: &[BandRow]) -> f64 {
     let widths = rows.iter().map(|row| text_width(&row.label));
     widths.fold(30.0, f64::max) + 10.0

@@ -143,14 +143,14 @@ const MARK_ROOM: f64 = 14.0;
 const CROWDED: usize = 120;
 
 impl LineChart {
-    /// The picture, 860 units wide. Points beyond the visible resolution are reduced to the least and the
+    /// Returns the picture, 860 units wide. Points beyond the visible resolution are reduced to the least and the
     /// greatest of each column.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let (canvas, height) = self.draw();
         canvas.finish(frame, height)
     }
 
-    /// The picture and its height.
+    /// Returns the picture and its height.
     pub(super) fn draw(&self) -> (Canvas<'_>, f64) {
         let mut canvas = Canvas::headed(Head {
             title: &self.title,
@@ -229,8 +229,8 @@ impl LineChart {
         (canvas, floor + 10.0)
     }
 
-    /// The x axis with names below its values. Names without room are left out; their ticks only if all
-    /// of them would be a solid bar.
+    /// Returns the x axis with names below its values. Names without room are left out; their ticks only if all of them
+    /// would be a solid bar.
     fn draw_marks(&self, canvas: &mut Canvas<'_>, x: &Scale, area: Area) -> f64 {
         draw_ticks(canvas, x, (area.x, area.y, area.width), TickSide::Below);
         let (above, row) = (area.y + 24.0, area.y + 40.0);
@@ -305,7 +305,7 @@ impl Panel {
         )
     }
 
-    /// The series with their numbers.
+    /// Returns the series with their numbers.
     fn numbered(&self) -> impl Iterator<Item = (usize, &Series)> {
         let mut next: usize = 0;
         self.series.iter().map(move |series| {
@@ -362,7 +362,7 @@ impl Panel {
     }
 }
 
-/// A line that holds each value until the next one.
+/// Returns a line that holds each value until the next one.
 fn steps(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut line = Vec::with_capacity(places.len() * 2);
     let mut before: Option<(f64, f64)> = None;
@@ -378,7 +378,7 @@ fn steps(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     line
 }
 
-/// The ground between a top and a line that holds each value until the next one.
+/// Returns the ground between a top and a line that holds each value until the next one.
 fn below(top: f64, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let (Some(first), Some(last)) = (places.first(), places.last()) else {
         return Vec::new();

@@ -173,8 +173,8 @@ impl PlaneFit {
 }
 
 impl PlaneChart {
-    /// The drawn path: a line through points of the picture for each stretch of the points, in its
-    /// units. A stretch begins where the one before it ends.
+    /// Returns the drawn path: a line through points of the picture for each stretch of the points, in its units. A
+    /// stretch begins where the one before it ends.
     pub fn drawn(&self, ends: &[usize]) -> Vec<Vec<[f64; 2]>> {
         let fit = PlaneFit::of(&self.points);
         let begins = std::iter::once(0).chain(ends.iter().map(|end| end.saturating_sub(1)));
@@ -186,7 +186,7 @@ impl PlaneChart {
         stretches.collect()
     }
 
-    /// The picture, with a bar that shows the magnification of the deviation.
+    /// Returns the picture, with a bar that shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let has_links = self.marks.iter().any(|mark| mark.href.is_some());
         let mut canvas = Canvas::headed(Head {
@@ -358,8 +358,8 @@ impl PlaneChart {
     }
 }
 
-/// The visible points: not those next to the one before, nor those on a short straight line between
-/// their neighbours. The last one stays.
+/// Returns the visible points: not those next to the one before, nor those on a short straight line between their
+/// neighbours. The last one stays.
 fn thinned(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::new();
     let mut last = None;
@@ -385,7 +385,7 @@ fn length(one: (f64, f64), other: (f64, f64)) -> f64 {
     (other.0 - one.0).hypot(other.1 - one.1)
 }
 
-/// The distance of a point from the line through two others.
+/// Returns the distance of a point from the line through two others.
 fn off_line(point: (f64, f64), (from, to): ((f64, f64), (f64, f64))) -> f64 {
     let cross = (to.0 - from.0) * (point.1 - from.1) - (to.1 - from.1) * (point.0 - from.0);
     cross.abs() / length(from, to)
@@ -440,7 +440,7 @@ impl Ground {
     }
 }
 
-/// The points cut into stretches that are drawn alike; each begins where the one before it ends.
+/// Returns the points cut into stretches that are drawn alike; each begins where the one before it ends.
 fn stretches(points: &[PlanePoint]) -> impl Iterator<Item = &[PlanePoint]> {
     let mut from = 0;
     std::iter::from_fn(move || {

@@ -107,7 +107,7 @@ impl PanelLayout {
 }
 
 impl PolarChart {
-    /// The picture; in each panel a scale bar shows the magnification of the deviation.
+    /// Returns the picture; in each panel a scale bar shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::headed(Head {
             title: &self.title,
@@ -248,7 +248,7 @@ fn round_to_two_digits(value: f64) -> f64 {
     (value / unit).round() * unit
 }
 
-/// The step that shows a length to the micrometre, and no more digits than it has.
+/// Returns the step that shows a length to the micrometre, and no more digits than it has.
 fn decimal_of(length: f64) -> f64 {
     [1.0, 0.1, 0.01]
         .into_iter()

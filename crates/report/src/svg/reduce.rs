@@ -80,7 +80,7 @@ impl Curve {
         }
     }
 
-    /// The points that are kept, in their order.
+    /// Returns the points that are kept, in their order.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let mut points = Vec::with_capacity(self.groups.len() * 2);
         for group in &self.groups {

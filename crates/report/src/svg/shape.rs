@@ -33,7 +33,7 @@ impl BandState {
         }
     }
 
-    /// The word in and below the bars.
+    /// Returns the word in and below the bars.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::One(state) => state.as_str(),
@@ -76,7 +76,7 @@ pub(super) struct BarShape {
 }
 
 impl BarShape {
-    /// Every shape, in the order of the legend.
+    /// Returns every shape, in the order of the legend.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         let relations = [StartUpRelation::StartUp, StartUpRelation::Away];
         BandState::ALL
@@ -84,7 +84,7 @@ impl BarShape {
             .flat_map(move |state| relations.map(|relation| Self { state, relation }))
     }
 
-    /// Its meaning, for the legend.
+    /// Returns its meaning, for the legend.
     pub(super) fn name(self) -> String {
         let word = self.state.as_str();
         match self.relation {

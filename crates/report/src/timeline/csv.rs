@@ -53,7 +53,7 @@ pub enum Positions {
 }
 
 impl<W: Write> Csv<W> {
-    /// A timeline of comma-separated values.
+    /// Returns a timeline of comma-separated values.
     pub fn new(writer: W, view: View) -> Self {
         Self {
             output: Output::new(writer),

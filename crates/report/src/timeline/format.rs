@@ -51,7 +51,7 @@ impl TimelineOptions {
 }
 
 impl TimelineFormat {
-    /// Its description in a few words.
+    /// Returns its description in a few words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Text => "For people",
@@ -61,7 +61,7 @@ impl TimelineFormat {
         }
     }
 
-    /// The timeline in this format.
+    /// Returns the timeline in this format.
     pub fn report<W: Write + 'static>(
         self,
         writer: W,

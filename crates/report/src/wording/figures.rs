@@ -89,12 +89,12 @@ fn written(value: &impl Serialize, formatter: impl Formatter) -> String {
     shown_json(&String::from_utf8_lossy(&out)).into_owned()
 }
 
-/// A result as a JSON document without hidden characters.
+/// Returns a result as a JSON document without hidden characters.
 pub fn to_json(value: &impl Serialize) -> String {
     written(value, PrettyFormatter::new())
 }
 
-/// A result as one line of JSON without hidden characters.
+/// Returns a result as one line of JSON without hidden characters.
 pub(crate) fn to_json_line(value: &impl Serialize) -> String {
     written(value, CompactFormatter)
 }

@@ -19,8 +19,8 @@ pub(crate) fn push_picture(out: &mut String, letter: char) {
     }
 }
 
-/// The last part of a path of any system: titles and pictures have no room for more, and are the same
-/// in every folder.
+/// Returns the last part of a path of any system: titles and pictures have no room for more, and are the same in every
+/// folder.
 pub(crate) fn last_part(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
@@ -56,18 +56,18 @@ fn replaced(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A text of several lines with pictures for hidden characters; line ends and tabs stay.
+/// Returns a text of several lines with pictures for hidden characters; line ends and tabs stay.
 pub fn visible(text: &str) -> Cow<'_, str> {
     replaced(text, |letter| matches!(letter, '\n' | '\t'))
 }
 
-/// A text that stays on its line, with pictures for hidden characters.
+/// Returns a text that stays on its line, with pictures for hidden characters.
 pub fn visible_line(text: &str) -> Cow<'_, str> {
     replaced(text, |_| false)
 }
 
-/// A text at the start of a line. CI runners take a line that begins with `::` or `##` for a command; a
-/// name that does so is shown as the path that it is.
+/// Returns a text at the start of a line. CI runners take a line that begins with `::` or `##` for a command; a name
+/// that does so is shown as the path that it is.
 pub fn leading(text: &str) -> Cow<'_, str> {
     let shown = visible_line(text);
     if is_command(&shown) {

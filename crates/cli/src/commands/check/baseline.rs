@@ -177,7 +177,7 @@ impl Baseline {
         false
     }
 
-    /// The name of a file relative to the baseline.
+    /// Returns the name of a file relative to the baseline.
     fn name(&mut self, file: &str) -> String {
         let Self { names, folder, .. } = self;
         let name = || shown_path(&Disk::named_from(Path::new(file), folder));

@@ -26,7 +26,7 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
-    /// The words with which a command names the fault.
+    /// Returns the words with which a command names the fault.
     pub(crate) fn named(&self, said: &str) -> Option<&'static str> {
         self.words.iter().copied().find(|it| said.contains(it))
     }
@@ -104,7 +104,7 @@ pub(crate) fn of_recordings() -> Vec<Fault> {
     all
 }
 
-/// Other lists than those that are said to be on.
+/// Returns other lists than those that are said to be on.
 pub(crate) fn of_lists_on() -> Vec<Fault> {
     vec![
         Fault {

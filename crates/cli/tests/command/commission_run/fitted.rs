@@ -37,7 +37,7 @@ const SLOW: Circles = Circles {
     plan: planned_circles("250,500,800,1400,2500", "25"),
 };
 
-/// The machine: the recorded friction, and a contact and a speed loop that differ from `mid`.
+/// Returns the machine: the recorded friction, and a contact and a speed loop that differ from `mid`.
 fn machine(contact: f64) -> Plant {
     let mut plant = Preset::Mid.plant();
     for drive in [&mut plant.x, &mut plant.y] {
@@ -77,7 +77,7 @@ fn record(
     }
 }
 
-/// The program of the circle of a round at a feed.
+/// Returns the program of the circle of a round at a feed.
 pub(super) fn program(folder: &Path, feed: f64, round: usize) -> String {
     let end = format!("-circle-{feed}.nc");
     let mut names = names_in(&folder.join("m"), "");
@@ -99,7 +99,7 @@ pub(super) fn list(path: &Path) -> FrictionList {
     read.list
 }
 
-/// The lists of X and Y of one kind.
+/// Returns the lists of X and Y of one kind.
 pub(super) fn lists(folder: &Path, kind: &str) -> [PathBuf; 2] {
     ["X", "Y"].map(|axis| {
         let names = names_in(&folder.join("m/lists"), &format!("{axis}-{kind}-"));

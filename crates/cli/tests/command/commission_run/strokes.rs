@@ -14,7 +14,7 @@ const MACHINE: [(&str, &str); 2] = [("C", "type = \"R\"\n"), ("U", "")];
 
 const FEEDS: [f64; 5] = [500.0, 1000.0, 2000.0, 3000.0, 4000.0];
 
-/// A folder with the plan of one axis in `m`.
+/// Returns a folder with the plan of one axis in `m`.
 fn planned(axis: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     machine(folder.path(), "zero.lis");
@@ -83,7 +83,7 @@ fn driven(folder: &Path, axis: &str, (program, list): (&str, Option<&str>)) -> R
     }
 }
 
-/// A recording of commanded and actual positions.
+/// Returns a recording of commanded and actual positions.
 fn text(recorded: &Recorded) -> String {
     let mut text = String::from("t,v,x,x_act,torque\n");
     for at in 0..recorded.t.len() {

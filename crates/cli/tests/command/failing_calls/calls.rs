@@ -137,7 +137,7 @@ impl Trial<'_> {
         command
     }
 
-    /// The effect of the command if nothing fails, and the calls that write.
+    /// Returns the effect of the command if nothing fails, and the calls that write.
     fn undisturbed(&self) -> (Output, Files, Vec<String>) {
         let log = tempfile::NamedTempFile::new().expect("a file");
         let mut command = self.command();

@@ -31,7 +31,7 @@ pub(crate) struct Machine {
 pub(crate) type Row = [f64; 3];
 
 impl Machine {
-    /// A machine that differs from a preset by the `change` to both drives.
+    /// Returns a machine that differs from a preset by the `change` to both drives.
     fn of(name: &'static str, reference: Preset, change: fn(&mut DriveParameters)) -> Self {
         let mut plant = reference.plant();
         for drive in [&mut plant.x, &mut plant.y] {
@@ -52,7 +52,7 @@ impl Machine {
         }
     }
 
-    /// The machine of the short test, on small and fast circles.
+    /// Returns the machine of the short test, on small and fast circles.
     pub(crate) fn small() -> Self {
         Self {
             radius_mm: 40.0,
@@ -60,12 +60,12 @@ impl Machine {
         }
     }
 
-    /// A machine with half the stiffness that its reference has.
+    /// Returns a machine with half the stiffness that its reference has.
     pub(crate) fn half() -> Self {
         Self::of("half", Preset::Mid, |it| *it = it.with_contact(0.5))
     }
 
-    /// The machines of the long test.
+    /// Returns the machines of the long test.
     pub(crate) fn all() -> Vec<Self> {
         let stiff = Self::of("stiff", Preset::Stiff, |it| *it = it.with_contact(0.8));
         let mid = Self::of("mid", Preset::Mid, |it| *it = it.with_contact(1.2));
@@ -96,7 +96,7 @@ impl Machine {
         }
     }
 
-    /// The largest true glitch of X and of Y in µm with lists or without, over feeds.
+    /// Returns the largest true glitch of X and of Y in µm with lists or without, over feeds.
     pub(crate) fn left_um(&self, feeds: &[f64], lists: [Option<&FrictionList>; 2]) -> [f64; 2] {
         let mut most = [0.0_f64; 2];
         for &feed in feeds {
@@ -119,7 +119,7 @@ impl Machine {
         most
     }
 
-    /// The search for the best lists at feeds, with knowledge of the machine.
+    /// Returns the search for the best lists at feeds, with knowledge of the machine.
     pub(crate) fn task(&self, feeds: &[f64]) -> Task {
         let circle = |&feed_mm_per_min: &f64| Circle {
             feed_mm_per_min,
@@ -138,8 +138,8 @@ impl Machine {
         }
     }
 
-    /// A recording at a feed: more than a turn in each direction, one row per ms. The friction is a little different
-    /// each time.
+    /// Returns a recording at a feed: more than a turn in each direction, one row per ms. The friction is a little
+    /// different each time.
     pub(crate) fn recorded(
         &self,
         feed: f64,

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::client::{Client, uri};
 use crate::folder::Bench;
 
-/// A client of the folder of a bench.
+/// Returns a client of the folder of a bench.
 fn client(bench: &Bench) -> Client {
     Client::with(&json!({
         "capabilities": {},

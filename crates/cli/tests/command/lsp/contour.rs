@@ -34,7 +34,7 @@ fn of(uri: &str) -> Value {
     json!({ "textDocument": { "uri": uri } })
 }
 
-/// The contour of a program on the machine of the tests.
+/// Returns the contour of a program on the machine of the tests.
 fn contour(text: &str, params: &Value) -> (Bench, Value, String) {
     let bench = Bench::new(&[("a.nc", "M30\n")]);
     let uri = uri(&bench.folder().join("a.nc"));

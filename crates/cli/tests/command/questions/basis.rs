@@ -9,7 +9,7 @@ use serde_json::{Value, json as value};
 const AXES: &str =
     "\n[[axis]]\nname = \"Y\"\nnumber = 2\n\n[[axis]]\nname = \"Z\"\nnumber = 3\nenable = true\n";
 
-/// The readings on which results rest, from the summary of a run.
+/// Returns the readings on which results rest, from the summary of a run.
 fn rests_on(bench: &Bench, arguments: &[&str]) -> Vec<(String, String, String)> {
     let records = bench.records(arguments);
     let summary = json(records.last().expect("a summary"));

@@ -20,7 +20,7 @@ pub struct Extent {
 const DETERMINED: f64 = 1.4;
 
 impl Extent {
-    /// The range of a value and of others that fit as well.
+    /// Returns the range of a value and of others that fit as well.
     pub(super) fn over(value: f64, others: impl IntoIterator<Item = f64>) -> Self {
         let mut extent = Self {
             value,

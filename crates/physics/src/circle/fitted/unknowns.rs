@@ -47,7 +47,7 @@ const NEXT_TO: f64 = 0.99;
 const LEAST_DELAY_S: f64 = 1e-4;
 
 impl Unknowns {
-    /// The unknowns of the first drive.
+    /// Returns the unknowns of the first drive.
     pub(super) fn none() -> Self {
         Self([0.0; UNKNOWNS])
     }
@@ -72,7 +72,7 @@ impl Unknowns {
         self.0[at].abs() > NEXT_TO * BOUNDS[at]
     }
 
-    /// The list that is on in a circle, with its share.
+    /// Returns the list that is on in a circle, with its share.
     pub(super) fn list(self, circle: &ObservedCircle) -> Option<FrictionList> {
         let scaled = |list: &FrictionList, share: f64| {
             let mut list = list.clone();
@@ -87,7 +87,7 @@ impl Unknowns {
         }
     }
 
-    /// The drive.
+    /// Returns the drive.
     pub(super) fn of(self, first: &DriveParameters) -> DriveParameters {
         let factor = |at: usize| self.0[at].exp();
         let mut drive = first.with_contact(factor(CONTACT));

@@ -59,8 +59,8 @@ pub struct LeftOut {
 }
 
 impl RecordedCircle {
-    /// The circles of a recording, one for each direction in which it has a full turn. If there is
-    /// more than a turn, the one next to the middle is evaluated; what begins or ends at rest is left out.
+    /// Returns the circles of a recording, one for each direction in which it has a full turn. If there is more than a
+    /// turn, the one next to the middle is evaluated; what begins or ends at rest is left out.
     ///
     /// F and D are against the commanded radius `commanded_mm`; G, H and the glitches do not
     /// depend on it.
@@ -98,7 +98,7 @@ impl RecordedCircle {
         Ok(found)
     }
 
-    /// The circle of a run from one turn on it.
+    /// Returns the circle of a run from one turn on it.
     fn of(
         trace: &RecordedTrace,
         run: &PathRun,
@@ -202,7 +202,7 @@ impl RecordedCircle {
         Ok(self)
     }
 
-    /// The feed in mm/min, if the times are known.
+    /// Returns the feed in mm/min, if the times are known.
     pub fn feed_mm_per_min(&self) -> Option<f64> {
         Some(TAU * self.radius_mm / self.turn_s? * 60.0)
     }

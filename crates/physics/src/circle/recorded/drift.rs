@@ -33,9 +33,8 @@ impl TurnPart {
     }
 }
 
-/// The shift between the first and the last turn of a run: what both have in common, such as glitches,
-/// backlash or a periodic error, cancels out. `None` if there are not two turns, or if
-/// they do not show a shift.
+/// Returns the shift between the first and the last turn of a run: what both have in common, such as glitches, backlash
+/// or a periodic error, cancels out. `None` if there are not two turns, or if they do not show a shift.
 pub(super) fn drift(
     (run, steady): (&PathRun, &Range<usize>),
     fit: &FittedCircle,

@@ -96,7 +96,7 @@ pub enum RecordedError {
 }
 
 impl RecordedError {
-    /// Advice for the user.
+    /// Returns advice for the user.
     pub fn help(&self) -> &'static str {
         match self {
             Self::TooFew(_) | Self::NotATurn { .. } | Self::Gaps(_) => {

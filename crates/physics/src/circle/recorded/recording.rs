@@ -49,8 +49,8 @@ impl Recording {
         }
     }
 
-    /// The figures of one circle, or of one in each direction: G, F and D about the least-squares
-    /// centre of each, G(b) and H about `centre`.
+    /// Returns the figures of one circle, or of one in each direction: G, F and D about the least-squares centre of
+    /// each, G(b) and H about `centre`.
     ///
     /// # Errors
     /// Two circles in the same direction, with centres that are far apart, or at different feeds or another one than

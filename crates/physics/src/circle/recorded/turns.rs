@@ -54,7 +54,7 @@ impl fmt::Display for WorseTurn {
 }
 
 impl RecordedCircle {
-    /// The distance of each point from the centre of its turn in mm, of all whole turns one after another.
+    /// Returns the distance of each point from the centre of its turn in mm, of all whole turns one after another.
     pub fn radii_mm(&self) -> Vec<f64> {
         const MM_PER_M: f64 = 1000.0;
         let points = self.turns_m.iter().flatten();

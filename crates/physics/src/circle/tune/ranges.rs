@@ -35,8 +35,8 @@ pub enum FreeParameter {
 }
 
 impl Default for Ranges {
-    /// The documented ranges (chapter 3.3 of the rules) and guidelines (R8.3); of the scaling factor,
-    /// half to double.
+    /// Returns the documented ranges (chapter 3.3 of the rules) and guidelines (R8.3); of the scaling factor, half to
+    /// double.
     fn default() -> Self {
         Self {
             position_delay: 0..=10,

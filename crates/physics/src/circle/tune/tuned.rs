@@ -62,12 +62,12 @@ pub struct TunedAxis {
 }
 
 impl TunedAxis {
-    /// The value list, if there is one.
+    /// Returns the value list, if there is one.
     pub fn list(&self) -> Option<&FrictionList> {
         self.compensation.as_ref()?.list()
     }
 
-    /// The parameters of stiction compensation, if it is that.
+    /// Returns the parameters of stiction compensation, if it is that.
     pub fn stiction(&self) -> Option<&StictionParameters> {
         self.compensation.as_ref()?.stiction()
     }
@@ -111,13 +111,13 @@ impl Tuned {
         self.axes.iter().any(|axis| axis.stiction().is_some())
     }
 
-    /// The largest glitch with compensation, on the circles and over their whole range.
+    /// Returns the largest glitch with compensation, on the circles and over their whole range.
     pub fn worst_um(&self) -> f64 {
         let circles = self.feeds.iter().map(|it| it.glitch_on_um);
         circles.fold(worst(&self.check, |it| it.glitch_on_um), f64::max)
     }
 
-    /// The range of v²/R in mm/s² for which the lists were tuned.
+    /// Returns the range of v²/R in mm/s² for which the lists were tuned.
     pub fn accelerations(&self) -> [f64; 2] {
         let all = self.feeds.iter().map(|it| it.acceleration_mm_per_s2);
         all.fold([f64::INFINITY, 0.0], |[least, most], it| {
@@ -260,7 +260,7 @@ impl Reserve {
         Ok(holds.then_some(Self { circle, left_um }))
     }
 
-    /// The weight of a glitch beyond the range for a list that leaves `worst_um` within it: with too much left
+    /// Returns the weight of a glitch beyond the range for a list that leaves `worst_um` within it: with too much left
     /// there, it counts as more than that.
     pub(super) fn weight(&self, worst_um: f64) -> f64 {
         worst_um / self.left_um.max(MORE * worst_um)
@@ -296,7 +296,7 @@ struct Tuning<'a> {
 }
 
 impl Tuning<'_> {
-    /// The best lists, checked over the whole range: with a shape if that leaves less.
+    /// Returns the best lists, checked over the whole range: with a shape if that leaves less.
     fn found(&self, trials: &mut usize) -> Result<TunedLists, CircleError> {
         let task = self.task;
         let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
@@ -410,7 +410,7 @@ impl Tuning<'_> {
         let heights: Result<Vec<f64>, CircleError> = self.searched.iter().map(of).collect();
         Ok(Heights(heights?))
     }
-    /// The best value list of axes whose table is their friction curve, and the best with a shape.
+    /// Returns the best value list of axes whose table is their friction curve, and the best with a shape.
     fn list(
         &self,
         axes: &[PlaneAxis],
@@ -433,7 +433,7 @@ impl Tuning<'_> {
         Ok((plain, shaped))
     }
 
-    /// The best MP1511 and MP1512 of axes whose other parameters are given (R8.6).
+    /// Returns the best MP1511 and MP1512 of axes whose other parameters are given (R8.6).
     fn stiction(
         &self,
         axes: &[PlaneAxis],
@@ -455,7 +455,7 @@ impl Tuning<'_> {
         })
     }
 
-    /// The search for the parameters of axes in a space, each candidate of which is a compensation.
+    /// Returns the search for the parameters of axes in a space, each candidate of which is a compensation.
     fn search<S: Space>(
         &self,
         axes: &[PlaneAxis],
@@ -479,7 +479,7 @@ impl Tuning<'_> {
         Ok(search)
     }
 
-    /// The order in which circles are simulated: first those on which the best candidate leaves most, since
+    /// Returns the order in which circles are simulated: first those on which the best candidate leaves most, since
     /// another one loses there soonest; without one the fastest, which is the shortest simulation.
     fn order(&self, best: Option<&Heights>) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.searched.len()).collect();
@@ -491,7 +491,7 @@ impl Tuning<'_> {
         order
     }
 
-    /// The best shape of the points below 1 mm/s.
+    /// Returns the best shape of the points below 1 mm/s.
     fn shape(
         &self,
         axes: &[PlaneAxis],
@@ -513,7 +513,7 @@ impl Tuning<'_> {
         })
     }
 
-    /// The glitches of whole circles with the result: for each circle one per variant.
+    /// Returns the glitches of whole circles with the result: for each circle one per variant.
     fn wholes(
         &self,
         axes: &[TunedAxis; 2],

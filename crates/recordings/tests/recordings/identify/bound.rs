@@ -62,7 +62,7 @@ pub(crate) fn offset_bound(bench: &Bench) -> f64 {
     OF_95_PERCENT * inverse_at(information, offset).sqrt()
 }
 
-/// An element of the diagonal of the inverse of a positive definite matrix.
+/// Returns an element of the diagonal of the inverse of a positive definite matrix.
 fn inverse_at(mut rows: Vec<Vec<f64>>, wanted: usize) -> f64 {
     // The wanted one last, so that elimination leaves its inverse alone in the corner.
     let last = rows.len() - 1;

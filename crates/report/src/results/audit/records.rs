@@ -7,7 +7,7 @@ use frictcomp::audit::ProgramAudit;
 use frictcomp::comp::Kind;
 use frictcomp::timeline::SCHEMA;
 
-/// One record per program and kind, one per axis and kind, and a summary. The first one has `schema`.
+/// Returns one record per program and kind, one per axis and kind, and a summary. The first one has `schema`.
 pub fn records(report: &AuditReport) -> Vec<Value> {
     let mut records = Vec::new();
     for machine in &report.machines {

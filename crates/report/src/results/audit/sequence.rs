@@ -117,7 +117,7 @@ impl SequenceReport {
     }
 }
 
-/// The programs of the order, one line each, the readings on which their states rest, and the verdict.
+/// Returns the programs of the order, one line each, the readings on which their states rest, and the verdict.
 pub fn sequence_text(report: &SequenceReport, detail: Detail) -> String {
     let lines = report.steps.iter().map(step_line);
     let last = detail.full(report.steps.last()).flatten();
@@ -199,7 +199,7 @@ fn place(step: &Step, file: &str, line: u32) -> String {
     }
 }
 
-/// The steps and a summary as records; the first one has `schema`.
+/// Returns the steps and a summary as records; the first one has `schema`.
 pub fn sequence_records(report: &SequenceReport) -> Vec<Value> {
     let records = report.steps.iter().enumerate().map(|(at, step)| {
         let mut record = json!(step);

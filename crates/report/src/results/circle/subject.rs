@@ -28,7 +28,7 @@ pub enum ListOrigin {
 }
 
 impl ListOrigin {
-    /// The names of the files.
+    /// Returns the names of the files.
     pub(super) fn name(&self) -> String {
         match self {
             Self::Plant => "plant".to_owned(),
@@ -80,7 +80,7 @@ pub struct NamedSide {
 }
 
 impl CircleReport {
-    /// The report of a simulated test.
+    /// Returns the report of a simulated test.
     pub fn simulated(test: CircularTest, comparison: Comparison, origin: ListOrigin) -> Self {
         let side = |name, advice, side| NamedSide { name, side, advice };
         let without = diagnose(&comparison.off.figures, Some(Switched::Off));
@@ -99,7 +99,7 @@ impl CircleReport {
         }
     }
 
-    /// The report of recorded circles, with what was assumed to read them.
+    /// Returns the report of recorded circles, with what was assumed to read them.
     pub fn recorded((recording, findings): (Recording, Vec<TraceFinding>)) -> Self {
         let side = recording.side.clone();
         Self {
@@ -119,7 +119,8 @@ impl CircleReport {
 const EQUAL_HEIGHTS: f64 = 1e-9;
 
 impl CircleReport {
-    /// The verdict: the largest glitch, without and with compensation or in the recording, and its cure (R18.20).
+    /// Returns the verdict: the largest glitch, without and with compensation or in the recording, and its cure
+    /// (R18.20).
     pub fn headline(&self) -> Headline {
         let worst = |side: &NamedSide| {
             let figures = &side.side.figures;
@@ -188,7 +189,7 @@ impl CircleReport {
         })
     }
 
-    /// The radius in mm, and the feed in mm/min if it is known.
+    /// Returns the radius in mm, and the feed in mm/min if it is known.
     pub(super) fn driven(&self) -> (f64, Option<f64>) {
         match &self.subject {
             Subject::Simulated { test, .. } => {

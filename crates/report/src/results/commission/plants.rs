@@ -49,7 +49,7 @@ struct FittedParameter {
     range: String,
 }
 
-/// The fitted parameters of an axis.
+/// Returns the fitted parameters of an axis.
 fn parameters(axis: &PlantAxis) -> [FittedParameter; 6] {
     const UM_PER_M: f64 = 1e6;
     const MS_PER_S: f64 = 1e3;

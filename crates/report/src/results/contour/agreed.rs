@@ -110,7 +110,7 @@ impl AgreedLine {
         }
     }
 
-    /// The line without its figures, and without the blanks that align them.
+    /// Returns the line without its figures, and without the blanks that align them.
     fn words(&self) -> String {
         let mut words = String::with_capacity(self.text.len());
         let mut done = 0;

@@ -24,7 +24,7 @@ pub struct ContourSubject {
 }
 
 impl ContourSubject {
-    /// The program, and whether its contour is judged.
+    /// Returns the program, and whether its contour is judged.
     pub fn heading<S: ContourSink>(&self, contour: &ProgramContour<S>) -> String {
         if contour.obstacles().is_empty() {
             self.program.clone()
@@ -34,7 +34,7 @@ impl ContourSubject {
     }
 }
 
-/// The verdict: the reversals without compensation and what they cost, or what is not judged (R18.11, R18.20,
+/// Returns the verdict: the reversals without compensation and what they cost, or what is not judged (R18.11, R18.20,
 /// R18.26).
 pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
     let missing = contour.axes().iter().filter(|axis| axis.uncompensated > 0);
@@ -110,7 +110,7 @@ pub fn headline<S: ContourSink>(contour: &ProgramContour<S>) -> Headline {
     }
 }
 
-/// The figures of the three runs, a sentence for each axis, the worst reversals, and the conditions.
+/// Returns the figures of the three runs, a sentence for each axis, the worst reversals, and the conditions.
 pub fn document(
     contour: &mut ProgramContour<ContourRecorder<'_>>,
     subject: &ContourSubject,

@@ -26,7 +26,7 @@ fn figures(deviations: &Deviations) -> Value {
     })
 }
 
-/// The counts of an axis, its drive, and the relation of its list to that.
+/// Returns the counts of an axis, its drive, and the relation of its list to that.
 fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
     let glitch = |of: fn(&ContourReversal) -> f64| counted.dearest.as_ref().map_or(0.0, of);
     let mut axis = json!({
@@ -92,7 +92,7 @@ fn limits_record(axis: &AssumedLimits) -> Value {
     })
 }
 
-/// The figures of the three runs, the counts of each axis, and their totals.
+/// Returns the figures of the three runs, the counts of each axis, and their totals.
 fn summary_record(contour: &ProgramContour<ContourRecorder<'_>>, limits: &ContourLimits) -> Value {
     let deviations = contour.deviations();
     let due = contour.due();
@@ -124,7 +124,7 @@ fn summary_record(contour: &ProgramContour<ContourRecorder<'_>>, limits: &Contou
     })
 }
 
-/// The figures and counts as one line, below the reversals.
+/// Returns the figures and counts as one line, below the reversals.
 pub fn render_summary(
     contour: &ProgramContour<ContourRecorder<'_>>,
     limits: &ContourLimits,
@@ -158,7 +158,7 @@ pub fn render_json(
     to_json(&document)
 }
 
-/// The names of the driven axes.
+/// Returns the names of the driven axes.
 fn names<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
     let axes = contour.options().axes.iter();
     axes.map(|axis| axis.name.clone()).collect()

@@ -95,7 +95,7 @@ impl<'a> ContourRecorder<'a> {
         &self.all
     }
 
-    /// The reversals in feed moves with the largest glitches, the largest first.
+    /// Returns the reversals in feed moves with the largest glitches, the largest first.
     pub fn worst(&self) -> &[ContourReversal] {
         &self.worst
     }
@@ -106,7 +106,7 @@ impl<'a> ContourRecorder<'a> {
         (&self.switches, self.more_switches)
     }
 
-    /// The largest deviation of each block in µm, by file and line, if everything is kept.
+    /// Returns the largest deviation of each block in µm, by file and line, if everything is kept.
     pub fn blocks(&self) -> &BTreeMap<(Arc<str>, u32), f64> {
         &self.blocks
     }

@@ -30,7 +30,7 @@ pub struct IdentifyReport {
 }
 
 impl IdentifyReport {
-    /// The findings about the channels, then those about the friction.
+    /// Returns the findings about the channels, then those about the friction.
     pub fn findings(&self) -> impl Iterator<Item = &TraceFinding> {
         self.recording
             .findings
@@ -38,7 +38,7 @@ impl IdentifyReport {
             .chain(&self.identified.findings)
     }
 
-    /// The verdict: the friction over the speeds, and the first fault of the recording (R18.20).
+    /// Returns the verdict: the friction over the speeds, and the first fault of the recording (R18.20).
     pub fn headline(&self) -> Headline {
         let found = &self.identified;
         let axis = self.axis.as_deref();
@@ -76,13 +76,13 @@ impl IdentifyReport {
             .collect()
     }
 
-    /// The unit of torque and friction.
+    /// Returns the unit of torque and friction.
     pub fn unit(&self) -> &str {
         self.recording.torque_unit.as_deref().unwrap_or(DRIVE_UNITS)
     }
 }
 
-/// The findings, then speeds, curve and points.
+/// Returns the findings, then speeds, curve and points.
 pub fn document(report: &IdentifyReport) -> Document<'_> {
     let mut out = Document::new(report.titled("Friction"), report.headline());
     out.figure(|| friction_curve(report));
@@ -301,12 +301,13 @@ struct SegmentRecord {
     v: f64,
 }
 
-/// The report of an axis, or those of several, as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
+/// Returns the report of an axis, or those of several, as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the
+/// torque.
 pub fn render_json(reports: &[IdentifyReport]) -> String {
     json_of_axes(reports.iter().map(record))
 }
 
-/// The record of an identification.
+/// Returns the record of an identification.
 pub(crate) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
     const PER_MM: f64 = 1000.0;
     let found = &report.identified;
@@ -382,7 +383,7 @@ struct AxesDocument<T> {
     axes: Vec<T>,
 }
 
-/// The record of an axis, or a document with those of several.
+/// Returns the record of an axis, or a document with those of several.
 pub(crate) fn json_of_axes<T: Serialize>(records: impl Iterator<Item = T>) -> String {
     let records: Vec<T> = records.collect();
     match &records[..] {

@@ -26,12 +26,12 @@ pub struct StatesReport {
 }
 
 impl StatesReport {
-    /// The name of the state that the list is for.
+    /// Returns the name of the state that the list is for.
     pub fn working_name(&self) -> &str {
         self.states.get(self.working).map_or("", |it| &it.0)
     }
 
-    /// The verdict: the spread of the states, and the state for which the list is (R18.20).
+    /// Returns the verdict: the spread of the states, and the state for which the list is (R18.20).
     pub fn headline(&self) -> Headline {
         let findings = self.states.iter().flat_map(|(_, report)| report.findings());
         // What is wrong with a recording has the higher codes.
@@ -40,7 +40,7 @@ impl StatesReport {
         Headline::new(Standing::Plain, self.spread()).with_fault(findings)
     }
 
-    /// The spread of the states in a sentence.
+    /// Returns the spread of the states in a sentence.
     pub fn spread(&self) -> String {
         let working = visible_line(self.working_name());
         let Some((speed, spread)) = self
@@ -67,7 +67,7 @@ impl StatesReport {
     }
 }
 
-/// The states side by side, then the one that the list is for.
+/// Returns the states side by side, then the one that the list is for.
 pub fn document(report: &StatesReport) -> Document<'_> {
     let mut out = Document::new("Friction in several states", report.headline());
     out.figure(|| friction_states(report));
@@ -125,7 +125,7 @@ struct State<'a, T> {
     identified: T,
 }
 
-/// The report as JSON; each state as `identify` gives it alone.
+/// Returns the report as JSON; each state as `identify` gives it alone.
 pub fn render_json(report: &StatesReport) -> String {
     let states = report.states.iter().map(|(name, found)| State {
         name,

@@ -123,8 +123,7 @@ enum Saying {
 }
 
 impl<W: Write> Text<W> {
-    /// A timeline as text. The columns show friction compensation, so its changes are always
-    /// shown.
+    /// Returns a timeline as text. The columns show friction compensation, so its changes are always shown.
     pub fn new(writer: W, mut options: TextOptions) -> Self {
         options.view.kinds.insert(Kind::Frict);
         Self {

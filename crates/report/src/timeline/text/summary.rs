@@ -125,8 +125,8 @@ enum Files {
     Name,
 }
 
-/// The blocks that changed an axis, as many as fit; without the folders of their files if that takes
-/// too much room.
+/// Returns the blocks that changed an axis, as many as fit; without the folders of their files if that takes too much
+/// room.
 fn changed_by(axis: &AxisSummary, room: usize) -> String {
     let whole = named_blocks(axis, room, Files::Path);
     if whole.width() <= room {

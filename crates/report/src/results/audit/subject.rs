@@ -133,8 +133,8 @@ pub(super) fn possible_leavers(archive: &Archive, finding: &AxisFinding) -> usiz
         .count()
 }
 
-/// Returns text such as "33 programs leave X off, 2 may, 262 run with it off", without what none does; `of_machine` tells the axis
-/// from that of another machine.
+/// Returns text such as "33 programs leave X off, 2 may, 262 run with it off", without what none does; `of_machine`
+/// tells the axis from that of another machine.
 fn cause(archive: &Archive, finding: &AxisFinding, of_machine: &str) -> String {
     let possible = possible_leavers(archive, finding);
     let counts = [finding.leavers.len() - possible, finding.inheritors.len()];

@@ -13,7 +13,7 @@ use frictcomp::lists::ChannelKey;
 use rules_runner::{fixes, lists, runs::Shown};
 use support::{Bench, MACHINE, SourceMode};
 
-/// Set to write what the cases show.
+/// Environment variable that is set to write what the cases show.
 const UPDATE: &str = "UPDATE_DOCS";
 
 #[test]

@@ -28,7 +28,7 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum ProgramEffect {
-        /// The program ends with the selection that it found.
+        /// No change: the selection at the end is the one that the program found.
         Keeps = "keeps",
         /// Kind selected at the end, whatever the state found.
         #[serde(rename = "leaves on")]
@@ -39,7 +39,7 @@ crate::words! {
         /// State at the end that depends on values known only to the machine, or on the state found: the ways to each
         /// selection are known (R14.6, R10.10).
         Depends = "depends",
-        /// Neither the state at the end nor its conditions are known offline.
+        /// Effect of which neither the state at the end nor its conditions are known offline.
         Unknown = "unknown",
     }
 }

@@ -18,7 +18,7 @@ use crate::text::Numbering;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum CuredMotions {
-    /// Every motion keeps its state (R10.8).
+    /// No motion: every one keeps its state (R10.8).
     #[default]
     Kept,
     /// A block that changes one is taken where no other helps.

@@ -11,7 +11,7 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Safety {
-        /// The machine does the same before and after it.
+        /// Fix that leaves the behaviour of the machine unchanged.
         Safe = "safe",
         /// Fix that guesses the intention or changes what the machine does, and has to be reviewed.
         Unsafe = "unsafe",

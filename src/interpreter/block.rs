@@ -64,7 +64,7 @@ struct LineSpan {
     /// The number of the first of them.
     number: u32,
     text: Arc<str>,
-    /// The offsets of the first and the last line end between them.
+    /// Offsets of the ends of the first and the last line between them.
     breaks: Option<(usize, usize)>,
 }
 

@@ -309,7 +309,7 @@ pub(crate) fn after_motion_only(call: &Call) -> Option<bool> {
 /// A configuration that `#LOAD CONFIG` restores.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) enum SavedItem<T> {
-    /// An earlier program may have saved one.
+    /// Configuration that an earlier program may have saved.
     #[default]
     Perhaps,
     /// No saved configuration.

@@ -26,11 +26,11 @@ pub enum StopPolicy {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Branches {
-    /// Every way is executed, and what they agree on is known.
+    /// All ways: each one is executed, and what they agree on is known.
     #[default]
     Followed,
-    /// Events are raised on one way only: the blocks that another answer would pass over are executed without
-    /// events, and what the ways agree on is known after them. This also applies where blocks report their motion.
+    /// One way with events: the blocks that another answer would pass over are executed without events, and what the
+    /// ways agree on is known after them. This also applies where blocks report their motion.
     OneFollowed,
 }
 

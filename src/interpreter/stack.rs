@@ -60,7 +60,7 @@ impl CallFrame {
 /// Changes to G functions and feed that outlive a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Retains {
-    /// The cycle keeps none of its changes.
+    /// No changes.
     Nothing,
     /// `#RETAIN CYCLE CHANGES` may have been executed.
     Perhaps,

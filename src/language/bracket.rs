@@ -39,9 +39,9 @@ pub struct AxisCommand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum AxisAction {
     None,
-    /// Overrides of the axis are programmed (PM/208662411).
+    /// Programming of overrides of the axis (PM/208662411).
     Override,
-    /// The axis follows no other one any more.
+    /// End of the following of another axis.
     EndFollowing,
 }
 

@@ -101,7 +101,7 @@ pub(crate) enum BlockGroup {
 pub(crate) enum CoordinateEffect {
     /// No effect, or that in the other columns.
     None,
-    /// Positions are those of the program from here on: weights of axes, diameters, the operator's hand wheel.
+    /// Change to positions of the program: weights of axes, diameters, the operator's hand wheel.
     Unfollowed,
     /// Function of which only the group is known.
     NotKnown,

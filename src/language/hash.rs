@@ -76,81 +76,81 @@ pub(crate) enum Touches {
 pub(crate) enum HashAction {
     /// No effect but those in the other columns.
     PassOver,
-    /// The blocks up to its end are a comment (PM/205979659).
+    /// Start of a comment, which consists of the blocks up to its end (PM/205979659).
     Comment,
-    /// A comment ends.
+    /// End of a comment.
     EndComment,
-    /// Variables are declared (PM/207960587).
+    /// Declaration of variables (PM/207960587).
     Declare,
-    /// Declarations end.
+    /// End of declarations.
     EndDeclarations,
-    /// Variables are deleted (PM/207960587).
+    /// Deletion of variables (PM/207960587).
     Delete,
-    /// Variables are initialised (PM/207988747).
+    /// Initialisation of variables (PM/207988747).
     Initialise,
-    /// The axes rest (PM/206602507).
+    /// Dwell (PM/206602507).
     Dwell,
-    /// The program waits for a condition (R2.99; PM/207058059).
+    /// Wait of the program for a condition (R2.99; PM/207058059).
     Wait,
-    /// The program may end (R2.100; PM/207457163).
+    /// Error that may end the program (R2.100; PM/207457163).
     ReportError,
-    /// The blocks up to its end run in real time (tf5261, 783727499).
+    /// Start of a loop whose blocks run in real time (tf5261, 783727499).
     RealTimeLoop,
-    /// A real-time loop ends.
+    /// End of a real-time loop.
     EndRealTimeLoop,
     /// Words get programs (PM/207504523).
     NamePrograms,
-    /// Modal cycles end (PM/206859019).
+    /// End of modal cycles (PM/206859019).
     EndModalCycles,
-    /// The running cycle keeps its changes to G functions and feed (PM/206859019).
+    /// Retention of the changes of the running cycle to G functions and feed (PM/206859019).
     RetainCycleChanges,
-    /// Macros of the program are forgotten.
+    /// Deletion of the macros of the program.
     ForgetMacros,
-    /// The blocks up to its end describe geometry and do not move (R2.81): the contour for a cycle (tf5293,
-    /// 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
+    /// Start of a description: the blocks up to its end describe geometry and do not move (R2.81): the contour for a
+    /// cycle (tf5293, 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
     Describe,
-    /// A description ends.
+    /// End of a description.
     EndDescription,
-    /// A coupling group is defined (PM/207120267).
+    /// Definition of a coupling group (PM/207120267).
     DefineCoupling(MembersBy),
-    /// A coupling group comes into force (PM/207133579).
+    /// Activation of a coupling group (PM/207133579).
     EnableCoupling,
-    /// A coupling group is released (PM/207133579).
+    /// Release of a coupling group (PM/207133579).
     ReleaseCoupling,
     /// Release of all coupling groups (PM/207133579).
     ReleaseCouplings,
-    /// The control may skip the blocks up to its end while it moves backward or simulates.
+    /// Start of blocks that the control may skip while it moves backward or simulates.
     SkipBackward,
-    /// Axes and couplings are saved or restored (PM/207535499).
+    /// Saving or restoring of axes and couplings (PM/207535499).
     SaveConfig(ConfigAction),
-    /// A file is renamed, deleted, written or looked for (PM/207511947).
+    /// Renaming, deletion, writing or search of a file (PM/207511947).
     ChangeFile(FileAction),
-    /// Axes come to the channel or leave it (PM/206977419 and its neighbours).
+    /// Arrival or departure of axes of the channel (PM/206977419 and its neighbours).
     ExchangeAxes(Exchange),
-    /// Coordinates are rotated in the plane (PM/207442315).
+    /// Rotation of coordinates in the plane (PM/207442315).
     Rotate,
-    /// Overrides are programmed (PM/207625099).
+    /// Programming of overrides (PM/207625099).
     Override,
     /// Change of the main spindle.
     SelectSpindle,
-    /// Transitions between blocks are rounded, or their parameters are set (R11.21).
+    /// Rounding of transitions between blocks, or its parameters (R11.21).
     Round(ContouringCommand),
-    /// The profile of the acceleration is selected (R11.20).
+    /// Selection of the profile of the acceleration (R11.20).
     SelectSlope(SlopeForm),
-    /// A parameter of an axis is written while the program runs (R2.92; PM/207492747).
+    /// Write of an axis parameter while the program runs (R2.92; PM/207492747).
     WriteMachineData,
 }
 
 /// Kind of an axis exchange.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Exchange {
-    /// The named axes come.
+    /// Arrival of the named axes.
     Request,
     /// The named axes go.
     Release,
-    /// The named axes come; all others go.
+    /// Arrival of the named axes, and departure of all others.
     Define,
-    /// Axes come or go in a way that no public page describes.
+    /// Exchange that no public page describes.
     Undescribed,
 }
 
@@ -167,7 +167,7 @@ pub(crate) enum ConfigAction {
 pub(crate) enum FileAction {
     Rename,
     Delete,
-    /// A message is written to it.
+    /// Write of a message to it.
     Message,
     LookFor,
 }
@@ -257,7 +257,7 @@ pub(crate) enum Flushes {
 /// Effect of a `#` command on a motion in progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum PathFlow {
-    /// The axes may come to rest.
+    /// Possible rest of the axes.
     MayRest,
     /// The axes certainly keep moving.
     GoesOn,

@@ -211,13 +211,13 @@ crate::words! {
         Rapid = "rapid",
         /// G01, G02, G03 and everything else that interpolates at the path feed.
         Feed = "feed",
-        /// A reference point is approached.
+        /// Approach to a reference point.
         Homing = "homing",
-        /// The axis moves by itself, independently of the path or along with it.
+        /// Motion of the axis by itself, independently of the path or along with it.
         Independent = "independent",
         /// Motion that follows another axis.
         Coupled = "coupled",
-        /// Coordinates are rotated or transformed: the motion word of another axis moves it.
+        /// Motion by the motion word of another axis, in rotated or transformed coordinates.
         Frame = "frame",
         /// Motion not known offline.
         Unknown = "unknown",

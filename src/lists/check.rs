@@ -35,13 +35,13 @@ impl Default for Conditions {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// The list has no friction parameters.
+    /// List without friction parameters.
     Absent,
     /// Mode 0.
     Off,
     /// A check failed; the code of the first one.
     Rejected(Code),
-    /// The list works.
+    /// List that works.
     Accepted(FrictionList),
 }
 

@@ -452,7 +452,7 @@ pub enum Points {
     Real,
 }
 
-/// Real outputs have three decimals.
+/// Factor of the three decimals of real outputs.
 const DECIMALS: f64 = 1000.0;
 
 impl Points {

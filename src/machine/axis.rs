@@ -25,9 +25,9 @@ pub enum Parameterisation {
     /// No value list for the axis.
     #[default]
     Missing,
-    /// The list has mode 0, off.
+    /// List with mode 0, off.
     Off,
-    /// The list was read and rejected with this code.
+    /// List that was read and rejected with this code.
     Rejected {
         /// Path of the list.
         file: String,
@@ -36,7 +36,7 @@ pub enum Parameterisation {
     },
     /// The user assumes a list; its values are not known.
     Assumed,
-    /// The list was accepted.
+    /// List that was accepted.
     Accepted(FrictionList),
 }
 

@@ -365,7 +365,7 @@ pub(super) enum DedupVerdict {
     Say,
     /// Message that was reported at this place before.
     Repeated,
-    /// Its file has reached its limit; the message is only counted.
+    /// Message beyond the limit of its file, which is only counted.
     TooMany,
 }
 

@@ -619,7 +619,7 @@ pub enum Node {
     /// A value, or a place to write, whose text is not known; the message about it is a fault of the
     /// block.
     Unread,
-    /// The sign is turned.
+    /// Change of sign.
     Negate,
     /// Two values become one.
     Binary(BinaryOperator),

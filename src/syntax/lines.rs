@@ -32,7 +32,7 @@ pub enum FastPath {
     /// Blocks are parsed by hand where possible; the rest is parsed by the grammar and executed step by step.
     #[default]
     On,
-    /// Every block is parsed by the grammar and executed step by step: the reference.
+    /// No fast path: every block is parsed by the grammar and executed step by step, as the reference.
     Off,
 }
 

@@ -114,7 +114,7 @@ pub enum Named {
 /// Role of a name at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NameRole {
-    /// The named thing is defined here.
+    /// Definition of the name.
     Definition,
     /// Call of the name, or jump to it.
     Use,

@@ -203,7 +203,7 @@ impl<'a> Texts<'a> {
 /// Findings of the masking of a line.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Masked {
-    /// The code ends in a `\`.
+    /// Whether the code ends in a `\`.
     pub(super) continues: bool,
     /// The first character outside ASCII, or control character, in the code.
     pub(super) foreign: Option<Span>,

@@ -32,7 +32,7 @@ pub struct StateView<'a> {
     pub possible: &'a [PossibleStates],
     /// The listed axes, by position: all of a configured machine; of an unconfigured one those that occurred so far.
     pub listed: &'a [bool],
-    /// Increases whenever a state or the axis list changes, so that a writer may reuse its output.
+    /// Number that increases whenever a state or the axis list changes, so that a writer may reuse its output.
     pub version: u64,
 }
 

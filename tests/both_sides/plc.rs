@@ -19,7 +19,7 @@ enum Known {
     Set(usize),
     /// Value known only to the machine.
     Open,
-    /// A condition tells its value on this way; without that it is open, or set.
+    /// Value that a condition determines on this way; without that it is open, or set.
     Told(usize, Option<usize>),
 }
 

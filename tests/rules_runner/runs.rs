@@ -13,9 +13,9 @@ use crate::support::{Bench, SourceMode};
 pub(crate) struct Shown {
     text: String,
     start_up: Compensation,
-    /// Every executed block is shown.
+    /// Whether every executed block is shown.
     with_blocks: bool,
-    /// Advice and labels are shown.
+    /// Whether advice and labels are shown.
     with_help: bool,
     is_one_of_several: bool,
     /// The lines that count; of others only messages are shown.

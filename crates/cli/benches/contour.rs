@@ -34,7 +34,7 @@ frict_comp = true
 max_jerk = 1000.0
 ";
 
-/// A circle of 25 mm at 3000 mm/min takes so many s.
+/// Time of a circle of 25 mm at 3000 mm/min, in s.
 const TURN_S: f64 = std::f64::consts::TAU * 25.0 / 50.0;
 
 fn main() -> Result<(), Box<dyn Error>> {

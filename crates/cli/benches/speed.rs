@@ -42,7 +42,7 @@ const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
-/// A command line of the tool and what it may take.
+/// A command line of the tool and its permitted time.
 struct Job {
     name: &'static str,
     arguments: &'static [&'static str],

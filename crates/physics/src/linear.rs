@@ -8,7 +8,7 @@ pub(crate) struct Normal<const N: usize> {
     right: [f64; N],
 }
 
-/// A pivot smaller than this part of its row's diagonal leaves an unknown undetermined.
+/// Least pivot as a part of its row's diagonal; a smaller one leaves an unknown undetermined.
 const LEAST_PIVOT: f64 = 1e-12;
 
 impl<const N: usize> Normal<N> {

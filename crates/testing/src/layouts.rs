@@ -55,13 +55,13 @@ pub enum Times {
 /// The contents of the rows of a channel that is sampled less often.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Filled {
-    /// Its samples are at the top, the rows below are blank.
+    /// Samples at the top, with blank rows below.
     Blank,
-    /// Its samples are at the top, the rows below are short.
+    /// Samples at the top, with short rows below.
     Short,
-    /// Each sample is repeated until the next one.
+    /// Each sample repeated until the next one.
     Repeated,
-    /// Each sample is at its time, with blanks in between.
+    /// Each sample at its time, with blanks in between.
     Shifted,
 }
 
@@ -113,9 +113,9 @@ pub struct Export {
     pub letters: Letters,
     /// Line end.
     pub end: &'static str,
-    /// A last line says `EOF`.
+    /// Whether a last line says `EOF`.
     pub has_eof: bool,
-    /// Each line ends with a separator.
+    /// Whether each line ends with a separator.
     pub ends_in_separator: bool,
 }
 

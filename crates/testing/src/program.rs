@@ -16,7 +16,7 @@ pub enum Move {
         /// The feed in mm/min.
         feed: f64,
     },
-    /// Compensation of an axis is switched on or off.
+    /// Switch of the compensation of an axis: on or off.
     Switch(usize, bool),
 }
 

@@ -19,7 +19,7 @@ pub struct Bench {
     pub velocity_noise: Option<f64>,
     /// Viscous friction grows less than in proportion.
     pub is_concave: bool,
-    /// The speeds are driven upwards, then downwards.
+    /// Whether the speeds are driven upwards, then downwards.
     pub is_up_and_down: bool,
     /// Speeds in mm/s.
     pub speeds: Vec<f64>,

@@ -220,7 +220,7 @@ impl Executor {
 /// Cause that stops a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ProgramStop {
-    /// Its end.
+    /// The end of the program.
     End,
     /// A reset of the channel, after an error, in a loop without an end, or between two programs.
     Reset,

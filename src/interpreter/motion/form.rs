@@ -134,7 +134,7 @@ pub enum PathFeed {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum BlockEnd {
-    /// The path continues as fast as its corner allows.
+    /// No stop: the path continues as fast as its corner allows.
     #[default]
     Through,
     /// G60, or G360 until G359: the axes come to rest (PM/206301707).

@@ -15,7 +15,7 @@ use crate::syntax::ast::{Block, CallScope, Item};
 use crate::syntax::{Comments, Fault, RawBlock, Remark, Stretch, no_program};
 use crate::text::{Place, SourceFile};
 
-/// Limit of the names that a run compares with those of calls that find nothing.
+/// Limit on the names that a run compares with those of calls that find nothing.
 const MAX_COMPARED: usize = 100_000;
 
 /// Limit of the parsed blocks that a run keeps.
@@ -334,7 +334,7 @@ pub(crate) struct SourceUnit {
     pub(crate) index: Arc<Index>,
     /// The first blocks and those that were executed more than once, parsed.
     pub(crate) kept: Vec<Option<Arc<Parsed>>>,
-    /// Blocks below this one were executed before.
+    /// Index below which blocks were executed before.
     pub(crate) high: EntryIndex,
     /// Executed blocks, where they are requested.
     pub(crate) executed: Vec<bool>,

@@ -60,7 +60,7 @@ pub(crate) struct ExpressionScope<'a> {
 pub(crate) enum ParameterSource {
     /// A call gave some, and no others.
     ByCall,
-    /// The program is a cycle that runs without a call: its caller gives them.
+    /// Caller of a cycle that runs without a call.
     FromOutside,
 }
 

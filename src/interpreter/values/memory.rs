@@ -661,7 +661,7 @@ pub(crate) fn is_kept(array: &str, parameters: Parameters) -> bool {
     !family.is_of_run() || (parameters == Parameters::Kept && family == VariableFamily::Parameter)
 }
 
-/// Parameters below this number are found without a search.
+/// Number below which parameters are found without a search.
 const DIRECT: u32 = 1024;
 
 /// Parameters that are copied together.

@@ -133,11 +133,11 @@ pub(crate) enum ValueType {
 
 /// A value as a variable of a type takes it.
 pub(crate) enum TypedValue {
-    /// The variable has it.
+    /// Value that the variable has.
     Taken(Value),
-    /// The variable has one of the two whole numbers beside this one.
+    /// Value between two whole numbers, of which the variable has one.
     Fraction(f64),
-    /// The type does not have it: its least and its greatest value.
+    /// Value out of the range of the type, with its least and its greatest value.
     OutOfRange(f64, f64),
     /// A text for a number, a number for a text, or a text that is too long.
     OtherKind(String),

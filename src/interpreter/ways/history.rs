@@ -95,9 +95,9 @@ impl Split {
 /// Effect of a block on a kind; of the effects of one block, the later one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum KindEffect {
-    /// A command switches it off.
+    /// Switch off by a command.
     Off,
-    /// A command switches it on.
+    /// Switch on by a command.
     On,
     /// Unknown switching of any kind (R2.52).
     Lost,

@@ -191,9 +191,9 @@ impl WaySet {
 /// The relation of a way to another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Relation {
-    /// The other one contains it.
+    /// Way that the other one contains.
     Contained,
-    /// The other one contains it except for one answer, by which it can be widened.
+    /// Way that the other one contains except for one answer, by which it can be widened.
     Adjacent,
     Neither,
 }

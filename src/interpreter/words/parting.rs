@@ -34,7 +34,7 @@ use crate::text::{Place, Span};
 enum ConditionalJump {
     /// No jump, or one that is reported before the program begins.
     Nowhere,
-    /// Its label does not exist.
+    /// Jump to a label that does not exist.
     Missing(LabelName, Span),
     To(Goal, Span),
 }

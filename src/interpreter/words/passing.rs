@@ -54,7 +54,7 @@ enum WideEffect {
     PlcActs,
     JumpsAnywhere,
     Returns,
-    /// An error of the control may end the program.
+    /// Possible end of the program by an error of the control.
     Refusal,
 }
 

@@ -21,9 +21,9 @@ N80 M30
 struct Control {
     /// The state at the start.
     active: bool,
-    /// Commands of a block act from right to left.
+    /// Whether commands of a block act from right to left.
     backwards: bool,
-    /// Skip level 1 is on.
+    /// Whether skip level 1 is on.
     skips: bool,
     /// `V.E.A`.
     value: i32,

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::folder::{Bench, MACHINE};
 
-/// Longer than a check takes on a busy machine.
+/// Time limit, longer than a check takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Long enough for output that should not appear.

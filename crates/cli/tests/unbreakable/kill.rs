@@ -11,7 +11,7 @@ use fastrand::Rng;
 
 use crate::folder::{Bench, json, starting};
 
-/// Each run counts itself in the state.
+/// Program of which each run counts itself in the state.
 const COUNT: &str = "V.S.RUNS = V.S.RUNS + 1\nX[COMP OFF FRICT]\nM30\n";
 const RUN: [&str; 4] = ["run", "--state", "s.json", "a.nc"];
 

@@ -23,7 +23,7 @@ pub(super) enum VariableScope {
     Sides = 5,
 }
 
-/// The handles from here on are those of single axes.
+/// First handle of a single axis.
 const FIRST_AXIS: i64 = 100;
 
 impl VariableScope {

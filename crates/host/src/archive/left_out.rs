@@ -25,13 +25,13 @@ words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     #[non_exhaustive]
     pub enum WhyLeftOut {
-        /// An ignore file names a folder above it.
+        /// File in a folder that an ignore file names.
         IgnoredFolder = "ignored folder",
         /// File in a hidden folder.
         HiddenFolder = "hidden folder",
         /// File in a folder to which a link leads.
         LinkedFolder = "linked folder",
-        /// An ignore file names it.
+        /// File that an ignore file names.
         Ignored = "ignored",
         /// Hidden file.
         Hidden = "hidden",
@@ -39,7 +39,7 @@ words! {
         Link = "link",
         /// File that reads as a program, but has no extension of one.
         Extension = "extension",
-        /// A pattern of the user names it.
+        /// File that a pattern of the user names.
         Excluded = "excluded",
         /// File that does not read as a program.
         NoProgram = "no program",

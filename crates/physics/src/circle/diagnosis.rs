@@ -22,8 +22,7 @@ pub const NOTICEABLE_UM: f64 = 1.0;
 /// Share of a bulge up to which the other one is neglected, so that the bulge counts as alone.
 const ALONE: f64 = 0.25;
 
-/// A step counts if it is at least this part of the peak: what a slow drive leaves of a peak is
-/// less.
+/// Least step that counts, as a part of the peak: what a slow drive leaves of a peak is less.
 const STEP_PART: f64 = 0.1;
 
 /// A term of a recording with an unknown shape is this many times as large as the residual: a drift leaves

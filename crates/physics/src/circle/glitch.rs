@@ -84,9 +84,9 @@ pub struct PathShape {
     pub ellipse_um: [f64; 2],
 }
 
-/// A peak has decayed if less of it is left than this part of the step. Real backlash leaves less
-/// than a tenth; friction that falls steeply with the speed bends the path far beyond the crossing
-/// and leaves more than a fifth of the apparent step.
+/// Part of the step below which the rest of a peak counts as decayed. Real backlash leaves less than a tenth; friction
+/// that falls steeply with the speed bends the path far beyond the crossing and leaves more than a fifth of the
+/// apparent step.
 const SETTLED: f64 = 0.15;
 
 impl PathShape {

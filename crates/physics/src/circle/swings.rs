@@ -17,10 +17,10 @@ const AFTER_DEG: f64 = 14.0;
 /// not back to the crossing of the other axis.
 const BEFORE_DEG: f64 = 45.0;
 
-/// Fewer extremes are those of a peak.
+/// Least number of extremes; fewer are those of a peak.
 const FEWEST: usize = 4;
 
-/// Swings below this part of the largest one do not count.
+/// Part of the largest swing below which swings do not count.
 const PART: f64 = 0.1;
 
 /// Nor swings below this, in µm.

@@ -192,7 +192,7 @@ impl Waveform {
 /// Returns the mean around a sample over the widest part in which it differs from narrower ones by no more than their
 /// noise, and its standard error; from sums up to each sample and the noise of a sample, a mean over 8 ms.
 fn quiet_mean(sums: &[f64], at: usize, noise_um: f64) -> (f64, f64) {
-    /// Means differ by more than noise from this many standard errors on.
+    /// Number of standard errors from which means differ by more than noise.
     const APART: f64 = 2.0;
     /// Samples that have the same noise: 8 ms.
     const OF_A_MEAN: f64 = 4.0;

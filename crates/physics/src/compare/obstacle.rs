@@ -21,14 +21,14 @@ pub struct Obstacle {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reason {
-    /// An error or a budget stops the program.
+    /// Program that an error or a budget stops.
     Stopped {
         /// Its code.
         code: Code,
         /// Its message.
         message: String,
     },
-    /// A state depends on what only the machine knows.
+    /// State that depends on what only the machine knows.
     Unknown {
         /// Name of the axis.
         axis: String,

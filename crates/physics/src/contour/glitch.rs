@@ -16,7 +16,7 @@ const WINDOW_S: f64 = 0.3;
 const WINDOW_TURN: f64 = 8.0 * DEGREE;
 /// Extent of the sides, in rad.
 const SIDE_TURN: f64 = 20.0 * DEGREE;
-/// The window ends where the path has turned by this angle, in rad.
+/// Angle in rad by which the path may turn within the window.
 const MOST_TURN: f64 = 30.0 * DEGREE;
 /// A path that turns by less in the time of a window is straight, in rad.
 const STRAIGHT: f64 = 0.1 * DEGREE;
@@ -106,7 +106,7 @@ pub(super) struct ReversalWindow {
     turned: f64,
     before: WindowSide,
     after: WindowSide,
-    /// The extremes are searched for in these cycles.
+    /// Cycles in which the extremes are searched for.
     inside: Vec<(f64, [f64; 3])>,
     /// End of the window after the reversal.
     ended: Option<f64>,

@@ -16,7 +16,7 @@ pub enum ContourObstacle {
     LeftOut(u64, Vec<String>),
     /// A stretch that only the machine decides and that is not driven, with its place and its cause (R14.8).
     Undecided(String, String),
-    /// An axis is cut while its state is not known: its name, the first place, and the seconds.
+    /// Axis that is cut while its state is not known: its name, the first place, and the seconds.
     UnknownState(String, String, f64),
     /// End of the contour before that of the program, with the code of the message.
     Ended(Code),

@@ -19,7 +19,7 @@ const ALONG: f64 = 0.99;
 pub enum GlitchFigure {
     /// No glitch: a stop, a corner or the next reversal of the axis is too close.
     Missing,
-    /// The axis moves along the path: nothing of it is normal to the path, and the glitch is 0.
+    /// No glitch, 0: the axis moves along the path, and nothing of it is normal to the path.
     AlongPath,
     /// The deviation before and after the reversal.
     Measured,
@@ -78,9 +78,9 @@ impl ContourReversal {
 /// Event in a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum WindowEvent {
-    /// An axis reverses.
+    /// Reversal of an axis.
     Reversal,
-    /// Compensation of an axis is switched during its motion.
+    /// Switch of the compensation of an axis during its motion.
     Switch,
 }
 

@@ -13,7 +13,7 @@ const DEFAULT_CYCLE_S: f64 = 0.001;
 /// The part of the cycle by which a step may differ from it.
 const TOLERANCE: f64 = 0.01;
 
-/// A step of this many cycles is a gap.
+/// Number of cycles from which a step is a gap.
 const GAP: f64 = 1.5;
 
 /// Maximum number of cycles: eleven hours of 1 ms.

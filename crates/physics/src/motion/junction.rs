@@ -31,7 +31,7 @@ pub(super) enum Junction {
         /// The highest path velocity in it.
         velocity: f64,
     },
-    /// The path stops.
+    /// Stop of the path.
     Stop,
 }
 

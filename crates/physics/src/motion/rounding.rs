@@ -26,7 +26,7 @@ const EVEN: f64 = 4.0;
 /// Angle from which a corner turns back: it is not rounded (PM/475073291).
 const TURNS_BACK: f64 = 3.0;
 
-/// A smaller kink is due only to the decimals of the program.
+/// Size of a kink below which it is due only to the decimals of the program.
 const STRAIGHT: f64 = 1e-7;
 
 /// Largest deviation of the followed path from the programmed one.
@@ -59,7 +59,7 @@ pub struct Transitions {
 enum CornerPassage {
     /// Unchanged.
     Kink,
-    /// The blocks are part of one curve.
+    /// Blocks that are part of one curve.
     Joined {
         /// Distance of the curve from its chords, in mm.
         sagitta: f64,
@@ -68,7 +68,7 @@ enum CornerPassage {
         /// The distance in mm that the mode permits.
         tolerance: f64,
     },
-    /// The corner is rounded.
+    /// Rounded corner.
     Corner(Corner),
 }
 

@@ -18,7 +18,7 @@ const CIRCLE_JERK: f64 = 0.7;
 /// Share of the jerk for the change of path velocity on a circle, across the path.
 const CROSS_JERK: f64 = 0.5;
 
-/// A slope smaller than this is due to the rounding of a sine.
+/// Slope below which it is due to the rounding of a sine.
 const NO_SLOPE: f64 = 1e-12;
 
 /// A piece of the path.

@@ -12,8 +12,8 @@ pub(super) enum Share {
     BesideKink,
 }
 
-/// A kink may take a quarter of an axis' acceleration, and of its jerk twice a quarter: two
-/// kinks of opposite sign in neighbouring cycles add up.
+/// Share of an axis' acceleration that a kink may take, and of its jerk twice this share: two kinks of opposite sign in
+/// neighbouring cycles add up.
 pub(super) const KINK_SHARE: f64 = 0.25;
 
 impl Share {

@@ -13,7 +13,7 @@ pub const RATED_FORCE_N: f64 = 5000.0;
 /// The force that a drive can give for a short time, in rated forces; the rules leave it open.
 pub const PEAK_FORCE: f64 = 4.0;
 
-/// A drive unit is this part of the rated force.
+/// Drive units per rated force.
 const UNITS_PER_RATED_FORCE: f64 = 1000.0;
 
 /// Bandwidth of the speed loop in Hz.

@@ -349,7 +349,7 @@ fn pocket() -> Shape {
 /// reversals are elsewhere in the CNC cycle, which affects what the compensation leaves.
 const SAME_STEPS: (u32, Tolerance) = (2, Tolerance(0.01, 0.25));
 
-/// Thirty times smaller steps show how much those of 62.5 µs matter.
+/// Number of steps and tolerance with smaller steps by a factor of thirty, which show how much those of 62.5 µs matter.
 const SMALL_STEPS: (u32, Tolerance) = (64, Tolerance(0.08, 1.0));
 
 #[test]

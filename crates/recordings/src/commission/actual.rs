@@ -140,10 +140,10 @@ fn held_samples(commanded: &[f64], errors: &[f64], velocities: &[f64]) -> Option
 /// Returns the number of samples over which each one is an average. Such a sample differs from the one before by a new
 /// value and by the one that drops out, so that differences as many samples apart are opposed, and no others are.
 pub(super) fn averaged_samples(values: &[f64]) -> Option<usize> {
-    /// Differences are taken over this many samples, in which the averaged noise exceeds that of rounding.
+    /// Number of samples over which differences are taken, so that the averaged noise exceeds that of rounding.
     const OVER: usize = 4;
     const LONGEST: usize = 100;
-    /// Larger differences are motion.
+    /// Number of standard deviations of the differences above which one is motion.
     const MOTION: f64 = 4.0;
     const OPPOSED: f64 = -0.03;
     const ERRORS: f64 = 8.0;

@@ -158,10 +158,10 @@ pub(super) fn before_after(
     feeds.into_iter().filter_map(at).collect()
 }
 
-/// A measured speed is the planned one within this part.
+/// Part within which a measured speed is the planned one.
 pub(super) const ON_FEED: f64 = 0.02;
 
-/// Two recordings are compared if the feeds that were driven differ by less than this part: v²/R by 5 %.
+/// Part within which the driven feeds of two compared recordings differ: v²/R by 5 %.
 const SAME_FEED: f64 = 0.025;
 
 /// A recording represents its planned feed if it was driven at no less than this part of it …

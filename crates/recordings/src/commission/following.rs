@@ -21,7 +21,7 @@ const AVERAGED_S: f64 = 0.008;
 /// Seconds after a start or a reversal in which friction shows.
 const AFTER_S: f64 = 0.15;
 
-/// Slower motion in mm/s or °/s is standstill.
+/// Speed in mm/s or °/s below which motion is standstill.
 pub(super) const STANDSTILL: f64 = 0.05;
 
 /// A reversal with a longer standstill in s is a stop and a start.
@@ -161,7 +161,7 @@ impl Following {
 /// after reversals, in mm or degrees: backlash between motor and scale, for one. `None` where the motion does not show
 /// it.
 pub(super) fn step_at_reversals(track: &Track, errors: &[f64]) -> Option<f64> {
-    /// Slow loops have settled after this time in s.
+    /// Time in s after which slow loops have settled.
     const SETTLED_S: f64 = 0.3;
     let (velocities, errors) = averaged(track, errors).ok()?;
     let motion = CommandedMotion::of(&velocities, track.step_s, SETTLED_S);

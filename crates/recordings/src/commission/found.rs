@@ -14,8 +14,7 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 
-/// Friction of the same program in two recordings may differ by this part, and so may the start and
-/// the end of one.
+/// Part by which friction of the same program may differ in two recordings, and at the start and the end of one.
 const STEADY: f64 = 0.1;
 
 /// Greatest difference between the directions, beyond a constant weight, as a share of the
@@ -266,7 +265,7 @@ fn uneven(found: &Identified) -> Option<String> {
 /// speeds, or the offset too much from a line, to determine it.
 fn growing_offset(found: &Identified) -> Option<f64> {
     const TIMES: f64 = 3.0;
-    /// Friction differs over the speeds by this part of its mean.
+    /// Variation of friction over the speeds, as a part of its mean, from which the speeds differ.
     const DIFFERS: f64 = 0.25;
     let pairs = found.pairs.iter();
     let points: Vec<[f64; 2]> = pairs

@@ -13,10 +13,10 @@ use frictcomp_physics::circle::{
 /// Minimum number of feeds: between four up to 1.8 µm remain hidden (R16.4).
 pub const LEAST_FEEDS: usize = 6;
 
-/// Turns are at the same feed within this part, and of the same radius.
+/// Part within which turns have the same feed and the same radius.
 const SAME: f64 = 0.02;
 
-/// Centres of one machine are at most this far apart, in mm.
+/// Largest distance of the centres of one machine, in mm.
 const SAME_CENTRE_MM: f64 = 1.0;
 
 /// Two recordings of one list differ by at most this part of their mean at a reversal …

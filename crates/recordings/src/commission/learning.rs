@@ -102,7 +102,7 @@ pub struct LearnedAxis {
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum NextStep {
-    /// Recordings are needed in this folder, with these lists.
+    /// Recordings needed in this folder, with these lists.
     Record {
         /// Path of the folder.
         folder: String,

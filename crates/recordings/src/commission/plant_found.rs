@@ -28,7 +28,7 @@ const MISSED_ERRORS: f64 = 3.0;
 /// Predictions that differ by less than this in µm are the same.
 const SAME_UM: f64 = 0.1;
 
-/// A list is a gain if it leaves at most this part.
+/// Part that a list may leave to be a gain.
 const GAIN: f64 = 0.95;
 
 /// A plant with the results based on it.

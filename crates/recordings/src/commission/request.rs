@@ -64,7 +64,7 @@ pub struct FreeTravel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Installed {
-    /// P-AXIS-00522 is 0: no command changes anything.
+    /// Compensation not configured, P-AXIS-00522 is 0: no command changes anything.
     Unconfigured,
     /// Compensation on from the start of the control, or with the first valid list.
     On,

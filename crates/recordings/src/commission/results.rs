@@ -168,7 +168,7 @@ impl RecordingOutcome {
 /// Refuses recordings that cannot belong to the others: the same bytes twice, and circles about another centre
 /// than those before them (R16.9).
 pub fn refuse_strangers(results: &mut [RecordingResult]) {
-    /// Centres of one machine are at most this far apart, in mm.
+    /// Largest distance of the centres of one machine, in mm.
     const SAME_CENTRE_MM: f64 = 1.0;
     let mut first: Option<([f64; 2], String)> = None;
     for at in 0..results.len() {

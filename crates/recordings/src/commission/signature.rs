@@ -18,7 +18,7 @@ const REST_S: f64 = 1.2;
 /// The time between two samples of the position in s.
 const LOOK_S: f64 = 0.02;
 
-/// Slower motion is standstill, in mm/s or °/s: a tenth of half the feed of the strokes.
+/// Speed in mm/s or °/s below which motion is standstill: a tenth of half the feed of the strokes.
 const STANDSTILL: f64 = 0.5;
 
 /// The number of a program.

@@ -11,7 +11,7 @@ use crate::identify::{Track, count};
 /// Reversals without a stop at each feed: the ends of four strokes back and forth, without the last one.
 const REVERSALS: usize = 7;
 
-/// A feed belongs to the program if it and the fastest differ from the plan by the same part, within this.
+/// Part within which a feed and the fastest one differ equally from the plan, so that the feed belongs to the program.
 const ONE_RATIO: f64 = 0.05;
 
 /// Number of standard errors above which a glitch is visible.

@@ -33,7 +33,7 @@ const MISFIT: f64 = 0.1;
 /// The part of the samples that may be unexplained.
 const UNEXPLAINED: f64 = 0.02;
 
-/// The noise may be this part of the largest current.
+/// Largest noise as a part of the largest current.
 const NOISIEST: f64 = 0.25;
 
 /// The part by which the recorded current as a whole may be larger or smaller than that of the list.

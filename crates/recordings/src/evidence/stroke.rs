@@ -2,13 +2,13 @@
 
 use super::recorded::{CycleMotion, EvidenceRecording, step};
 
-/// The axis has turned back once it is below this part of the stroke.
+/// Part of the stroke below which the axis counts as turned back.
 const BACK: f64 = 0.95;
 
 /// Maximum distance of samples, as a part of the stroke.
 const NEAR: f64 = 0.015;
 
-/// Cycles within this part of the stroke are around a place.
+/// Part of the stroke within which cycles are around a place.
 const AROUND: f64 = 0.03;
 
 /// A switch of the state, as a part of the stroke.

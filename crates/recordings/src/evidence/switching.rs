@@ -12,7 +12,7 @@ pub const WITH_MOTION_PARTS: [f64; 4] = [0.3, 0.2, 0.3, 0.2];
 /// The blocks in which the program of R1.57 moves: between them off, on, nothing, off; on follows the last.
 pub const LOOK_AHEAD_PARTS: [f64; 5] = [0.3, 0.2, 0.15, 0.15, 0.2];
 
-/// A switch of the state lies within this part of the stroke from where it is expected.
+/// Part of the stroke within which a switch of the state lies from where it is expected.
 const NEAR: f64 = 0.05;
 
 /// Part of the usual speed below which the path stops.

@@ -64,7 +64,7 @@ const SETTLING_S: f64 = 0.05;
 /// A point with fewer samples is left out.
 const FEWEST: f64 = 200.0;
 
-/// An axis on a circle has a constant speed for a smaller part of the time.
+/// Largest part of the time at constant speed for an axis on a circle.
 const MOST_STEADY: f64 = 0.5;
 
 /// Returns the friction in recordings of an axis on circles, of which only what all of them have in common is known

@@ -7,11 +7,11 @@ use super::segment::Segment;
 use super::statistics::{count, trimmed_mean};
 use super::track::AxisSamples;
 
-/// Fewer samples at the limit are not clipping.
+/// Least number of samples at the limit that are clipping.
 const FEWEST: usize = 5;
 
-/// Noise alone puts fewer samples at the extreme of a segment: this many times the usual part, or
-/// half-way from it to the whole.
+/// Multiple of the usual part of samples at the extreme of a segment that noise alone does not reach, at most half-way
+/// from it to the whole.
 const UNUSUAL: f64 = 3.0;
 
 /// A segment with this part at the limit does not show its mean.

@@ -15,11 +15,10 @@ use frictcomp_physics::current::Switched;
 /// Part of the clipped speeds above which nothing is identified.
 const MOST_CLIPPED: f64 = 0.2;
 
-/// Friction below this part of the rated torque is that of a compensated loop.
+/// Part of the rated torque below which friction is that of a compensated loop.
 const LEAST_OF_RATED: f64 = 0.02;
 
-/// Friction above this part of the rated torque is questionable; above the whole of it no axis moves for
-/// long.
+/// Part of the rated torque above which friction is questionable; above the whole of it no axis moves for long.
 const MUCH_OF_RATED: f64 = 0.5;
 
 /// Number of standard errors that is significant.
@@ -71,7 +70,7 @@ pub(super) fn check_directions(
 
 /// Returns whether all segments have one direction; without segments, whether all velocities do.
 fn is_one_way(samples: &AxisSamples, segments: &[Segment]) -> bool {
-    /// Noise around standstill is a smaller part of the fastest speed.
+    /// Largest noise around standstill, as a part of the fastest speed.
     const NOISE: f64 = 0.1;
     if !segments.is_empty() {
         let ways = |sign: f64| segments.iter().any(|it| it.velocity * sign > 0.0);
@@ -191,7 +190,7 @@ pub(super) fn check_points(
     samples: &AxisSamples,
     measured: &Measured,
 ) -> Result<Vec<TraceFinding>, IdentifyError> {
-    /// Points from circles are exact to this part of the largest friction.
+    /// Error of points from circles, as a part of the largest friction.
     const EXACT: f64 = 0.02;
     let largest = points.iter().map(|it| it[1].abs()).fold(0.0, f64::max);
     let pair = |&[speed, friction]: &[f64; 2]| Pair {

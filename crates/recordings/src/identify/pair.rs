@@ -10,7 +10,7 @@ use super::track::AxisSamples;
 /// Blocks for the standard error, in s.
 const BLOCK_S: f64 = 0.1;
 
-/// A common range of positions is used if it is this part of both.
+/// Part of both ranges of positions from which their common range is used.
 const COMMON: f64 = 0.5;
 
 /// The friction at one speed.

@@ -22,7 +22,7 @@ const STEADY_PART: f64 = 0.01;
 /// … or within this many standard deviations of the averaged noise.
 const STEADY_SIGMA: f64 = 5.0;
 
-/// Slower segments are ignored, in mm/s.
+/// Speed in mm/s below which segments are ignored.
 const SLOWEST: f64 = 0.1;
 
 /// Part cut off at the start, or duration if that is more; and part cut off at the end.
@@ -46,7 +46,7 @@ pub struct Segment {
     pub velocity_error: f64,
 }
 
-/// Two speeds are the same within this part.
+/// Part within which two speeds are the same.
 const SAME: f64 = 0.05;
 
 impl Segment {

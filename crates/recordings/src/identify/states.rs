@@ -2,7 +2,7 @@
 
 use super::identified::Identified;
 
-/// Two speeds are the same within this part.
+/// Part within which two speeds are the same.
 const SAME: f64 = 0.05;
 
 /// Friction of one axis in several states, at the speeds of the state that the list is for.

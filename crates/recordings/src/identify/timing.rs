@@ -22,7 +22,7 @@ const AFTER_S: f64 = 0.15;
 /// … and before it.
 const BEFORE_S: f64 = 0.05;
 
-/// Following errors at reversals below this do not count, in mm.
+/// Size in mm below which following errors at reversals do not count.
 const NOTICEABLE: f64 = 0.0003;
 
 /// Number of standard errors that is significant.

@@ -72,10 +72,10 @@ pub struct Reversal {
     pub predicted: f64,
 }
 
-/// Ranges of speeds end here, in mm/s: between speeds that people record, so that the noise of none is split.
+/// Ends of the ranges of speeds in mm/s: between speeds that people record, so that the noise of none is split.
 const BOUNDS: [f64; 8] = [1.4, 3.4, 7.6, 14.0, 34.0, 76.0, 140.0, f64::INFINITY];
 
-/// Slower motion in mm/s is rest.
+/// Speed in mm/s below which motion is rest.
 const REST: f64 = 0.05;
 
 /// Velocities with less noise in mm/s are commanded ones.
@@ -307,7 +307,7 @@ impl Predictor<'_> {
 struct PredictedMotion {
     velocities: Vec<f64>,
     accelerations: Vec<f64>,
-    /// Slower motion in mm/s has no direction.
+    /// Speed in mm/s below which motion has no direction.
     rest: f64,
     /// The direction of each sample; at rest the last one applies.
     signs: Vec<f64>,
@@ -522,7 +522,7 @@ impl Verified {
 
     /// Returns the faults of the list, each a sentence.
     pub fn verdict(&self) -> Vec<String> {
-        /// A list within this part is right.
+        /// Deviation of a scale from 1 within which a list is right.
         const RIGHT: f64 = 0.03;
         let mut said = Vec::new();
         if self.scale < 0.0 {

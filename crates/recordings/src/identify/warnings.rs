@@ -14,7 +14,7 @@ const SLOW: f64 = 0.5;
 /// Minimum number of speeds for a curve.
 const FEWEST: usize = 4;
 
-/// Ripple of this part of the friction is reported.
+/// Part of the friction from which ripple is reported.
 const RIPPLE: f64 = 0.01;
 
 /// Returns all findings, in the order of the codes.

@@ -7,7 +7,7 @@ use super::recording::ChannelSamples;
 /// The part of an interval by which a record may lie off the grid.
 const OFF_GRID: f64 = 0.01;
 
-/// Times are decimals of a second with at most so many digits.
+/// Factor for rounding times: decimals of a second with at most nine digits.
 const DECIMALS: f64 = 1e9;
 
 /// Statements in the head of a trace about its samples.

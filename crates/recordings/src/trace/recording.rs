@@ -12,7 +12,7 @@ pub struct Layout {
 /// Form of the rows of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum RowForm {
-    /// Each has all numbers.
+    /// Rows with all numbers.
     Whole,
     /// Rows of Scope: shorter where channels have ended, repeated for slow ones, and followed by other lines after a
     /// blank one.

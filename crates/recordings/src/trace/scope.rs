@@ -325,7 +325,7 @@ struct Division {
     /// The columns with the names of attributes.
     starts: Vec<usize>,
     count: usize,
-    /// Names may contain the separator: each group is one channel, whatever its cells.
+    /// Whether names may contain the separator: each group is one channel, whatever its cells.
     is_joined: bool,
     /// Single blanks separate the cells.
     is_blank: bool,

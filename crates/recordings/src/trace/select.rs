@@ -32,7 +32,7 @@ pub struct ChannelSelection {
     pub following_error: Option<String>,
     /// Units of channels that the file does not name, or names wrongly.
     pub units: Vec<(String, Unit)>,
-    /// The units are those of several recordings, each of which need not have every channel.
+    /// Whether the units are those of several recordings, each of which need not have every channel.
     pub is_for_several: bool,
     /// The way of the axis in mm in a turn of its motor, where positions and velocities are those of the motor.
     pub lead_mm: Option<f64>,

@@ -49,7 +49,7 @@ pub(super) struct Xml {
     records: usize,
     records_of_frame: usize,
     remarks: Vec<String>,
-    /// The bytes are letters of an old code page.
+    /// Whether the bytes are letters of an old code page.
     is_legacy: bool,
 }
 

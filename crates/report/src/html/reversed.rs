@@ -16,7 +16,7 @@ use frictcomp_physics::motion::Movement;
 /// Lines without a reversal that a page holds at most, in all files together.
 const MAX_QUIET: usize = 50_000;
 
-/// A fold of fewer lines is not worth the click.
+/// Least number of lines of a fold: one of fewer lines is not worth the click.
 const MIN_FOLD: usize = 4;
 
 /// The reversals of an axis in a line.

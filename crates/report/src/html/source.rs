@@ -26,7 +26,7 @@ const MAX_LINES: usize = 300_000;
 /// Lines around one with an event that are never folded.
 const CONTEXT: usize = 3;
 
-/// A fold of fewer lines is not worth the click.
+/// Least number of lines of a fold: one of fewer lines is not worth the click.
 const MIN_FOLD: usize = 6;
 
 /// Lines of one fold.

@@ -175,7 +175,7 @@ impl BandRows<'_> {
     }
 }
 
-/// Narrower bars are joined.
+/// Width below which bars are joined.
 const NARROW: f64 = 1.5;
 
 fn draw_band(canvas: &mut Canvas<'_>, band: &Band, area: Area) {

@@ -96,7 +96,7 @@ pub enum CurveLooks {
     /// Looks of quantities, none of which stands for a state.
     #[default]
     Quantities,
-    /// The first curve is with compensation, the second without.
+    /// Looks of two curves: the first with compensation, the second without.
     OnAndOff,
 }
 

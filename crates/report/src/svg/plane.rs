@@ -30,7 +30,7 @@ const SEEN: f64 = 0.7;
 /// The maximum length of a straight line between two points.
 const STRAIGHT: f64 = 7.0;
 
-/// Marks in a square of this size are drawn as one.
+/// Side of the square in which marks are drawn as one.
 const CELL: f64 = 13.0;
 
 /// The approximate length of the scale of the path.

@@ -70,7 +70,7 @@ struct PanelLayout {
 /// The heading and the text above the circle.
 const TOP: f64 = 112.0;
 
-/// A smaller circle has no room for the names of all rings.
+/// Size below which a circle has no room for the names of all rings.
 const SMALL: f64 = 100.0;
 
 /// The names of the quadrants around the rings.

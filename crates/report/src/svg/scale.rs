@@ -4,10 +4,10 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Spacing {
-    /// Equal steps are equally long.
+    /// Equal length of equal steps.
     #[default]
     Linear,
-    /// Equal factors are equally long; values that are not above 0 make it linear.
+    /// Equal length of equal factors; values that are not above 0 make it linear.
     Logarithmic,
     /// Linear from 0 to the least value above it, logarithmic from there.
     LogarithmicFromZero,

@@ -55,7 +55,7 @@ pub enum SkipMarks {
 pub enum Form {
     /// COMP commands and motions.
     Block(CompBlock),
-    /// A variable gets a value.
+    /// Assignment to a variable.
     Assign(Variable, Operand),
     /// `$IF`, with `$ELSEIF` for each further branch, and `$ELSE`.
     If(Vec<(Condition, Vec<Statement>)>, Option<Vec<Statement>>),

@@ -19,13 +19,14 @@ const CHANNELS: [&str; 8] = [
 
 const ACTUAL_TORQUE: [&str; 2] = ["--torque-kind", "actual"];
 
-/// A commanded torque shows nothing of what was on; the name of the channel would say that it is the actual one.
+/// Options for a commanded torque, which shows nothing of what was on; the name of the channel would say that it is the
+/// actual one.
 const COMMANDED_TORQUE: [&str; 2] = ["--torque-kind", "command"];
 
-/// A plant is fitted, and lists keep the friction curve, which takes seconds.
+/// Options to fit a plant and to keep the friction curve in the lists, which takes seconds.
 pub(crate) const FITTED: [&str; 3] = ["--plant", "mid", "--no-shaping"];
 
-/// A plant is fitted, and lists are tuned on it.
+/// Options to fit a plant and to tune lists on it.
 pub(crate) const TUNED: [&str; 2] = ["--plant", "mid"];
 
 const AXES: [&str; 2] = ["X", "Y"];

@@ -46,7 +46,7 @@ const fn fault(number: i32, cause: &'static str, lasts: bool) -> Fault {
     }
 }
 
-/// The numbers are those of Linux.
+/// Faults with their numbers on Linux.
 const FAULTS: [Fault; 7] = [
     fault(28, "no space left on device", true),
     fault(28, "no space left on device", false),

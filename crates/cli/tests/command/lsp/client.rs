@@ -10,7 +10,7 @@ use frictcomp_editor::lsp::{Shutdown, serve};
 use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
 use serde_json::{Value, json};
 
-/// Longer than any answer takes on a busy machine.
+/// Time limit, longer than any answer takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 pub(crate) struct Client {

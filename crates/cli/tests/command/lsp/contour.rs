@@ -8,7 +8,7 @@ use crate::folder::Bench;
 const REQUEST_FAILED: i32 = -32803;
 const CANCELLED: i32 = -32800;
 
-/// X reverses in lines 4 and 5, without compensation in line 7.
+/// Program in which X reverses in lines 4 and 5, without compensation in line 7.
 const PART: &str = "\
 G90 G01 F2000
 ; the outline

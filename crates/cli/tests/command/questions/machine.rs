@@ -33,7 +33,7 @@ pub(crate) struct Machine<'a> {
     pub(crate) second: Option<&'a str>,
 }
 
-/// A move, or a wait of so many seconds without motion.
+/// A move, or a wait of a number of seconds without motion.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     by: f64,

@@ -16,7 +16,7 @@ pub struct Extent {
     pub at_bound: bool,
 }
 
-/// The ends of a range are within this factor if a value is determined.
+/// Factor within which the ends of a range are if a value is determined.
 const DETERMINED: f64 = 1.4;
 
 impl Extent {

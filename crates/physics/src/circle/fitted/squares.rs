@@ -18,7 +18,7 @@ const LEAST_UM: f64 = 0.05;
 /// Maximum number of steps.
 const MOST_STEPS: usize = 15;
 
-/// A step ends the search if the squares fall by less than this part.
+/// Least relative gain of a step in the squares; a smaller one ends the search.
 const GAIN: f64 = 1e-3;
 
 /// Weight of the measured diagonal that keeps the first steps short, and its factor after a step.

@@ -62,7 +62,7 @@ impl TooMuchCurrent {
     /// # Errors
     /// The list adds more than `most` times the friction, or acts with it.
     pub fn check(list: &FrictionList, friction: &FrictionList, most: f64) -> Result<(), Self> {
-        /// A whole number is off by half a unit, and so is the friction.
+        /// Tolerance for rounding, in units: a whole number is off by half a unit, and so is the friction.
         const ROUNDED: f64 = 1.0;
         let inputs = list.table.iter().chain(&friction.table).map(|it| it.input);
         let parts = inputs.filter_map(|input| {

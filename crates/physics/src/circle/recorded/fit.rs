@@ -86,7 +86,7 @@ impl FittedCircle {
 
     /// Returns the permitted distance from this circle, in mm.
     pub(super) fn tolerance(&self) -> f64 {
-        /// A small circle must not be an egg.
+        /// Largest tolerance as a part of the radius, which keeps an oval from passing as a small circle.
         const PART: f64 = 0.05;
         MOST_MM.min(PART * self.radius)
     }

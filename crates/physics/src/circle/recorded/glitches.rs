@@ -8,7 +8,7 @@ use crate::circle::crossing::{Crossing, PlaneAxis};
 use crate::circle::profile::{Gatherer, RadialProfile};
 use crate::circle::waveform::Waveform;
 
-/// Turns differ if their glitches scatter by more than this many standard errors.
+/// Number of standard errors by which the glitches of turns scatter if the turns differ.
 const APART: f64 = 3.0;
 
 /// A glitch is the same in two recordings of one machine within this part …

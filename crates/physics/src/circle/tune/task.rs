@@ -54,7 +54,7 @@ pub enum Shaping {
     /// Separate shape if it is worthwhile.
     #[default]
     Allowed,
-    /// The table is the friction curve.
+    /// No separate shape: the table is the friction curve.
     None,
 }
 

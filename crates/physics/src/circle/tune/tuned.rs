@@ -161,7 +161,7 @@ pub fn tune(task: &Task) -> Result<Tuned, CircleError> {
     tune_with(task, &InOrder)
 }
 
-/// A shape is taken if it leaves at most this part of the largest glitch.
+/// Part of the largest glitch that a shape may leave to be taken.
 const WORTH_IT: f64 = 0.95;
 
 /// A robust list is taken if it leaves at most this part of what the other leaves on machines that
@@ -243,7 +243,7 @@ pub(super) struct Reserve {
     left_um: f64,
 }
 
-/// Most of a glitch is removed if at most this part of it is left.
+/// Part of a glitch that may be left if most of it is removed.
 const MOSTLY: f64 = 0.2;
 
 /// Permitted factor of the glitch beyond the range to that within it.

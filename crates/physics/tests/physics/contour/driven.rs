@@ -27,7 +27,7 @@ pub(crate) struct Found {
     pub(crate) reversals: Vec<ContourReversal>,
     /// The largest deviation in space, as programmed, in µm.
     pub(crate) largest_um: f64,
-    /// The first seconds of a line are not kept.
+    /// Time from the start of a line that is not kept, in s.
     settling_s: f64,
     /// The line that is cut, and the start of the cut.
     since: (u32, f64),

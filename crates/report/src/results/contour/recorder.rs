@@ -22,9 +22,9 @@ enum ReversalSink<'a> {
     Worst,
     /// All reversals are kept, and the largest deviation of each block.
     Kept,
-    /// Each is written as a line of JSON.
+    /// Each reversal is written as a line of JSON.
     Ndjson(&'a mut (dyn Write + Send)),
-    /// Each is written as a row.
+    /// Each reversal is written as a row.
     Csv(&'a mut (dyn Write + Send)),
 }
 

@@ -31,7 +31,7 @@ pub enum Runs {
     /// Several of them in a row become one line with their count.
     #[default]
     Folded,
-    /// Each has a line.
+    /// A line for each block.
     Full,
 }
 

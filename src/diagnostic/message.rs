@@ -363,7 +363,7 @@ impl fmt::Display for ReadableNumber {
         if size != 0.0 && size.is_finite() && !(1e-9..1e12).contains(&size) {
             write!(f, "{:e}", self.0)
         } else {
-            // No negative zero.
+            // Adding 0 turns -0 into 0.
             write!(f, "{}", self.0 + 0.0)
         }
     }

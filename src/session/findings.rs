@@ -275,7 +275,7 @@ struct CauseKey {
 impl CauseKey {
     fn of(said: &Diagnostic) -> Self {
         if said.code == Code::Fc408 {
-            // That nothing describes an axis is one cause, whichever block switches it (R18.2).
+            // A missing description of an axis is one cause, whichever block switches it (R18.2).
             return Self {
                 file: Arc::default(),
                 first_line: 0,

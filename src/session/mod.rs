@@ -422,7 +422,7 @@ impl Session {
     pub fn save(&self) -> SavedState {
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         let mut carried = self.interpreter.carried();
-        // What the user gave is given again; what the programs wrote is not.
+        // Values from the user are given again; values written by programs are not.
         carried.variables.retain(|name, value| {
             let name = VariableName::read(name);
             let given = self.given.get(&name);

@@ -412,7 +412,7 @@ fn cap_faults(faults: &mut Vec<Fault>) {
 fn trimmed(line: &str) -> &str {
     let line = line.trim_ascii_end();
     if line.ends_with(is_blank) {
-        // What editors leave is rare, so it is looked for only in lines that end in it.
+        // Characters left by editors are rare, so they are looked for only in lines that end in one.
         return line.trim_end_matches(is_blank);
     }
     line

@@ -129,7 +129,7 @@ impl FrictcompCompensation {
     pub(crate) fn apply(&mut self, command: &str) -> Result<(), Failure> {
         let command = parse_comp(command)?.ok_or(Failure::NotComp)?;
         let changes = self.states.apply(&command)?;
-        // What a command leaves on an axis that may be coupled is unknown for another reason.
+        // After a command, an axis that may be coupled has an unknown state for another reason.
         let (axis, kinds) = (
             self.states.resolve(&command.axis)?,
             command.selection.kinds(),

@@ -65,7 +65,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     };
     let of_worker = stop.clone();
     let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
-        // No one waits for it after an interrupt.
+        // After an interrupt, the result is not awaited any more.
         let _ = sender.send(work(&of_worker));
     });
     let worker = worker.map_err(|error| {

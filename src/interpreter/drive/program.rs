@@ -572,7 +572,7 @@ impl ControlState {
         .map(|switch| channel.has(switch));
         let keeps_configuration = channel.has(KeepAxes);
         if keeps_configuration && stop == ProgramStop::Reset && !keeps_couplings {
-            // What the reset of P-CHAN-00460 does to couplings is not documented.
+            // The effect of the reset by P-CHAN-00460 on couplings is not documented.
             if self.couplings.is_any() {
                 self.havoc_couplings();
             }

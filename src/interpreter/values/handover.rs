@@ -142,7 +142,7 @@ impl VariableUse {
             value.clone()
         };
         if self.externals.is_own_array(name.array()) {
-            // What no program has written before is 0.
+            // A variable that no program has written is 0.
             self.written.write(&whole, Value::Number(0.0));
         }
         self.written.write(&whole, value);

@@ -147,7 +147,7 @@ pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
 /// Adds to a message the ways on which it applies (R14.5). One that is not an error and applies only if a
 /// value of the machine changes in between is information only (R14.1).
 pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
-    // That the program goes on goes without saying.
+    // A program that continues is the usual case and is not named.
     let goes_on = |it: &WayCondition| matches!(it, WayCondition::Stop { stops: false, .. });
     let mut ways = Cow::Borrowed(ways);
     if ways.iter().flatten().any(goes_on) {

@@ -47,7 +47,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
             let parted = possible.filter(|it| !(is_lost && it.rests_on_calls()));
             let parted = parted.and(away);
             let known = command.filter(|_| end != State::Unknown);
-            // What is passed over may lead away, too.
+            // Blocks that are passed over may lead away, too.
             let doubted = ended.found.history.latest(axis, kind, KindEffect::Doubted);
             let doubted = away
                 .or(doubted)

@@ -132,7 +132,7 @@ impl AnalysisJob {
         let mut found = survey.findings.diagnostics();
         let is_cut = found.any(|it| it.code == Code::Fc910 && it.is_raised());
         let found = survey.findings.diagnostics();
-        // That the editor stops checking does not mean that a loop is endless.
+        // The end of the check in the editor does not prove that a loop is endless.
         said.extend(
             found
                 .filter(|it| !is_cut || it.code != Code::Fc910)

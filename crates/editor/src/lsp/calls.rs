@@ -199,7 +199,7 @@ fn reached(view: &RequestView, uri: &Uri) -> String {
     let is_top = |at: &&usize| programs[**at].called_by.is_empty();
     let mut top: Vec<usize> = reaching.iter().filter(is_top).copied().collect();
     if top.is_empty() {
-        // All of them call each other in a cycle.
+        // No program is uncalled: they call each other in a cycle.
         top = reaching;
     }
     let names = top.iter().take(MOST_NAMED).filter_map(|at| {

@@ -124,7 +124,7 @@ impl Commissioning<'_> {
                 .results((self.plans, self.recordings), &known.recordings, watch)?;
         self.reader
             .take_shares(self.folder, self.plans, (&mut results, self.registry))?;
-        // What one recording shows about another is determined anew each time.
+        // The evidence of one recording on another is determined anew each time.
         let read = results.clone();
         refuse_strangers(&mut results);
         let axes = self.lists(&results, outputs)?;

@@ -34,7 +34,7 @@ impl AxesAhead {
         let (mut has_program, mut has_other) = (false, false);
         for input in inputs {
             if input.probe().is_err() {
-                // What it is instead of a program is reported when it is run.
+                // A file that is no program is reported when it is run.
                 has_other = true;
                 continue;
             }

@@ -155,7 +155,7 @@ impl OutputFiles {
         }
         // The called programs are known now.
         self.registry.check(&self.claims, self.compared)?;
-        // All are put in place, or none.
+        // Either all files are put in place, or none.
         for file in &self.open {
             if let OutputPlace::Beside(beside) = &*file.place() {
                 beside

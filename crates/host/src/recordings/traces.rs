@@ -69,7 +69,7 @@ pub fn is_recording(path: &Path, disk: &Disk) -> bool {
         has_channels = !channels.is_empty();
         Ok(Choice::default())
     });
-    // What is wrong with it is said where it is read.
+    // A fault of the head is reported where the trace is read.
     let read = reader.feed(&head);
     drop(read.and_then(|()| reader.finish()));
     has_channels || no_program(&decode(head)) == Some("XML")

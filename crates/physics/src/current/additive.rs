@@ -221,7 +221,7 @@ impl AdditiveCurrent {
         if self.is_standing && self.reading.standstill == Standstill::Zero {
             raw = 0.0;
         }
-        // No negative zero.
+        // Adding 0 turns -0 into 0.
         let current = self.delayed(raw) + 0.0;
         Added {
             w_before,

@@ -188,7 +188,7 @@ impl VelocityProfile {
             state.jerk = jerk;
             state.seconds = seconds;
             if seconds <= 0.0 {
-                // Nothing happens in it, and nothing reads it.
+                // The phase takes no time, and its state is not read.
                 *place = state;
                 continue;
             }

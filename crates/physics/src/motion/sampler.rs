@@ -86,7 +86,7 @@ impl Sampler {
                 for (place, &axis) in self.followed.iter().enumerate() {
                     let [position, slope] = segment.place(axis, way);
                     self.positions[place] = position;
-                    // No negative zero.
+                    // Adding 0 turns -0 into 0.
                     self.velocities[place] = slope * state.velocity + 0.0;
                 }
                 self.path_velocity = state.velocity;

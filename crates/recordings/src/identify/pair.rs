@@ -78,7 +78,7 @@ impl PairedSpeeds {
             }
         }
         let offsets: Vec<f64> = pairs.iter().filter_map(|pair| pair.offset).collect();
-        // Not weighted: ripple makes errors at high speeds small, but not right.
+        // Unweighted: because of ripple, the errors at high speeds are too small.
         let offset = median(&offsets).unwrap_or(0.0);
         for pair in pairs.iter_mut().filter(|pair| pair.offset.is_none()) {
             // Only one direction: its torque without the offset of the others.

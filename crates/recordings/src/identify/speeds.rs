@@ -80,7 +80,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     let residuals = residuals(&samples, &segments);
     let wave = wave(&samples, &segments);
     if let Some(wave) = wave {
-        // What repeats along the travel is neither friction nor weight.
+        // A torque that repeats along the travel is neither friction nor weight.
         samples.take_away(|position| wave.at(position));
     }
     let PairedSpeeds {
@@ -137,7 +137,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     };
     let lacks = warnings::findings(&identified, options);
     identified.findings.extend(lacks);
-    // What makes the values doubtful comes before what only limits them.
+    // Findings that make the values doubtful come before those that only limit them.
     let is_minor = |it: &TraceFinding| !DOUBTS.contains(&it.code);
     identified.findings.sort_by_key(is_minor);
     Ok(identified)

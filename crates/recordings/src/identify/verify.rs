@@ -116,7 +116,7 @@ pub fn verify_recording(
 ) -> Result<Verified, IdentifyError> {
     let verified = verify_followed(&recording.track, &recording.following_errors, predictor)?;
     let doubts = doubts_about(&recording.track, recording.measured)?.into_iter();
-    // What is wrong goes before what is not known.
+    // Definite faults come before what is not known.
     let (open, wrong): (Vec<_>, Vec<_>) = doubts.partition(|it| it.code == Code::Fc521);
     let is_doubted = !wrong.is_empty();
     recording.findings.splice(0..0, wrong);

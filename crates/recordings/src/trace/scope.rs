@@ -423,7 +423,7 @@ impl Division {
                     return vec![cells.join(between)];
                 }
                 if self.is_blank && cells.len() > width {
-                    // Nothing shows which words are one name.
+                    // The line does not show which words form a name.
                     return Vec::new();
                 }
                 if cells.len() == 2 * width {

@@ -111,7 +111,7 @@ impl ChannelSelection {
     ) -> Result<Option<Pick>, SelectError> {
         let found = match self.asked(quantity) {
             Some(wanted) => Some(self.named(wanted, channels).map_err(|error| {
-                // Nothing is spelled like it, but a similar channel may be meant.
+                // No channel has a similar spelling, but one of a similar kind may be meant.
                 error.or_guess(|| guess(quantity, channels))
             })?),
             None => Self::taken(quantity, channels)?
@@ -728,7 +728,7 @@ mod tests {
                 .help()
                 .is_some_and(|help| help.contains("perhaps `MotorTorque`"))
         );
-        // Those of two axes are recognised, and none is taken.
+        // The channels of two axes are recognised, and none is taken.
         let error = require(&two_axes());
         assert!(matches!(error, SelectError::Several { .. }), "{error}");
     }

@@ -232,7 +232,7 @@ impl<'a> Canvas<'a> {
         push_escaped(&mut out, description);
         out.push_str("</desc>\n");
         if alone {
-            // Nothing in it ends the element: it is a constant of this crate.
+            // The style is a constant of this crate and does not end the element.
             let _ = writeln!(out, "<style>\n{}</style>", style());
         }
         let _ = writeln!(

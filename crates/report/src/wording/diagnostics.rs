@@ -247,7 +247,7 @@ fn element<'a>(
         return group.element(Origin::path(visible_line(&place.file)));
     }
     if place.text.trim().is_empty() {
-        // Nothing to show, or nothing that may be shown.
+        // There is no text to show, or none that may be shown.
         let start = place.start();
         let at = |number: u32| usize::try_from(number).unwrap_or(usize::MAX);
         let origin = Origin::path(&*place.file).line(at(start.line));

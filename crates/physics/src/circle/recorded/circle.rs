@@ -227,7 +227,7 @@ fn refusal(fit: &FittedCircle, points: &[[f64; 2]], runs: &[PathRun]) -> Recorde
     {
         return RecordedError::Gaps(run.missing_deg());
     }
-    // All around, but not on the circle: an ellipse, a square.
+    // Points all around, but not on the circle: an ellipse, a square.
     if fit.goes_round(points)
         && let Ok(all) = FittedCircle::of(points)
         && let Some(refusal) = all.not_round(points)

@@ -207,7 +207,7 @@ impl<'a> Descent<'a> {
             best = self.drive(best.shape)?;
             best = self.descend(best, AGAIN)?;
         }
-        // Whole numbers may leave more elsewhere.
+        // Rounding to whole numbers may increase the glitch at another reversal.
         let mut written: Option<(f64, ListShape)> = None;
         for _ in 0..EXCHANGES {
             let whole = self.whole(&best)?;

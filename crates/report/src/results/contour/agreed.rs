@@ -81,7 +81,7 @@ impl AgreedLine {
         let start = self.text.rfind(' ').map_or(0, |blank| blank + 1);
         self.figures.push(Figure {
             place: start..self.text.len(),
-            // What is compared is what a file can hold.
+            // Values are compared as rounded in a file.
             um: (um * 10.0).round_ties_even() / 10.0,
         });
         self.and(UNIT)

@@ -34,7 +34,7 @@ impl StatesReport {
     /// Returns the verdict: the spread of the states, and the state for which the list is (R18.20).
     pub fn headline(&self) -> Headline {
         let findings = self.states.iter().flat_map(|(_, report)| report.findings());
-        // What is wrong with a recording has the higher codes.
+        // Faults of a recording have the higher codes.
         let mut findings: Vec<_> = findings.collect();
         findings.sort_by_key(|it| std::cmp::Reverse(it.code));
         Headline::new(Standing::Plain, self.spread()).with_fault(findings)

@@ -313,7 +313,7 @@ impl<'a> Sequence<'a> {
     /// does not change them (R1.28).
     ///
     /// # Errors
-    /// Those of `run`.
+    /// The errors of `run`.
     pub fn step<E>(
         &mut self,
         file: &str,

@@ -87,7 +87,7 @@ impl<E, F> RunWith<E> for F where
 /// state, unless `motions` may change (R10.8). `run` runs a program, by its position, with a text in place of the file.
 ///
 /// # Errors
-/// Those of `run`.
+/// The errors of `run`.
 pub fn mend<E>(
     text: &str,
     programs: &[Affected<'_>],

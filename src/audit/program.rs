@@ -210,7 +210,7 @@ impl Auditor {
     /// `run` runs it on an interpreter: the host knows where its text comes from and where called programs are.
     ///
     /// # Errors
-    /// Those of `run`.
+    /// The errors of `run`.
     pub fn audit<E>(
         &self,
         file: &str,

@@ -33,7 +33,7 @@ impl CircularTest {
     /// Makes all four runs, one after the other.
     ///
     /// # Errors
-    /// Those of [`run`](Self::run).
+    /// The errors of [`run`](Self::run).
     pub fn compare(&self) -> Result<Comparison, CircleError> {
         let laps: Result<Vec<_>, _> = LapRun::ALL.into_iter().map(|job| self.run(job)).collect();
         Ok(Comparison::of(laps?))

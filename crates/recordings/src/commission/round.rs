@@ -67,7 +67,7 @@ impl<'a> RecordedRound<'a> {
     /// said against the plants on which they were tuned; it is asked where a feed is recorded off and on.
     ///
     /// # Errors
-    /// Those of `files`.
+    /// The errors of `files`.
     pub fn judged<E>(
         &self,
         earlier: &[Round],

@@ -25,7 +25,7 @@ const MAX_LINES: usize = 500;
 /// line shows its reversals.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn render_contour(
     (contour, subject): (&mut ProgramContour<ContourRecorder<'_>>, &ContourSubject),
     picture: &ContourPicture,

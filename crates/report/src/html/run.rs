@@ -32,7 +32,7 @@ const READING: PagePart = PagePart::new("reading", "Assumptions");
 /// Writes the report of a session as one page. The sources are read once more, line by line.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn render_run(
     digest: &RunDigest,
     given: &RunInputs<'_>,

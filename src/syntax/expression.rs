@@ -178,7 +178,7 @@ impl ExpressionLowering<'_> {
         self.block.spans.push(span);
     }
 
-    /// Precedence over the flat list: operators wait until one that binds less tightly follows,
+    /// Adds an expression by precedence over the flat list: operators wait until one that binds less tightly follows,
     /// so nothing recurses but brackets.
     fn expression(&mut self, pair: Pair<'_, Rule>) {
         let mut stacks = Stacks::default();

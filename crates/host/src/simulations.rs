@@ -87,7 +87,7 @@ impl SimulationRuns<'_> {
         self.after(pieces, (0, pieces.len()), work)
     }
 
-    /// Does pieces of work after `before` others, of `all`, and returns their results.
+    /// Executes pieces of work after `before` others, of `all`, and returns their results.
     fn after<T: Sync, R: Send>(
         &self,
         pieces: &[T],

@@ -19,8 +19,8 @@ pub fn processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// Does each piece of work once, on all processors. The result does not depend on which of them does
-/// it. `done` is called with the number of results so far.
+/// Executes each piece of work once, on all processors. The result does not depend on which of them does it. `done` is
+/// called with the number of results so far.
 pub(super) fn map<T: Sync, R: Send>(
     pieces: &[T],
     work: impl Fn(&T) -> R + Sync,

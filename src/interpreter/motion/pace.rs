@@ -154,7 +154,7 @@ impl Pace {
         change(&mut self.overrides.get_or_insert_default().path);
     }
 
-    /// `X[OVERRIDE …]`
+    /// Changes the override of an axis: `X[OVERRIDE …]`.
     pub(crate) fn override_axis(&mut self, axis: AxisIndex, change: impl FnOnce(&mut Factors)) {
         let overrides = self.overrides.get_or_insert_default();
         change(overrides.axes.entry(axis.get()).or_default());

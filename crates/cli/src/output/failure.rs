@@ -259,8 +259,8 @@ impl Failures {
         self.0.is_empty()
     }
 
-    /// Does work that collects its failures, and reports all of them at the end, even if the work is
-    /// aborted (R9.95).
+    /// Executes work that collects its failures, and reports all of them at the end, even if the work is aborted
+    /// (R9.95).
     pub(crate) fn of(
         console: Console,
         work: impl FnOnce(&mut Self) -> Result<u8, Failure>,

@@ -322,7 +322,7 @@ fn from_recordings_to_judged_lists() {
     other_recordings(folder);
 }
 
-/// Friction only: provisional lists, and all circles are missing.
+/// Drives the first stage, friction only: provisional lists, and all circles are missing.
 fn first_stage(folder: &Path) {
     let (status, text) = run(folder, &[]);
     assert_eq!(status, Some(1), "{text}");
@@ -352,7 +352,8 @@ fn first_stage(folder: &Path) {
     );
 }
 
-/// The provisional lists are the friction of the machine; circles without and with them are recorded.
+/// Drives the second stage: the provisional lists are the friction of the machine; circles without and with them are
+/// recorded.
 fn second_stage(folder: &Path) {
     let lists = ["X", "Y"].map(|axis| provisional(folder, axis));
     succeeded(folder, &["lists", &lists[0]]);
@@ -386,7 +387,7 @@ fn second_stage(folder: &Path) {
     }
 }
 
-/// At one feed the lists were not active.
+/// Checks that lists without effect at one feed are reported.
 fn one_feed_without_effect(folder: &Path) {
     let path = folder.join("m/recordings/on3000.csv");
     let whole = std::fs::read(&path).expect("a recording");
@@ -407,7 +408,7 @@ fn one_feed_without_effect(folder: &Path) {
     std::fs::write(path, whole).expect("written");
 }
 
-/// Another round, then a recording that changed.
+/// Drives another round, then a recording that changed.
 fn other_recordings(folder: &Path) {
     // Other lists are another round: no recording of round 2 is mistaken for one of round 3.
     let zero = ["--value-list", "X=zero.lis", "--value-list", "Y=zero.lis"];

@@ -147,7 +147,7 @@ impl<'a> ProgramsOnMachines<'a> {
         (mended, errors)
     }
 
-    /// Does work on each program, and returns the results in the order of the programs.
+    /// Executes work on each program, and returns the results in the order of the programs.
     fn each<T: Send>(
         self,
         workers: NonZeroUsize,

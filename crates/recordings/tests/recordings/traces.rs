@@ -142,8 +142,8 @@ fn export() -> impl Strategy<Value = Export> {
     })
 }
 
-/// Scope numbers channels of one name; the first channel of a file gets a unique name here, so that
-/// `Name` next to `Name` is not ambiguous if nothing else is above the numbers.
+/// Numbers channels of one name as Scope does; the first channel of a file gets a unique name here, so that `Name` next
+/// to `Name` is not ambiguous if nothing else is above the numbers.
 fn number_the_names(export: &mut Export) {
     let signals = export.tasks.iter_mut().flat_map(|task| &mut task.signals);
     for (number, signal) in signals.enumerate() {

@@ -166,7 +166,7 @@ impl OfAxis {
         }
     }
 
-    /// "X: 3 reversals, 2 without compensation, at most 23.8 µm (all on 1.5, all off 23.8)"
+    /// Returns text such as "X: 3 reversals, 2 without compensation, at most 23.8 µm (all on 1.5, all off 23.8)".
     fn words(&self, axis: &str) -> Markup {
         html! {
             (axis) ": "

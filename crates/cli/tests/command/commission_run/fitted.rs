@@ -354,8 +354,8 @@ fn tuned_lists_are_accepted_by_their_recordings() {
     );
 }
 
-/// The contact is found within 15 %, Kp within 7 %, each within its range; the delay is never known better than to
-/// ±0.5 ms.
+/// Checks the plant: the contact is found within 15 %, Kp within 7 %, each within its range; the delay is never known
+/// better than to ±0.5 ms.
 fn check_plant(found: &Value, own: &Plant) {
     for (axis, own) in [(0, &own.x), (1, &own.y)] {
         let axis = &found["predicted_axes"][axis];
@@ -377,7 +377,7 @@ fn ends(extent: &Value) -> [f64; 3] {
     ["value", "low", "high"].map(|key| extent[key].as_f64().expect("a number"))
 }
 
-/// The tuned lists are accepted by their recordings, and are better than the provisional ones.
+/// Checks that the tuned lists are accepted by their recordings, and are better than the provisional ones.
 fn check_accepted(found: &Value) {
     let rounds = found["rounds"].as_array().expect("rounds");
     assert_eq!(

@@ -206,7 +206,7 @@ fn push_figures<S: ContourSink>(out: &mut Document<'_>, contour: &ProgramContour
     }
 }
 
-/// "part.nc:165 N1640 (programmed, all off), part.nc:168 N1670 (all on)"
+/// Returns text such as "part.nc:165 N1640 (programmed, all off), part.nc:168 N1670 (all on)".
 fn places(at: [Option<&Cause>; 3]) -> Option<String> {
     let mut places: Vec<(String, Vec<&str>)> = Vec::new();
     for (at, run) in at.into_iter().zip(["programmed", "all on", "all off"]) {
@@ -301,7 +301,7 @@ impl Counted {
     }
 }
 
-/// "X reverses 412 times while cutting, 57 times without compensation: …"
+/// Returns text such as "X reverses 412 times while cutting, 57 times without compensation: …".
 fn sentence(axis: &ContourSummary, counted: Counted) -> String {
     let mut text = format!("{} ", axis.axis);
     let rapid = match axis.rapid {

@@ -34,7 +34,7 @@ impl<'a> From<&'a ContourReversal> for ProgramBlock<'a> {
 }
 
 impl ProgramBlock<'_> {
-    /// "part.nc:165 N1640"
+    /// Returns text such as "part.nc:165 N1640".
     pub(crate) fn words(&self) -> String {
         let number = self.number.map_or(String::new(), |n| format!(" N{n}"));
         format!("{}:{}{number}", visible_line(self.file), self.line)

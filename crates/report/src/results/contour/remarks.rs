@@ -27,7 +27,7 @@ pub(super) fn conditions<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<Str
     assumed.chain(rests_on_text(contour.rests_on())).collect()
 }
 
-/// "feed: 2000 mm/min programmed, 105 mm/min reached; 98 % of the cutting time is below 80 % of F"
+/// Returns text such as "feed: 2000 mm/min programmed, 105 mm/min reached; 98 % of the cutting time is below 80 % of F".
 fn feed<S: ContourSink>(contour: &ProgramContour<S>) -> Option<String> {
     let feed = contour.feed();
     Some(format!(
@@ -94,7 +94,7 @@ fn misfit(axis: &ContourAxis, options: &ContourOptions) -> Option<String> {
     ))
 }
 
-/// "compensation of X: the list of the machine, 5 N a drive unit"
+/// Returns text such as "compensation of X: the list of the machine, 5 N a drive unit".
 pub(super) fn compensation(axis: &ContourAxis) -> String {
     let newtons = (axis.newtons_per_unit() * 1000.0).round() / 1000.0;
     let name = visible_line(&axis.name);

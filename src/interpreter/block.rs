@@ -171,7 +171,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// Returns another block of the same program.
+    /// Returns the context of another block of the same program.
     pub(crate) fn other(&self, parsed: &'a Parsed, shown: &'a ShownBlockLines) -> Self {
         Self {
             block: &parsed.block,

@@ -108,7 +108,7 @@ pub(crate) enum CoordinateEffect {
 }
 
 impl BlockGroup {
-    /// Returns its place after the groups of which one is in force.
+    /// Returns the index of the group, after those of the groups of which one function is in force.
     pub(crate) const fn place(self) -> usize {
         match self {
             Self::ExactStop => Group::ExactStop as usize,

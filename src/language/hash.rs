@@ -686,7 +686,7 @@ impl HashWords {
         self.until.filter(|_| has_region && self.is_plain())
     }
 
-    /// Returns its row.
+    /// Returns the row of the command in the table.
     pub(crate) fn row(self) -> &'static HashCommand {
         self.command
     }

@@ -570,7 +570,7 @@ fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     None
 }
 
-/// Returns FC139 at an output.
+/// Returns FC139 at an output of the table.
 fn said(draft: &FrictionDraft, index: u32, message: String) -> Option<Diagnostic> {
     let place = draft.table.get(&index)?.output.as_ref()?.place();
     Some(

@@ -114,7 +114,7 @@ fn numbered(upper: &str, letters: &[char]) -> bool {
     number.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Returns FC210 for a text.
+/// Returns FC210 for a text that is not known.
 pub(crate) fn not_known(text: &str, span: Span) -> Fault {
     let shown: String = text.trim().chars().take(40).collect();
     Fault::new(

@@ -76,7 +76,7 @@ impl Place {
         self.position(self.span.start)
     }
 
-    /// Returns one past the last character that is meant.
+    /// Returns the position after the last character of the place.
     pub fn end(&self) -> Position {
         self.position(self.span.end)
     }

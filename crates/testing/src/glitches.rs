@@ -27,7 +27,7 @@ impl TrueGlitches {
         self.um[axis][0].max(self.um[axis][1])
     }
 
-    /// Returns the largest of all.
+    /// Returns the largest glitch of both axes.
     pub fn largest(&self) -> f64 {
         self.of_axis(0).max(self.of_axis(1))
     }

@@ -106,7 +106,7 @@ fn too_many_repeats(blocks: u64, at: &BlockContext<'_>) -> Diagnostic {
     )
 }
 
-/// Returns FC910 of a program that may end: its remaining course is not known, so it is an error (R9.91).
+/// Returns FC910 for a program that may end: its remaining course is not known, so the message is an error (R9.91).
 fn cut_off(message: String, at: &BlockContext<'_>) -> Diagnostic {
     let fault = Fault::new(Code::Fc910, Span::new(0, at.text.len()), message)
         .with_help(Advice::RaiseBudget(Budget::Blocks));
@@ -123,7 +123,7 @@ fn too_much_to_follow(at: &BlockContext<'_>) -> Diagnostic {
     at.diagnostic(fault)
 }
 
-/// Returns FC918.
+/// Returns FC918: the program holds more values than the limit.
 #[cold]
 fn too_many_values(limit: u32, at: &BlockContext<'_>) -> Diagnostic {
     at.diagnostic(
@@ -277,7 +277,7 @@ impl Executor {
         }
     }
 
-    /// Returns FC908.
+    /// Returns FC908: the run has more ways than are followed.
     fn too_many_ways(&self, passed: &Range<EntryIndex>) -> Option<Diagnostic> {
         let main = self.state.control.frames.main();
         let index = main.map(|frame| self.programs.index(frame.unit));

@@ -58,7 +58,7 @@ pub(crate) struct ExpressionScope<'a> {
 /// Source of the own parameters of a program, `@P1` ….
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ParameterSource {
-    /// A call gave some, and no others.
+    /// Call, which gives some parameters and no others.
     ByCall,
     /// Caller of a cycle that runs without a call.
     FromOutside,
@@ -76,7 +76,7 @@ pub(crate) struct Macros<'a> {
 }
 
 impl Macros<'_> {
-    /// Returns one macro more, whose code is so long; FC914 past the budget.
+    /// Returns the progress inside a macro with this code; FC914 past the budget.
     pub(crate) fn expand(
         self,
         code: &str,

@@ -39,7 +39,7 @@ impl Default for WaySet {
 }
 
 impl WaySet {
-    /// Returns every way.
+    /// Returns the set of all ways.
     pub(crate) fn always() -> Self {
         Self(vec![Vec::new()])
     }

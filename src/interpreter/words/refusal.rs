@@ -257,7 +257,7 @@ impl From<Option<u32>> for PossibleRefusal {
 }
 
 impl PossibleRefusal {
-    /// Returns one about which readings decide.
+    /// Creates a refusal about which the readings of a question decide.
     pub(crate) fn asked(number: impl Into<Option<u32>>, question: Question) -> Self {
         Self {
             number: number.into(),

@@ -29,7 +29,7 @@ fn refused(bench: &Bench, arguments: &[&str]) -> String {
     said
 }
 
-/// Returns every file but locks.
+/// Returns the contents of all files except locks.
 fn contents(bench: &Bench) -> Vec<(String, Vec<u8>)> {
     let entries = fs::read_dir(bench.folder()).expect("a folder");
     let mut files: Vec<_> = entries

@@ -56,7 +56,7 @@ impl OpenDocument {
         }
     }
 
-    /// Returns its text.
+    /// Returns the text of the document.
     pub(super) fn text(&self) -> &str {
         &self.text
     }
@@ -76,7 +76,7 @@ impl OpenDocument {
         self.lines.line_span(&self.text, number).of(&self.text)
     }
 
-    /// Returns its text in place of its file.
+    /// Returns the open text, which takes the place of its file.
     pub(super) fn open_text(&self) -> OpenText {
         OpenText {
             path: self.path.clone(),

@@ -43,7 +43,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// Returns the word of the records.
+    /// Returns the word that stands for the reason in records.
     pub fn as_str(&self) -> &'static str {
         match self {
             Self::Stopped { .. } => "stopped",

@@ -67,7 +67,7 @@ impl Round {
         }
     }
 
-    /// Returns three turns from X+, after a tangent; with the lines of the second turn.
+    /// Returns a program of three turns from X+, after a tangent, and the lines of its second turn.
     fn program(self) -> (String, std::ops::RangeInclusive<u32>) {
         let Self {
             radius,

@@ -67,7 +67,7 @@ pub(super) struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// Returns a picture with its heading.
+    /// Creates a picture with its heading.
     pub(super) fn headed(head: Head<'a>) -> Self {
         let mut canvas = Self {
             head,

@@ -84,7 +84,7 @@ impl BarShape {
             .flat_map(move |state| relations.map(|relation| Self { state, relation }))
     }
 
-    /// Returns its meaning, for the legend.
+    /// Returns the name of the shape for the legend.
     pub(super) fn name(self) -> String {
         let word = self.state.as_str();
         match self.relation {

@@ -104,7 +104,7 @@ pub(crate) fn of_recordings() -> Vec<Fault> {
     all
 }
 
-/// Returns other lists than those that are said to be on.
+/// Returns the faults in which other lists are on than the stated ones.
 pub(crate) fn of_lists_on() -> Vec<Fault> {
     vec![
         Fault {

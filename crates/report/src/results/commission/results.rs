@@ -66,7 +66,7 @@ fn limit(round: &Round) -> &'static str {
     }
 }
 
-/// Returns the figure that is compared.
+/// Returns in words the figure that is compared.
 fn figure(round: &Round) -> &'static str {
     match round.shows {
         Shows::FollowingError => "following error after reversals; motor side, not contour",

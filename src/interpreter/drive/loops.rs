@@ -96,7 +96,7 @@ impl OtherPaths {
         }
     }
 
-    /// Returns a pass of a loop that is joined begins.
+    /// Begins a pass of a loop that is joined.
     fn reach_head(
         &mut self,
         here: &mut Executor,

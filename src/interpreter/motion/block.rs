@@ -239,12 +239,12 @@ impl BlockMotion {
         repeated
     }
 
-    /// Takes the motion from the axis words.
+    /// Drops the axis words, which move nothing.
     pub(crate) fn drop_words(&mut self) {
         self.words.clear();
     }
 
-    /// Records that the control stops before the block moves.
+    /// Drops all motion of the block, since the control stops before it.
     pub(crate) fn stop(&mut self) {
         self.words.clear();
         self.also.clear();
@@ -256,7 +256,7 @@ impl BlockMotion {
         self.geometry = None;
     }
 
-    /// Discards the block before, since it was executed on another way.
+    /// Drops the words of the block before, since it was executed on another way.
     pub(crate) fn forget_last(&mut self) {
         self.words.clear();
         self.last_words.clear();

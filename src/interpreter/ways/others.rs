@@ -315,7 +315,7 @@ impl CallEffect {
         Arrival::Grown
     }
 
-    /// Takes back a way that comes from the last call.
+    /// Merges a way that comes back from the last call.
     pub(crate) fn come_back(&mut self, way: Path, cause: &Unknown) {
         match &mut self.exit {
             Some(exit) => _ = exit.join(way, cause),

@@ -304,7 +304,7 @@ impl Executor {
         }
     }
 
-    /// Opens a loop `#RT WHILE`, which runs as long as its condition on a real-time variable holds (tf5261, 783727499).
+    /// Passes over a loop `#RT WHILE`, which runs as long as its condition on a real-time variable holds (tf5261, 783727499).
     fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>) {
         let whole = self.position().current_block();
         if !whole.is_empty() {

@@ -323,7 +323,7 @@ impl EffectReader<'_> {
         }
     }
 
-    /// Adds a word of an axis, or one that stays in force.
+    /// Adds the effect of an axis word, or of a word that stays in force.
     fn axis_word(&mut self, name: &str) {
         let control = &self.run.state.control;
         match self.run.axes().named(name) {

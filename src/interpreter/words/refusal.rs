@@ -475,7 +475,7 @@ impl Executor {
         }
     }
 
-    /// Returns the way that leads here ends the program.
+    /// Returns the way that leads here as one on which the program ends.
     pub(crate) fn ended_path(&mut self, by: EndedBy) -> EndedPath {
         let mut path = self.state.leave_path();
         path.track.assumed.undo(&mut path.control.memory);

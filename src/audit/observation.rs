@@ -101,13 +101,13 @@ pub(super) struct Observation {
     pub(super) possible: Vec<Option<PossibleStates>>,
     /// The subjects whose states it asked for before it set them, each with the first place.
     pub(super) asked: BTreeMap<usize, Site>,
-    /// Its blocks in the main program, or in the observed called file.
+    /// Blocks in the main program, or in the observed called file.
     pub(super) within: Within,
     /// The called files whose blocks it executed.
     pub(super) called: BTreeSet<Arc<str>>,
     /// The open questions whose readings decided something in it (R15.3).
     pub(super) rests_on: QuestionSet,
-    /// Its use of variables that outlive programs.
+    /// Use of variables that outlive programs.
     pub(super) used: VariableUse,
     /// The main file.
     main: Option<Arc<str>>,

@@ -29,7 +29,7 @@ pub struct Label {
 pub struct Diagnostic {
     /// The control's number, or one of ours.
     pub code: Code,
-    /// Its severity, already changed by the user's `[lint]` table.
+    /// Severity, already changed by the user's `[lint]` table.
     pub severity: Severity,
     /// The message: one sentence in lower case.
     pub message: String,

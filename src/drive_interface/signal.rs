@@ -248,7 +248,7 @@ pub struct NetworkObject {
     pub pdo_name: String,
     /// The path of the element in the file.
     pub path: String,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
 }
 
@@ -262,7 +262,7 @@ pub struct OwnFriction {
     pub object: String,
     /// The path of the element in the file.
     pub path: String,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
 }
 
@@ -309,7 +309,7 @@ pub struct Slave {
 pub struct Network {
     /// The file as the user named it.
     pub file: Arc<str>,
-    /// Its devices in the order of the file.
+    /// Devices in the order of the file.
     pub slaves: Vec<Slave>,
 }
 
@@ -317,7 +317,7 @@ pub struct Network {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Device {
-    /// Its type, such as `AX5103-0000`.
+    /// Type, such as `AX5103-0000`.
     pub name: String,
     /// The number of the vendor.
     pub vendor: Option<u32>,

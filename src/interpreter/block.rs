@@ -475,7 +475,7 @@ pub(crate) enum Feed {
     /// No F word.
     #[default]
     Absent,
-    /// Its value, where it is known.
+    /// Value, where it is known.
     Given(Option<f64>),
 }
 

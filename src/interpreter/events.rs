@@ -111,19 +111,19 @@ pub struct Executed<'a> {
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
-    /// Its block number, where it is known.
+    /// Block number, where it is known.
     pub number: Option<i64>,
     /// The call depth, from 1; absent in the main program.
     pub level: Option<u32>,
     /// Tree of the block.
     pub block: &'a Block,
-    /// Its executed COMP commands, from left to right.
+    /// Executed COMP commands, from left to right.
     pub outcomes: &'a [Outcome],
     /// Changes by the block.
     pub changes: &'a [Change],
     /// Kinds that the block leaves unknown though no command of it names them (R2.51).
     pub doubted: &'a [(AxisIndex, KindSet)],
-    /// Its axis words that move an axis; [`motions`](Self::motions) has every axis that it moves.
+    /// Axis words that move an axis; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
     /// Motion of the block.
     pub(crate) moves: &'a BlockMotion,

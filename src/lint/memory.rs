@@ -141,7 +141,7 @@ pub(super) struct AxisMemory {
     pub(super) commanded: bool,
     /// Evidence that the axis has moved on all ways that lead to its last motion: in any way, and with certainty.
     settled: Settled,
-    /// Its motions in a state that was left by something before the program.
+    /// Motions in a state that was left by something before the program.
     pub(super) inherited: Inherited,
 }
 

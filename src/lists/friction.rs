@@ -502,7 +502,7 @@ pub struct ListHead<'a> {
     pub remarks: &'a [&'a str],
     /// The logical number of the axis, P-COMP-00001 (`kopf.achs_nr`).
     pub number: Option<u32>,
-    /// Its name, P-COMP-00002 (`kopf.log_achs_name`); left out if it is not a plain word.
+    /// Name, P-COMP-00002 (`kopf.log_achs_name`); left out if it is not a plain word.
     pub name: Option<&'a str>,
 }
 

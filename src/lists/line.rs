@@ -561,7 +561,7 @@ impl fmt::Display for Number {
 pub struct Written {
     /// The word as written.
     pub text: String,
-    /// Its number, if it is one.
+    /// Number, if it is one.
     pub number: Option<Number>,
 }
 

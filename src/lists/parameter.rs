@@ -118,7 +118,7 @@ pub struct Parameter {
     pub key: String,
     /// The effective value, in list notation.
     pub value: String,
-    /// Its unit for the axis' type, empty for plain numbers.
+    /// Unit for the axis' type, empty for plain numbers.
     pub unit: &'static str,
     /// Origin of the value.
     pub origin: Origin,

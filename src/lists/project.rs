@@ -63,7 +63,7 @@ pub(crate) struct NoProject {
 /// An item of a project: an axis, a channel, or a folder of them.
 #[derive(Debug, Clone)]
 pub(crate) struct ProjectItem {
-    /// Its name in the tree of the project.
+    /// Name in the tree of the project.
     pub(crate) name: String,
     /// The channel of the axis, from 1.
     pub(crate) channel: Option<Given<u32>>,
@@ -78,9 +78,9 @@ pub(crate) struct ProjectItem {
 pub(crate) struct ProjectList {
     /// The items around it, the nearest one first, as positions among all items.
     pub(crate) items: Vec<usize>,
-    /// Its text, with the line numbers of the file.
+    /// Text, with the line numbers of the file.
     pub(crate) source: Arc<SourceFile>,
-    /// Its kind; `None` for a list that does not concern compensation.
+    /// Kind; `None` for a list that does not concern compensation.
     pub(crate) kind: Option<ListKind>,
     /// Place and name of its element.
     pub(crate) element: Given<String>,

@@ -14,7 +14,7 @@ use crate::diagnostic::{Code, Diagnostic};
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct NamedList {
-    /// Its path as written.
+    /// Path as written.
     pub path: Given<String>,
     /// The axis that it belongs to, if the start-up list gives it.
     pub axis_number: Option<Given<u32>>,
@@ -27,11 +27,11 @@ pub struct NamedList {
 pub(crate) struct AxisPlacement {
     /// The path of its axis list.
     pub(crate) list: String,
-    /// Its channel, from 1.
+    /// Channel, from 1.
     pub(crate) channel: Option<Given<u32>>,
-    /// Its position in the channel, from 0.
+    /// Position in the channel, from 0.
     pub(crate) index: Option<u32>,
-    /// Its name in programs.
+    /// Name in programs.
     pub(crate) name: Option<Given<String>>,
 }
 

@@ -67,7 +67,7 @@ pub struct Machine {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GantrySlave {
-    /// Its name, if its list gives one.
+    /// Name, if its list gives one.
     pub name: String,
     /// The name of its master; `None` if no list describes the master.
     pub master: Option<String>,

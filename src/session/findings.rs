@@ -376,7 +376,7 @@ struct Saying {
     /// A hash of its text.
     hash: u64,
     times: u64,
-    /// Its text, from the second time on.
+    /// Text, from the second time on.
     message: String,
 }
 

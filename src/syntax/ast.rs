@@ -224,9 +224,9 @@ pub struct Assignment {
 /// A `#` command.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hash {
-    /// Its row in the table of the language, and its further words.
+    /// Row in the table of the language, and its further words.
     pub(crate) command: HashWords,
-    /// Its words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
+    /// Words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
     pub name: String,
     /// Text after the words.
     pub rest: Span,
@@ -523,7 +523,7 @@ pub enum Flow {
     For {
         /// The counter.
         counter: Target,
-        /// Its first value.
+        /// First value.
         start: Operand,
         /// The value that ends the loop when it is passed.
         end: Operand,
@@ -601,7 +601,7 @@ pub enum Node {
     Parameter {
         /// Owner of the parameter.
         owner: Owner,
-        /// Its number.
+        /// Number.
         index: u32,
     },
     /// `PP10`, `P100[3]`: the number and the subscripts are popped.

@@ -23,7 +23,7 @@ const ONES: u64 = 0x0101_0101_0101_0101;
 /// A line that is plain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plain {
-    /// Its bytes without the line end.
+    /// Bytes without the line end.
     pub(super) length: usize,
     pub(super) comments: Comments,
 }

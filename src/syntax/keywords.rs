@@ -228,7 +228,7 @@ fn push_word(name: &mut String, word: &str) {
 
 /// A `#` command at the start of a block.
 pub(super) struct OpeningCommand<'a> {
-    /// Its words.
+    /// Words.
     pub(super) name: CommandName,
     /// The text after them.
     pub(super) rest: &'a str,

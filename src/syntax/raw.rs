@@ -96,7 +96,7 @@ pub struct LostRemarks {
 pub struct LineFault {
     /// The line without trailing blanks.
     pub text: String,
-    /// Its number, from 1.
+    /// Number, from 1.
     pub line: u32,
     /// The fault, whose span counts from the start of the line.
     pub fault: Fault,

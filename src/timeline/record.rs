@@ -140,7 +140,7 @@ pub struct Repeat {
     pub times: u64,
     /// Position of the remark.
     pub start: Position,
-    /// Its message.
+    /// Message.
     pub message: String,
 }
 

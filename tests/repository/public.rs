@@ -8,7 +8,7 @@ use crate::{root, rust_files};
 
 /// A package that others may use.
 struct Package {
-    /// Its folder.
+    /// Folder.
     folder: &'static str,
     /// The prefix of its rooms in the list.
     prefix: &'static str,

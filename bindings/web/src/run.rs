@@ -156,7 +156,7 @@ pub(crate) enum TimelineItem<'a> {
         changes: Vec<usize>,
     },
     Message {
-        /// Its position among the messages.
+        /// Position among the messages.
         at: usize,
     },
     End {

@@ -212,7 +212,7 @@ impl Watch {
 pub struct Reached<'a> {
     /// The name of the program.
     pub file: &'a str,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
 }
 

@@ -20,7 +20,7 @@ pub struct StateRecording {
 pub struct RecordedGap {
     /// The time of the last sample before it, in seconds.
     pub at_s: f64,
-    /// Its length in seconds.
+    /// Length in seconds.
     pub length_s: f64,
 }
 
@@ -28,13 +28,13 @@ pub struct RecordedGap {
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedAxis {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Whether friction compensation was active at the first sample.
     pub start: bool,
     /// The time of the first sample in seconds.
     pub start_s: f64,
-    /// Its changes in their order.
+    /// Changes in their order.
     pub changes: Vec<RecordedChange>,
     /// The time of the last sample in seconds.
     pub end_s: f64,
@@ -124,7 +124,7 @@ pub struct Disagreement {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ReplayedAxis {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The changes on which both agree, before the first disagreement if there is one.
     pub changes: Vec<MatchedChange>,

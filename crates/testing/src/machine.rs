@@ -8,11 +8,11 @@ use super::program::Program;
 /// A machine of two axes.
 #[derive(Debug, Clone)]
 pub struct Machine {
-    /// Its name in tables.
+    /// Name in tables.
     pub name: &'static str,
     /// X and Y.
     pub axes: [Axis; 2],
-    /// Its control.
+    /// Control.
     pub control: Control,
 }
 

@@ -23,7 +23,7 @@ pub enum Move {
 /// A program of two axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
-    /// Its moves in their order.
+    /// Moves in their order.
     pub moves: Vec<Move>,
 }
 

@@ -45,7 +45,7 @@ pub(crate) struct IndexEntry {
 pub(crate) struct ProgramSection {
     pub(crate) name: Option<String>,
     pub(crate) local: bool,
-    /// Its name in the `%` line, where it has one.
+    /// Name in the `%` line, where it has one.
     pub(crate) opening: Option<Place>,
     pub(crate) start: EntryIndex,
     pub(crate) end: EntryIndex,

@@ -188,7 +188,7 @@ fn is_named(names: &BTreeSet<VariableName>, name: &VariableName) -> bool {
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(crate) struct SetAt {
     pub(crate) file: Arc<str>,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub(crate) line: u32,
 }
 

@@ -44,7 +44,7 @@ pub(crate) struct NamedVariable {
     pub(crate) elements: PersistentMap<Subscripts, Value>,
     /// Set when some element was written, but it is not known which.
     pub(crate) lost: Option<Unknown>,
-    /// Its declaration, where it has one on some way.
+    /// Declaration, where it has one on some way.
     pub(crate) declared: Option<Declared>,
 }
 

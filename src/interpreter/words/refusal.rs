@@ -235,7 +235,7 @@ fn error_with(class: &str, span: Span, at: &BlockContext<'_>) -> Diagnostic {
 /// An error by which the control may refuse a block.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PossibleRefusal {
-    /// Its number, where that is public.
+    /// Number, where that is public.
     number: Option<u32>,
     /// The question whose readings decide.
     question: Option<Question>,

@@ -76,7 +76,7 @@ pub(super) struct ProgramRun {
 /// An axis when a program has ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AxisEnd {
-    /// Its position in the machine.
+    /// Position in the machine.
     pub(super) at: usize,
     /// Name of the axis.
     pub(super) axis: String,

@@ -91,7 +91,7 @@ pub(super) struct Timeline {
 pub(super) struct AxisTimeline {
     /// Name of the axis.
     pub(super) axis: String,
-    /// Its states, from the first line to the last.
+    /// States, from the first line to the last.
     pub(super) segments: Vec<StateSegment>,
 }
 

@@ -27,7 +27,7 @@ pub(super) enum Kind {
 /// A text that the client has open.
 #[derive(Debug, Clone)]
 pub(super) struct OpenDocument {
-    /// Its URI, as the client writes it.
+    /// URI, as the client writes it.
     pub(super) uri: Uri,
     /// The file that it replaces; for a text without one, a name in the folder of the project.
     pub(super) path: PathBuf,

@@ -14,9 +14,9 @@ use super::worker::Worker;
 pub(super) struct RoutedRequest {
     /// The number that the client gives it.
     pub(super) id: RequestId,
-    /// Its handler.
+    /// Handler.
     pub(super) handler: Handler,
-    /// Its parameters.
+    /// Parameters.
     pub(super) params: Value,
     /// State of the server at the moment of the request.
     pub(super) view: RequestView,

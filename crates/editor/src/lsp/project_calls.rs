@@ -40,7 +40,7 @@ pub(super) struct Project {
 pub(super) struct Subprogram {
     /// The file that holds it.
     pub(super) path: PathBuf,
-    /// Its name.
+    /// Name.
     pub(super) name: String,
     /// The place of the name.
     pub(super) place: Place,

@@ -27,7 +27,7 @@ pub struct CallGraph {
 pub struct GraphProgram {
     /// The program.
     pub input: Input,
-    /// Its name in outputs.
+    /// Name in outputs.
     pub name: String,
     /// The one path to which all names of its file lead; `None` for standard input.
     pub place: Option<PathBuf>,

@@ -67,7 +67,7 @@ pub struct CheckedPrograms {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct CheckedProgram {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The places of its messages among the causes.
     pub said: Vec<usize>,

@@ -50,7 +50,7 @@ words! {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LeftOutFile {
-    /// Its path; of what a pattern names, perhaps that of a folder.
+    /// Path; of what a pattern names, perhaps that of a folder.
     pub path: PathBuf,
     /// The reason.
     pub why: WhyLeftOut,

@@ -54,9 +54,9 @@ pub enum AskError {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AskedControl<'a> {
-    /// Its machine.
+    /// Machine.
     pub loaded: &'a LoadedMachine,
-    /// Its build, if it is given.
+    /// Build, if it is given.
     pub build: Option<CncBuild>,
 }
 
@@ -269,11 +269,11 @@ pub struct RecordedAnswers {
 /// The axis under test.
 #[derive(Debug, Clone)]
 pub struct AskedAxis {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its logical number, P-AXIS-00016; without it axis exchange is not asked.
+    /// Logical number, P-AXIS-00016; without it axis exchange is not asked.
     pub number: Option<u32>,
-    /// Its place among the axes of the channel, from 0.
+    /// Place among the axes of the channel, from 0.
     pub index: usize,
     /// The build of the control.
     pub build: Option<CncBuild>,

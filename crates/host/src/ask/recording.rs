@@ -24,7 +24,7 @@ use frictcomp_recordings::trace::{
 pub(super) struct RecordedQuestions<'a> {
     /// The axis.
     pub(super) axis: &'a AskedAxis,
-    /// Its machine.
+    /// Machine.
     pub(super) machine: &'a Machine,
     /// The channels named by the user.
     pub(super) selection: &'a ChannelSelection,

@@ -25,7 +25,7 @@ pub enum CommissionError {
     PlanForm {
         /// Path of the file.
         path: PathBuf,
-        /// Its form.
+        /// Form.
         found: u32,
     },
     /// A folder without a plan.

@@ -87,9 +87,9 @@ pub fn motors_of(plans: &[PlanFile]) -> Vec<&str> {
 pub struct Commissioning<'a> {
     /// The folder.
     pub folder: &'a Path,
-    /// Its plans.
+    /// Plans.
     pub plans: &'a [PlanFile],
-    /// Its recordings.
+    /// Recordings.
     pub recordings: &'a [PathBuf],
     /// The reader of the recordings.
     pub reader: CommissionReader<'a>,

@@ -44,7 +44,7 @@ pub struct Planning<'a> {
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisToMeasure {
-    /// Its name in programs.
+    /// Name in programs.
     pub name: String,
     /// The travel that may be used.
     pub travel: FreeTravel,

@@ -289,7 +289,7 @@ pub enum UnusedRecording {
         /// Findings about its channels.
         findings: Vec<TraceFinding>,
     },
-    /// Its axis does not follow its commands, or the following error is missing.
+    /// The axis does not follow its commands, or the following error is missing.
     #[error(transparent)]
     NotFollowed(#[from] NotFollowed),
     /// A motor of a gantry, with the reason.
@@ -311,7 +311,7 @@ pub enum UnusedRecording {
         /// Name of the first one.
         axis: String,
     },
-    /// Its program moves an axis that the plan does not have.
+    /// The program moves an axis that the plan does not have.
     #[error("its axis is not in the plan")]
     NoAxis,
     /// A number that belongs to no program.

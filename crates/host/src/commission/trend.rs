@@ -26,7 +26,7 @@ pub struct DatedRecordings<'a> {
     pub recordings: &'a [PathBuf],
     /// The name of the axis, if it is given.
     pub axis: Option<String>,
-    /// Its channels.
+    /// Channels.
     pub channels: ChannelSelection,
     /// The CNC cycle in s, if it is known.
     pub cycle_s: Option<f64>,

@@ -30,9 +30,9 @@ pub struct CaseError {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct CaseFile {
-    /// Its name, used in calls and lists.
+    /// Name, used in calls and lists.
     pub name: String,
-    /// Its text.
+    /// Text.
     pub text: String,
 }
 
@@ -96,7 +96,7 @@ pub enum Expectation {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Case {
-    /// Its file.
+    /// File.
     pub file: PathBuf,
     /// Chapter and name, `1/off`.
     pub name: String,

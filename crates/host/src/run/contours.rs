@@ -47,7 +47,7 @@ pub enum NoDrivenContour {
     /// The program cannot be read.
     #[error(transparent)]
     Host(#[from] HostError),
-    /// Its axes cannot be driven.
+    /// The axes cannot be driven.
     #[error(transparent)]
     Axes(#[from] NoContour),
     /// A plant whose control loops are unstable on the path.

@@ -18,7 +18,7 @@ const LEAST_MM: f64 = 0.0005;
 pub(crate) struct CircleDrift {
     /// The shift in mm per turn.
     pub(crate) per_turn_mm: [f64; 2],
-    /// Its standard error.
+    /// Standard error.
     pub(crate) error_mm: [f64; 2],
 }
 

@@ -32,9 +32,9 @@ pub enum OtherShape {
     },
     /// An oscillation in time.
     Vibration {
-        /// Its frequency.
+        /// Frequency.
         hertz: f64,
-        /// Its amplitude in µm.
+        /// Amplitude in µm.
         amplitude_um: f64,
     },
     /// Any other shape.
@@ -47,9 +47,9 @@ pub enum OtherShape {
 pub struct Term {
     /// The shape.
     pub shape: ShapeTerm,
-    /// Its size.
+    /// Size.
     pub size_um: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error_um: f64,
 }
 

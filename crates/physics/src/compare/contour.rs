@@ -32,7 +32,7 @@ impl From<ProgramContour<BlockDeviations>> for VersionContour {
 pub struct BlockChange {
     /// The block of the new version.
     pub block: BlockDeviation,
-    /// Its place and deviation there.
+    /// Place and deviation there.
     pub new: WorstPlace,
     /// The line in the old version and its deviation there in µm, if that version has the block.
     pub old: Option<(u32, f64)>,

@@ -23,9 +23,9 @@ pub struct Obstacle {
 pub enum Reason {
     /// Program that an error or a budget stops.
     Stopped {
-        /// Its code.
+        /// Code.
         code: Code,
-        /// Its message.
+        /// Message.
         message: String,
     },
     /// State that depends on what only the machine knows.

@@ -116,7 +116,7 @@ pub struct BlockDeviations {
 /// The block that is cut.
 #[derive(Debug, Clone, Default)]
 struct Cut {
-    /// Its number in the run.
+    /// Number in the run.
     seq: u64,
     /// Index in the list.
     at: Option<usize>,

@@ -27,9 +27,9 @@ pub enum ListSource {
 pub struct ContourAxis {
     /// Position of the axis in the machine.
     pub axis: AxisIndex,
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its simulated drive.
+    /// Simulated drive.
     pub drive: DriveParameters,
     /// The compensation value list.
     pub list: FrictionList,

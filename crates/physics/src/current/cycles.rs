@@ -48,7 +48,7 @@ pub enum CyclesError {
         row: usize,
         /// The time of the row above.
         before_s: f64,
-        /// Its time.
+        /// Time.
         time_s: f64,
     },
     /// A row at the time of the one above it.
@@ -56,7 +56,7 @@ pub enum CyclesError {
     Repeated {
         /// The row, counted from 1 below the header.
         row: usize,
-        /// Its time.
+        /// Time.
         time_s: f64,
     },
     /// Cycles that were not recorded.
@@ -69,7 +69,7 @@ pub enum CyclesError {
     Gap {
         /// The row, counted from 1 below the header.
         row: usize,
-        /// Its time.
+        /// Time.
         time_s: f64,
         /// The time since the row above.
         step_s: f64,
@@ -86,7 +86,7 @@ pub enum CyclesError {
     Step {
         /// The row, counted from 1 below the header.
         row: usize,
-        /// Its time.
+        /// Time.
         time_s: f64,
         /// The time since the row above.
         step_s: f64,

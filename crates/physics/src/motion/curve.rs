@@ -38,7 +38,7 @@ pub(super) struct SplineSpan {
 /// One axis that moves along a span.
 #[derive(Debug, Clone, Copy)]
 struct MovingAxis {
-    /// Its place among the axes of the machine.
+    /// Place among the axes of the machine.
     place: usize,
     /// Whether the feed refers to the axis.
     is_main: bool,

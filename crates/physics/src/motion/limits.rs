@@ -41,7 +41,7 @@ pub struct Assumed {
 pub struct AssumedLimits {
     /// The name of the axis.
     pub axis: String,
-    /// Its type.
+    /// Type.
     pub axis_type: AxisType,
     /// `max_velocity` in mm/min or °/min, if it is assumed.
     pub max_velocity: Option<f64>,

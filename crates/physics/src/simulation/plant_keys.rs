@@ -66,7 +66,7 @@ pub(super) enum StictionKey {
 pub(super) struct KeyFacts {
     /// The symbol of the equations.
     pub(super) key: &'static str,
-    /// Its unit, empty if it has none; except in `[stiction]` and for backlash those of SI.
+    /// Unit, empty if it has none; except in `[stiction]` and for backlash those of SI.
     pub(super) unit: &'static str,
     /// The smallest and the largest accepted value. The ranges are wide; they guard against wrong units
     /// and against values that the step of the simulation could not follow.

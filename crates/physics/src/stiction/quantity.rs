@@ -42,7 +42,7 @@ pub enum Quantity {
 struct QuantityFacts {
     quantity: Quantity,
     symbol: &'static str,
-    /// Its key in records, and its name for a host.
+    /// Key in records, and its name for a host.
     name: &'static str,
     unit: &'static str,
     /// Further units, each with the factor of a value in it.

@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 1e-6;
 pub struct Solved {
     /// The quantity.
     pub quantity: Quantity,
-    /// Its value in its own unit.
+    /// Value in its own unit.
     pub value: f64,
     /// The formula that gave it; absent if it was given.
     pub by: Option<&'static str>,
@@ -99,7 +99,7 @@ pub enum StictionError {
     Limited {
         /// The required `Δs_a`.
         needed_mm: f64,
-        /// Its limit.
+        /// Limit.
         limit_mm: f64,
     },
 }

@@ -36,7 +36,7 @@ pub enum PlanError {
     NotPositive {
         /// The value.
         what: &'static str,
-        /// Its number.
+        /// Number.
         value: f64,
     },
     /// Too few feeds for the plant.

@@ -46,7 +46,7 @@ pub struct AxisVerdict {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct InputFile {
-    /// Its role: a plan, a plant, the list of an axis.
+    /// Role: a plan, a plant, the list of an axis.
     pub what: String,
     /// The file, as it is shown.
     pub file: String,

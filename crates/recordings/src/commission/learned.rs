@@ -85,7 +85,7 @@ pub enum LearnError {
     Radius {
         /// Name of the file.
         file: String,
-        /// Its radius.
+        /// Radius.
         found_mm: f64,
         /// The radius of the first recording.
         radius_mm: f64,

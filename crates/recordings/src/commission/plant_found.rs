@@ -114,7 +114,7 @@ pub struct RecordedGlitch {
     /// The glitch in µm.
     #[serde(rename = "recorded_glitch")]
     pub um: f64,
-    /// Its standard error.
+    /// Standard error.
     #[serde(rename = "recorded_error")]
     pub error_um: f64,
 }

@@ -24,7 +24,7 @@ pub struct PlanRequest {
 /// An axis of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredAxis {
-    /// Its name in programs.
+    /// Name in programs.
     pub name: String,
     /// Linear or rotary.
     pub axis_type: AxisType,

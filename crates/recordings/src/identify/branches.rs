@@ -36,7 +36,7 @@ pub struct DirectionBranches {
     pub points: Vec<BranchPoint>,
     /// The change of the common part from the slowest to the fastest speed, in drive units.
     pub change: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error: f64,
 }
 

@@ -68,7 +68,7 @@ pub enum IdentifyError {
     NoFriction {
         /// Half of the difference between the directions.
         friction: f64,
-        /// Its standard error.
+        /// Standard error.
         spread: f64,
     },
 }

@@ -39,7 +39,7 @@ pub struct Visit {
     pub time_s: f64,
     /// The friction in drive units.
     pub friction: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error: f64,
 }
 

@@ -13,7 +13,7 @@ use frictcomp_physics::linear::inverse;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Share {
     pub(super) value: f64,
-    /// Its standard error, with that of the unknown delays.
+    /// Standard error, with that of the unknown delays.
     pub(super) error: f64,
 }
 

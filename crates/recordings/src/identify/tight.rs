@@ -24,7 +24,7 @@ const PART: f64 = 0.05;
 /// A place where the axis moves harder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TightSpot {
-    /// Its ends in mm or degrees.
+    /// Ends in mm or degrees.
     pub(super) from: f64,
     pub(super) to: f64,
     /// Least additional torque, in drive units.

@@ -60,7 +60,7 @@ pub enum TrackError {
         time_s: f64,
         /// The quantity, in words.
         what: &'static str,
-        /// Its value.
+        /// Value.
         value: f64,
     },
     /// Fewer samples than a segment has.

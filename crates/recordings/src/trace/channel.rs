@@ -24,7 +24,7 @@ impl ChannelIndex {
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Channel {
-    /// Its name in the file; without a header `column 1` and so on.
+    /// Name in the file; without a header `column 1` and so on.
     pub name: String,
     /// The comment or the description that the file gives.
     pub comment: String,

@@ -27,7 +27,7 @@ frictcomp::words! {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RecognisedChannel {
-    /// Its quantity.
+    /// Quantity.
     pub role: ChannelRole,
     /// The axis, by its name or by its number in a CNC object.
     pub axis: Option<String>,

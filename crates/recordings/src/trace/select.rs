@@ -44,7 +44,7 @@ pub struct ChannelSelection {
 pub struct Pick {
     /// Index of the channel.
     pub channel: ChannelIndex,
-    /// Its unit.
+    /// Unit.
     pub unit: Unit,
     /// Whether the unit is assumed to be that of the CNC, because none is named.
     pub is_unit_assumed: bool,

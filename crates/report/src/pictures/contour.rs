@@ -50,9 +50,9 @@ pub struct FollowedContour {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct BlockStretch {
-    /// Its file.
+    /// File.
     pub file: Arc<str>,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
     /// A line through points of the picture, in its units.
     pub points: Vec<[f64; 2]>,

@@ -113,7 +113,7 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
 
 /// The residuals in a piece of the travel.
 struct Piece {
-    /// Its middle.
+    /// Middle.
     place: f64,
     mean: f64,
     low: f64,

@@ -14,7 +14,7 @@ use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
 pub struct TraceReport<'a> {
     /// The name of the file.
     pub name: String,
-    /// Its channels.
+    /// Channels.
     pub recording: &'a TraceRecording,
 }
 

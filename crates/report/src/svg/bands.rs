@@ -15,7 +15,7 @@ pub struct Band {
     pub from: f64,
     /// End of the bar.
     pub to: f64,
-    /// Its content.
+    /// Content.
     pub state: BandState,
     /// Relation of the state to the start-up state.
     pub relation: StartUpRelation,

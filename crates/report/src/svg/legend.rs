@@ -10,9 +10,9 @@ use super::shape::BarShape;
 pub(super) enum LegendSample {
     /// The line of the series with this number.
     Line(usize),
-    /// Its markers.
+    /// Markers.
     Marker(usize),
-    /// Its line with markers.
+    /// Line with markers.
     MarkedLine(usize),
     /// A line in the colour of the axes.
     Thin,

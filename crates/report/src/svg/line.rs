@@ -39,7 +39,7 @@ pub enum Drawn {
 /// A curve.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub name: String,
     /// Pairs of x and y in the order of drawing. One that is not finite interrupts the curve.
     pub points: Vec<[f64; 2]>,
@@ -76,7 +76,7 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Words in the panel.
     pub notes: Vec<CurveNote>,
-    /// Its height.
+    /// Height.
     pub height: PanelHeight,
 }
 

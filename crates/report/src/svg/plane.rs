@@ -74,7 +74,7 @@ pub struct PlaneMark {
     pub place: [f64; 2],
     /// Whether the mark has a ring.
     pub ringed: bool,
-    /// Its importance; of several in one place the greatest counts.
+    /// Importance; of several in one place the greatest counts.
     pub weight: f64,
     /// Words next to it, for the worst ones.
     pub label: Option<String>,

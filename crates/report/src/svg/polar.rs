@@ -11,9 +11,9 @@ use super::scale::{label, round_step};
 /// One way round the circle.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolarSeries {
-    /// Its name in the legend; series of one name have one row.
+    /// Name in the legend; series of one name have one row.
     pub name: String,
-    /// Its colour: 0 with compensation, 1 without.
+    /// Colour: 0 with compensation, 1 without.
     pub look: usize,
     /// Line style: finer for the other way round the circle.
     pub stroke: PolarStroke,

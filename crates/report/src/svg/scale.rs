@@ -18,7 +18,7 @@ pub enum Spacing {
 pub struct ChartAxis {
     /// The quantity with its unit, `velocity in mm/min`.
     pub label: String,
-    /// Its division.
+    /// Division.
     pub spacing: Spacing,
     /// Whether the axis contains 0, whatever the values are.
     pub from_zero: bool,

@@ -5,7 +5,7 @@
 pub struct NcProgram {
     /// The names of its axes.
     pub axes: &'static [&'static str],
-    /// Its local subprograms.
+    /// Local subprograms.
     pub subprograms: Vec<Subprogram>,
     /// The line that begins the main program, `%MAIN`, or nothing.
     pub head: &'static str,
@@ -20,9 +20,9 @@ pub struct NcProgram {
 /// A local subprogram.
 #[derive(Debug, Clone)]
 pub struct Subprogram {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its statements before M17.
+    /// Statements before M17.
     pub body: Vec<Statement>,
 }
 
@@ -31,7 +31,7 @@ pub struct Subprogram {
 pub struct Statement {
     /// The line on which it begins, once it is written.
     pub line: u32,
-    /// Its lines that have a skip mark.
+    /// Lines that have a skip mark.
     pub marks: SkipMarks,
     /// Form of the statement.
     pub form: Form,
@@ -106,7 +106,7 @@ impl Statement {
 /// A block of commands and motions.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CompBlock {
-    /// Its commands.
+    /// Commands.
     pub commands: Vec<CompSwitch>,
     /// The axes that it moves, by their positions.
     pub moves: Vec<usize>,
@@ -144,7 +144,7 @@ pub enum Pace {
 pub struct SwitchCase {
     /// The number that selects it.
     pub number: usize,
-    /// Its statements.
+    /// Statements.
     pub body: Vec<Statement>,
     /// Whether `$BREAK` ends the case.
     pub has_break: bool,

@@ -40,7 +40,7 @@ const CHANGE: f64 = 0.1;
 pub struct Learner {
     /// The axis.
     pub axis: PlaneAxis,
-    /// Its drive in the reference plant.
+    /// Drive in the reference plant.
     pub drive: DriveParameters,
     /// Friction model.
     pub model: FrictionModel,

@@ -28,7 +28,7 @@ pub struct RecordedCircle {
     pub direction: Direction,
     /// The centre of the least-squares circle.
     pub centre_mm: [f64; 2],
-    /// Its radius.
+    /// Radius.
     pub radius_mm: f64,
     /// Number of points of the evaluated turn.
     pub points: usize,

@@ -39,7 +39,7 @@ const ROUND_MM: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(super) struct PathRun {
     pub(super) direction: Direction,
-    /// Its points.
+    /// Points.
     pub(super) points: Range<usize>,
     /// The angle since its first point in the direction of travel, in radians.
     angles: Vec<f64>,

@@ -23,7 +23,7 @@ const LEAST_UM: f64 = 0.05;
 pub struct MeasuredGlitch {
     /// The glitch without its noise: of the mean of all turns, or the largest where the turns differ.
     pub um: f64,
-    /// Its standard error, which contains the scatter of turns that differ.
+    /// Standard error, which contains the scatter of turns that differ.
     pub error_um: f64,
     /// The median of the turns.
     pub median_um: f64,

@@ -31,7 +31,7 @@ pub struct WholeTurns {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WorseTurn {
-    /// Its direction of travel.
+    /// Direction of travel.
     pub direction: Direction,
     /// The crossing.
     pub crossing: Crossing,

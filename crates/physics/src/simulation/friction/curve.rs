@@ -9,9 +9,9 @@ pub(super) const LEAST_N: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct GmsElement {
-    /// Its share of the friction, α; the shares of all elements add up to 1.
+    /// Share of the friction, α; the shares of all elements add up to 1.
     pub share: f64,
-    /// Its stiffness k.
+    /// Stiffness k.
     pub stiffness_n_per_m: f64,
 }
 

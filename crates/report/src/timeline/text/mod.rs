@@ -53,10 +53,10 @@ pub struct TextOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum MessageExtent {
-    /// Its words, its place and its advice.
+    /// Words, its place and its advice.
     #[default]
     Words,
-    /// Its code, place and axis, so that better words change nothing that was agreed (R18.30).
+    /// Code, place and axis, so that better words change nothing that was agreed (R18.30).
     Code,
 }
 

@@ -76,8 +76,8 @@ impl AxisAudit {
         }
     }
 
-    /// Returns the ways on which it leaves the axis away from its start-up state, in words as seen from a file: `if
-    /// skip level 1 is on`; `None` if it does so on all of them.
+    /// Returns the ways on which it leaves the axis away from its start-up state, in words as seen from a file:
+    /// `if skip level 1 is on`; `None` if it does so on all of them.
     pub fn leaves_away_when(&self, file: &str) -> Option<String> {
         let possible = self.possible.as_ref()?;
         let is_away = |state: State| (state == State::Inactive) == self.on_at_start_up;

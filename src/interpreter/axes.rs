@@ -127,9 +127,9 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// Returns the pairs of axes that a definition of a coupling group names, slave and master: `[1, X = Y]`, or `[1, 8
-    /// = 2]` by their logical numbers. An axis whose partner the machine does not have stands twice. `None` where a
-    /// number may be that of an axis without a known one.
+    /// Returns the pairs of axes that a definition of a coupling group names, slave and master: `[1, X = Y]`, or
+    /// `[1, 8 = 2]` by their logical numbers. An axis whose partner the machine does not have stands twice. `None`
+    /// where a number may be that of an axis without a known one.
     pub(crate) fn members(
         self,
         by: MembersBy,

@@ -60,8 +60,9 @@ impl Serialize for PossibleStates {
 }
 
 impl PossibleStates {
-    /// Returns the words of the ways to a state, as seen from a file: `if V.E.A == 2 (line 12), or if skip level 1 is
-    /// on`, or `only if V.E.A changes between lines 1 and 9`; `None` where it is the state otherwise, or not possible.
+    /// Returns the words of the ways to a state, as seen from a file:
+    /// `if V.E.A == 2 (line 12), or if skip level 1 is on`, or `only if V.E.A changes between lines 1 and 9`; `None`
+    /// where it is the state otherwise, or not possible.
     pub fn ways_to(&self, state: State, file: &str) -> Option<String> {
         let found = self.states.iter().find(|it| it.state == state)?;
         found.words(file)
@@ -80,8 +81,8 @@ impl PossibleStates {
         named.collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns the condition for a state, as seen from a file: `if skip level 1 is on`, or `unless
-    /// …` for the state on all other ways.
+    /// Returns the condition for a state, as seen from a file: `if skip level 1 is on`, or `unless …` for the state on
+    /// all other ways.
     pub(crate) fn when(&self, is_it: impl Fn(State) -> bool, file: &str) -> Option<String> {
         let (those, others): (Vec<_>, Vec<_>) = self.states.iter().partition(|it| is_it(it.state));
         let those = those.first()?;

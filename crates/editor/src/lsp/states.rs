@@ -58,8 +58,8 @@ impl StateSet {
         self.possible.iter().find(|it| it.axis.get() == axis)
     }
 
-    /// Returns the state of an axis in words, as seen from a file: `active`, or `unknown (inactive if V.E.A == 2 (line
-    /// 12), else active)`.
+    /// Returns the state of an axis in words, as seen from a file: `active`, or
+    /// `unknown (inactive if V.E.A == 2 (line 12), else active)`.
     pub(super) fn told(&self, axis: usize, file: &str) -> Option<String> {
         let state = self.state(axis)?;
         Some(match self.possible(axis) {

@@ -8,8 +8,8 @@ use frictcomp::timeline::FeedMoves;
 use frictcomp_physics::contour::{ContourReversal, GlitchFigure};
 use frictcomp_physics::motion::AssumedLimits;
 
-/// Returns the feed moves of an axis without compensation, as the text after its name: ` off during 155 feed moves, the
-/// longest 812 mm` (R13.12). `None` if there are none.
+/// Returns the feed moves of an axis without compensation, as the text after its name:
+/// ` off during 155 feed moves, the longest 812 mm` (R13.12). `None` if there are none.
 pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String> {
     let (without, unknown) = (moves.without(), moves.unknown);
     let counted = |count| {

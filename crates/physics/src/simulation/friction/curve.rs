@@ -45,8 +45,8 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// Returns the friction in N of a contact that slides at this speed, without the viscous part: `g(v) = Fc + (Fs -
-    /// Fc)·exp(-(|v|/vs)^δ)` of R5.11.
+    /// Returns the friction in N of a contact that slides at this speed, without the viscous part:
+    /// `g(v) = Fc + (Fs - Fc)·exp(-(|v|/vs)^δ)` of R5.11.
     #[inline]
     pub fn level_n(&self, speed_m_per_s: f64) -> f64 {
         let ratio = speed_m_per_s / self.stribeck_velocity_m_per_s;

@@ -142,7 +142,7 @@ const PACKAGES: [(&str, Option<&str>); 7] = [
 const PURE: [&str; 3] = [".", "crates/physics", "crates/recordings"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
-const FOLDERS: [(&str, &str, &[&str]); 29] = [
+const FOLDERS: [(&str, &str, &[&str]); 34] = [
     ("interpreter", "", &["motion", "programs", "values", "ways"]),
     (
         "interpreter",
@@ -158,8 +158,21 @@ const FOLDERS: [(&str, &str, &[&str]); 29] = [
         &["motion", "programs", "values", "ways"],
     ),
     ("syntax", "", &["lower"]),
-    ("circle", "fitted", &["recorded", "tune"]),
-    ("circle", "learn", &["recorded", "tune"]),
+    ("circle", "evidence", &["geometry"]),
+    ("circle", "figures", &["evidence", "geometry"]),
+    (
+        "circle",
+        "fitted",
+        &["figures", "geometry", "recorded", "tune"],
+    ),
+    (
+        "circle",
+        "learn",
+        &["figures", "geometry", "recorded", "simulated", "tune"],
+    ),
+    ("circle", "recorded", &["figures", "geometry", "simulated"]),
+    ("circle", "simulated", &["figures", "geometry"]),
+    ("circle", "tune", &["geometry", "simulated"]),
     ("simulation", "", &["friction"]),
     ("host", "", &["ask", "commission", "outputs", "recordings"]),
     ("host", "archive", &["disk", "machines", "outputs", "run"]),

@@ -5,8 +5,6 @@
 
 #![allow(clippy::print_stdout)] // The table is what it is for.
 
-mod measure;
-
 use std::hint::black_box;
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -14,7 +12,7 @@ use std::time::Duration;
 use frictcomp_physics::circle::{Circle, CircularTest, LapRun, Method};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Preset};
-use measure::Bench;
+use frictcomp_testing::measure::Bench;
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
 

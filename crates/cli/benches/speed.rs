@@ -15,7 +15,6 @@
 #![allow(clippy::print_stdout)] // The table is what it is for.
 
 mod generate;
-mod measure;
 
 use std::error::Error;
 use std::fs::File;
@@ -27,8 +26,8 @@ use std::time::{Duration, Instant};
 
 use frictcomp::syntax::{BlockReader, FastPath, ast::Block};
 use frictcomp::text::TextLines;
+use frictcomp_testing::measure::{Bench, median};
 use generate::Shape;
-use measure::{Bench, median};
 
 /// The arguments that make this program one of the yardsticks.
 const SPLIT: &str = "split-lines";

@@ -15,6 +15,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use commands::explain::{NoPage, page_about};
@@ -135,6 +136,11 @@ fn status_of(tool: clap::Command, arguments: Vec<OsString>) -> u8 {
     });
     let (mut arguments, written) = match parsed {
         Ok(parsed) => parsed,
+        // Options alone are answered as no words at all, with the list of commands.
+        Err(error) if error.kind() == ErrorKind::MissingSubcommand && command.is_empty() => {
+            let list = description().try_get_matches_from(["frictcomp"]);
+            return list.map_or_else(|list| say_usage(&list, &hidden), |_| exit::FAILED);
+        }
         Err(error) => return say_usage(&error, &hidden),
     };
     bound_reading();

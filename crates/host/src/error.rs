@@ -233,6 +233,14 @@ pub enum HostError {
         /// Fault in words.
         reason: String,
     },
+    /// A baseline that is damaged, or is none.
+    #[error("the baseline `{}` {reason}", shown_path(.path))]
+    Baseline {
+        /// Path of the file.
+        path: PathBuf,
+        /// The fault, in words.
+        reason: String,
+    },
     /// A value list that the control would reject.
     #[error("the value list `{}` cannot be used: {reason}", shown_path(.path))]
     ValueList {

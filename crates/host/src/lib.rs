@@ -37,11 +37,11 @@ mod watch;
 mod workers;
 
 pub use archive::{
-    ArchiveAuditor, AuditOptions, CallGraph, CalledPrograms, ChangedFile, ChangedPrograms,
-    CheckOptions, CheckedProgram, CheckedPrograms, FoundCall, FoundPrograms, GraphProgram,
-    LeftOutFile, LeftOutFiles, MendedProgram, MissingCall, OldFile, ProgramsOnMachines, Revision,
-    UnreadVariable, WhyLeftOut, find_programs, find_startup, outline_of, programs_in_order,
-    unread_variables,
+    ArchiveAuditor, AuditOptions, Baseline, CallGraph, CalledPrograms, ChangedFile,
+    ChangedPrograms, CheckOptions, CheckedProgram, CheckedPrograms, FoundCall, FoundList,
+    FoundPrograms, GraphProgram, KnownFindings, LeftOutFile, LeftOutFiles, MendedProgram,
+    MissingCall, OldFile, ProgramsOnMachines, Revision, UnreadVariable, WhyLeftOut, find_programs,
+    lists_below, outline_of, programs_in_order, unread_variables,
 };
 pub use disk::{
     CONFIG_NAME, Disk, EncodedText, FileRegistry, FolderOptions, FolderSelection, IgnoreFiles,

@@ -5,9 +5,6 @@
 
 #![allow(clippy::print_stdout)] // The table is its purpose.
 
-#[path = "../../cli/benches/measure/mod.rs"]
-mod measure;
-
 use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -22,7 +19,7 @@ use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_physics::current::{AdditiveCurrent, Commanded, Followers, Reading};
 use frictcomp_physics::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
-use measure::{Bench, median};
+use frictcomp_testing::measure::{Bench, median};
 
 /// The cycles of the trace: 1000 s, a reversal every half second.
 const CYCLES: u32 = 1_000_000;

@@ -25,7 +25,7 @@ pub(crate) struct ExecutionArgs {
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_blocks: Option<u64>,
     /// The largest amount of work beyond the text of the blocks, caused by macros, growing strings
-    /// and regions under unknown conditions
+    /// and paths under unknown conditions
     #[arg(long, value_name = "N", default_value_t = Limits::default().work)]
     max_work: u64,
     /// The largest number of values that a program may hold

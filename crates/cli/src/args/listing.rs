@@ -30,7 +30,7 @@ pub(crate) struct ListingArgs {
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     fail_on: FailOnArgs,
-    /// Print only the messages that count for the exit status
+    /// Print only the messages that count for the exit status, then the verdict
     #[arg(long, short)]
     pub(crate) quiet: bool,
     /// Count the messages by code instead of listing them

@@ -7,17 +7,17 @@ use clap::Args;
 use super::control::CncBuildArgs;
 use super::machine::outside_policy;
 use crate::output::Failure;
+use frictcomp::lists::ListKind;
 use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    AllowedRoots, CONFIG_NAME, Disk, check_list_file, find_startup, is_configuration,
-    nearest_config,
+    AllowedRoots, CONFIG_NAME, Disk, check_list_file, is_configuration, lists_below, nearest_config,
 };
 
 /// The lists of a command.
 #[derive(Debug, Args)]
 pub(crate) struct NamedLists {
-    /// The lists, a TwinCAT project, the `frictcomp.toml` that names them, or the folder of one of these; by default
+    /// The lists, a TwinCAT project, the `frictcomp.toml` that names them, or a folder with one of these; by default
     /// the nearest `frictcomp.toml` in the current folder or above
     #[arg(value_name = "PATH")]
     files: Vec<PathBuf>,
@@ -28,28 +28,37 @@ pub(crate) struct NamedLists {
     allow_outside: bool,
 }
 
-/// Returns the configuration in a folder, or else the start-up list or project below it.
-fn machine_in(folder: &Path) -> Result<Option<PathBuf>, Failure> {
+/// Returns the configuration in a folder, or else the start-up list or project below it, or else its lists of a kind.
+fn lists_in(folder: &Path, is_taken: fn(ListKind) -> bool) -> Result<Vec<PathBuf>, Failure> {
     let config = folder.join(CONFIG_NAME);
     if config.is_file() {
-        return Ok(Some(config));
+        return Ok(vec![config]);
     }
-    Ok(find_startup(folder)?)
+    let lists = lists_below(folder)?.into_iter();
+    let lists = lists.filter(|it| it.kind == ListKind::Startup || is_taken(it.kind));
+    let lists: Vec<PathBuf> = lists.map(|it| it.path).collect();
+    if lists.is_empty() {
+        let failure = Failure::new(format!("there is no list below `{}`", shown_path(folder)));
+        return Err(failure.with_help(
+            "name a folder with `hochlauf.lis`, axis lists, a project or a `frictcomp.toml`",
+        ));
+    }
+    Ok(lists)
 }
 
 impl NamedLists {
-    /// Returns the files to check (R9.72).
-    pub(crate) fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+    /// Returns the files to check; of a folder without a machine the lists of a kind (R9.72).
+    pub(crate) fn files(&self, is_taken: fn(ListKind) -> bool) -> Result<Vec<PathBuf>, Failure> {
         if !self.files.is_empty() {
-            let files = self.files.iter().map(|path| {
-                let found = if path.is_dir() {
-                    machine_in(path)?
+            let mut files = Vec::new();
+            for path in &self.files {
+                if path.is_dir() {
+                    files.extend(lists_in(path, is_taken)?);
                 } else {
-                    None
-                };
-                Ok(found.unwrap_or_else(|| path.clone()))
-            });
-            return files.collect();
+                    files.push(path.clone());
+                }
+            }
+            return Ok(files);
         }
         let nearest = nearest_config(Path::new(""), &Disk::default());
         let failure = || {

@@ -77,6 +77,19 @@ pub(crate) fn um_per_s(text: &str) -> Result<f64, String> {
     parse(text, &[&straight, &turning])
 }
 
+/// Parses an acceleration in mm/s².
+pub(crate) fn mm_per_s2(text: &str) -> Result<f64, String> {
+    parse(
+        text,
+        &[&[
+            ("mm/s2", 1.0, 1.0),
+            ("mm/s²", 1.0, 1.0),
+            ("m/s2", 1000.0, 1.0),
+            ("m/s²", 1000.0, 1.0),
+        ]],
+    )
+}
+
 /// Parses a time in ms.
 pub(crate) fn ms(text: &str) -> Result<f64, String> {
     parse(
@@ -127,6 +140,7 @@ mod tests {
         assert_eq!(speed_of_axis("12mm/min"), Ok(0.2));
         assert_eq!(um_per_s("1deg/s"), Ok(1000.0));
         assert_eq!(ms("0.002s"), Ok(2.0));
+        assert_eq!(mm_per_s2("0.07 m/s²"), Ok(70.0));
         assert_eq!(mm_or_degrees("90°"), Ok(90.0));
         for text in ["", "mm", "1kg", "1mm/min", "1..2", "nan", "inf", "1e999"] {
             let said = "write a number in mm, or with one of the units um, µm";

@@ -14,7 +14,7 @@ use frictcomp_physics::contour::{ContourLimits, ContourOptions, ProgramContour};
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::results::contour::{
-    ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_json,
+    ContourRecorder, ContourSubject, contour_remarks, document, limit_remarks, render_json,
     render_summary, why_not_judged,
 };
 use frictcomp_report::svg::Frame;
@@ -115,7 +115,7 @@ pub(crate) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
         .concat(),
         _ => Vec::new(),
     };
-    let exceeded = exceeded(&contour, &limits);
+    let exceeded = limit_remarks(&contour, &limits);
     drop(contour);
     result.text(&text)?;
     outputs.finish()?;

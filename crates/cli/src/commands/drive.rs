@@ -8,6 +8,7 @@ use crate::args::{ListingArgs, NamedLists};
 use crate::output::{Console, Failure, Failures, Outputs, Printed, exit, parts};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::drive_interface::{DriveReport, Evidence, SlaveOfAxis, check_drive};
+use frictcomp::lists::ListKind;
 use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_host::{Disk, FileRegistry, XmlError, read_devices, read_list, read_network};
@@ -147,7 +148,7 @@ pub(crate) fn run(args: &DriveArgs, console: Console) -> Result<u8, Failure> {
 fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
     let codes = args.listing.severities.filter()?;
-    let files = args.lists.files()?;
+    let files = args.lists.files(|kind| kind == ListKind::Axis)?;
     let allowed_roots = args.lists.allowed_roots(&files);
     let evidence = evidence(args, &registry)?;
     let mut outputs = Outputs::new(&registry, console);
@@ -193,7 +194,7 @@ fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<
     if printed == Printed::Unread && failures.is_empty() {
         return Ok(exit::CLEAN);
     }
-    if args.listing.format == ListingFormat::Text {
+    if args.listing.format == ListingFormat::Text && !reports.is_empty() {
         console.print_painted(&format!("\n{}", render_drives(&reports)), parts)?;
     }
     outputs.finish()?;

@@ -74,7 +74,7 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
     let registry = FileRegistry::default();
     args.check_options()?;
     let codes = args.listing.severities.filter()?;
-    let files = args.lists.files()?;
+    let files = args.lists.files(|_| true)?;
     let allowed_roots = args.lists.allowed_roots(&files);
     let mut outputs = Outputs::new(&registry, console);
     let target = outputs.result(args.listing.output.as_deref())?;

@@ -62,6 +62,7 @@ pub(crate) struct TuneArgs {
         long,
         value_name = "MM/S2",
         value_delimiter = ',',
+        value_parser = quantities::mm_per_s2,
         conflicts_with = "feeds",
         allow_negative_numbers = true
     )]

@@ -123,6 +123,9 @@ fn options_for(error: &HostError) -> Option<String> {
             "record one row per CNC cycle, give the cycle with `--cycle-time`, or make cycles of \
              the rows with `--resample`"
         }
+        HostError::Baseline { .. } => {
+            "write a new one with `frictcomp check --write-baseline FILE`"
+        }
         HostError::NoGit => "install git, or compare two files: `frictcomp diff OLD NEW`",
         HostError::SeveralStartupLists(_) => {
             "name that of the machine with `--startup LIST` or `--project FILE`"

@@ -1,6 +1,5 @@
 //! `frictcomp commission learn` on machines whose parameters it does not see, from the command line to the last list.
 
-pub(crate) mod machine;
 mod refused;
 mod stand_ins;
 
@@ -15,7 +14,7 @@ use frictcomp_physics::simulation::plant_list;
 use frictcomp_testing::layouts::{
     Comments, Export, Filled, Header, Letters, Signal, Task as Sampled, Times,
 };
-use machine::{Machine, Row};
+use frictcomp_testing::{PresetMachine, Row};
 use serde_json::Value;
 
 /// Feeds of the long test.
@@ -32,13 +31,13 @@ const SMALL: [f64; 6] = [1200.0, 1600.0, 2100.0, 2800.0, 3700.0, 5000.0];
 /// A machine, and the folder of its rounds.
 struct Bench {
     folder: tempfile::TempDir,
-    machine: Machine,
+    machine: PresetMachine,
     feeds: &'static [f64],
 }
 
 impl Bench {
-    /// Returns a machine with its measured friction in `friction-X.lis` and `friction-Y.lis`.
-    fn new(machine: Machine, feeds: &'static [f64]) -> Self {
+    /// A machine with its measured friction in `friction-X.lis` and `friction-Y.lis`.
+    fn new(machine: PresetMachine, feeds: &'static [f64]) -> Self {
         let bench = Self {
             folder: tempfile::tempdir().expect("a folder"),
             machine,
@@ -189,7 +188,7 @@ fn scope(rows: &[Row]) -> Vec<u8> {
 /// are bounded, no list adds too much, results of the plant are called predicted, and nothing is written twice.
 #[test]
 fn recorded_circles_give_the_next_list() {
-    let bench = Bench::new(Machine::small(), &SMALL);
+    let bench = Bench::new(PresetMachine::small(), &SMALL);
     let (status, text) = bench.begin(&[]);
     assert_eq!(status, Some(1), "{text}");
     assert!(text.contains("next: load learning/round-1/X.lis"), "{text}");
@@ -278,7 +277,7 @@ fn second_round(bench: &Bench, first: &Value) {
 #[allow(clippy::print_stdout, reason = "the table is what it is for")]
 fn five_rounds_come_close_to_the_best_known_lists() {
     println!("machine    first X, Y µm    after five rounds    best known    ratio");
-    for machine in Machine::all() {
+    for machine in PresetMachine::all() {
         let best = best_known(&machine);
         let bench = Bench::new(machine, &FEEDS);
         let plant = bench.machine.reference.as_str();
@@ -320,8 +319,8 @@ fn five_rounds_come_close_to_the_best_known_lists() {
     }
 }
 
-/// Returns the glitches left by lists tuned with knowledge of the machine.
-fn best_known(machine: &Machine) -> [f64; 2] {
+/// The glitches left by lists tuned with knowledge of the machine.
+fn best_known(machine: &PresetMachine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());
     machine.left_um(&JUDGED, lists)

@@ -52,8 +52,6 @@ mod records;
 mod replay;
 mod schema;
 mod states;
-#[path = "../../../../tests/support/mod.rs"]
-mod support;
 mod watch;
 mod what_moves;
 mod widths;

@@ -33,7 +33,10 @@ pub fn outline_of(
     }
     let startup = match startup {
         Some(path) => Some(path.to_owned()),
-        None => find_startup(folder)?,
+        None => lists_below(folder)?
+            .pop()
+            .filter(|it| it.kind == ListKind::Startup)
+            .map(|it| it.path),
     };
     let Some(path) = startup else {
         return Ok(Outline::of_programs(programs(folder, options)));
@@ -47,35 +50,52 @@ pub fn outline_of(
     Ok(Outline::Startup(seen))
 }
 
-/// Returns the start-up list or the TwinCAT project below a folder, recognised by its content.
+/// A list below a folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct FoundList {
+    /// Its path.
+    pub path: PathBuf,
+    /// Its kind; a TwinCAT project, which holds all lists, counts as a start-up list.
+    pub kind: ListKind,
+}
+
+/// Returns the start-up list or the TwinCAT project below a folder, or else all lists there, recognised by their
+/// content.
 ///
 /// # Errors
-/// There are several.
-pub fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
+/// There are several start-up lists or projects.
+pub fn lists_below(folder: &Path) -> Result<Vec<FoundList>, HostError> {
     let disk = Disk::default();
-    let mut found: Vec<PathBuf> = Vec::new();
+    let mut found: Vec<FoundList> = Vec::new();
     let walk = WalkBuilder::new(folder)
         .max_depth(Some(DEPTH))
         .sort_by_file_name(std::ffi::OsStr::cmp)
         .build();
     for entry in walk.filter_map(Result::ok) {
         let path = entry.path();
-        let is_one = if is_project(path) {
-            check_list_file(path, None, &disk).is_ok()
+        let kind = if is_project(path) {
+            let project = check_list_file(path, None, &disk).ok();
+            project.map(|_| ListKind::Startup)
+        } else if is_list(path) {
+            let list = read_list(path, &disk).ok();
+            list.and_then(|list| check_list(list, None, &mut NoLists).kind)
         } else {
-            is_list(path)
-                && read_list(path, &disk).is_ok_and(|list| {
-                    check_list(list, None, &mut NoLists).kind == Some(ListKind::Startup)
-                })
+            None
         };
-        if is_one {
-            found.push(path.strip_prefix(".").unwrap_or(path).to_owned());
+        let path = path.strip_prefix(".").unwrap_or(path).to_owned();
+        found.extend(kind.map(|kind| FoundList { path, kind }));
+    }
+    let is_startup = |it: &FoundList| it.kind == ListKind::Startup;
+    match found.iter().filter(|it| is_startup(it)).count() {
+        0 => {}
+        1 => found.retain(is_startup),
+        _ => {
+            let several = found.into_iter().filter(is_startup).map(|it| it.path);
+            return Err(HostError::SeveralStartupLists(several.collect()));
         }
     }
-    if found.len() > 1 {
-        return Err(HostError::SeveralStartupLists(found));
-    }
-    Ok(found.pop())
+    Ok(found)
 }
 
 /// Returns an error that names the kind of file found instead of a start-up list.

@@ -1,6 +1,7 @@
 //! Many programs: which there are, how they call each other, what their order does.
 
 mod audits;
+mod baseline;
 mod call_graph;
 mod changed_programs;
 mod checks;
@@ -13,13 +14,14 @@ mod unread;
 mod walk;
 
 pub use audits::{ArchiveAuditor, AuditOptions, programs_in_order};
+pub use baseline::{Baseline, KnownFindings};
 pub use call_graph::{CallGraph, FoundCall, GraphProgram, MissingCall};
 pub use changed_programs::ChangedPrograms;
 pub use checks::{
     CalledPrograms, CheckOptions, CheckedProgram, CheckedPrograms, ProgramsOnMachines,
 };
 pub use cures::MendedProgram;
-pub use first_look::{find_startup, outline_of};
+pub use first_look::{FoundList, lists_below, outline_of};
 pub use git::{ChangedFile, OldFile, Revision};
 pub use left_out::{LeftOutFile, LeftOutFiles, WhyLeftOut};
 pub use unread::{UnreadVariable, unread_variables};

@@ -7,9 +7,12 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::Disk;
 use super::file_kind::FileKind;
 use crate::error::HostError;
-use frictcomp::text::shown_path;
+use frictcomp::lists::ListKind;
+use frictcomp::machine::{NoLists, check_list};
+use frictcomp::text::{SourceFile, shown_path};
 
 /// The files that a piece of work reads. Its copies are the same registry: called programs become known only
 /// while others already run.
@@ -47,7 +50,7 @@ pub enum Replaces {
     /// An earlier result.
     #[default]
     Results,
-    /// An earlier result or a value list, since the output is one.
+    /// Another result or a value list, since the output is one; no list of another kind.
     Lists,
     /// Any file that is not an input of the same call.
     Anything,
@@ -73,23 +76,37 @@ impl Claim {
                 target,
             });
         }
-        let is_allowed = |what| match self.replaces {
-            Replaces::Results => false,
-            Replaces::Lists => what == FileKind::List,
-            Replaces::Anything => true,
-        };
-        match FileKind::of(&self.path) {
-            Some(what)
-                if !is_allowed(what) && (what == FileKind::Configuration || self.path.exists()) =>
-            {
-                Err(HostError::ReplacesSource {
-                    output: self.shown(),
-                    what: what.as_str(),
-                })
+        let refused = match (FileKind::of(&self.path), self.replaces) {
+            (None, _) | (_, Replaces::Anything) => None,
+            (Some(FileKind::List), Replaces::Lists) => {
+                is_other_list(&self.path).then_some("list that is not a value list")
             }
-            _ => Ok(()),
+            (Some(what), _) => {
+                let is_taken = what == FileKind::Configuration || self.path.exists();
+                is_taken.then(|| what.as_str())
+            }
+        };
+        match refused {
+            Some(what) => Err(HostError::ReplacesSource {
+                output: self.shown(),
+                what,
+            }),
+            None => Ok(()),
         }
     }
+}
+
+/// Whether a file is an existing list of another kind than a value list, judged by its keys.
+fn is_other_list(path: &Path) -> bool {
+    let is_there = path.is_file();
+    let text = is_there
+        .then(|| Disk::default().read_list(path).ok())
+        .flatten();
+    let kind = text.and_then(|text| {
+        let list = SourceFile::new(shown_path(path), text);
+        check_list(list, None, &mut NoLists).kind
+    });
+    kind.is_some_and(|kind| !matches!(kind, ListKind::Value | ListKind::Head))
 }
 
 impl FileRegistry {

@@ -7,13 +7,13 @@
 
 use serde::Serialize;
 
-use super::compare::Comparison;
-use super::crossing::{Crossing, PlaneAxis};
-use super::direction::Direction;
-use super::evidence::CircleEvidence;
-use super::evidence_shape::{OtherShape, ShapeTerm, Term};
-use super::figures::{Figures, PathFigures};
-use super::glitch::{AxisShape, Bulge, Glitch, PathShape};
+use crate::circle::evidence::CircleEvidence;
+use crate::circle::evidence::{OtherShape, ShapeTerm, Term};
+use crate::circle::figures::{AxisShape, Bulge, Glitch, PathShape};
+use crate::circle::figures::{Figures, PathFigures};
+use crate::circle::geometry::Direction;
+use crate::circle::geometry::{Crossing, PlaneAxis};
+use crate::circle::simulated::Comparison;
 use crate::current::Switched;
 
 /// Size below which nothing is reported.

@@ -7,72 +7,39 @@
 //! at its [`Crossing`]s and its permanent part is its [`PathShape`], from which
 //! [`diagnose`] names friction, backlash and axes that do not match.
 
-mod centre;
-mod cma_es;
-mod compare;
-mod crossing;
 mod diagnosis;
-mod direction;
-mod drift;
 mod evidence;
-mod evidence_shape;
 mod figures;
 mod fitted;
-mod glitch;
-mod lap;
+mod geometry;
 mod learn;
-mod method;
-mod oscillation;
-mod periodic;
-mod pitch;
-mod profile;
-mod quality;
-mod quiet;
 mod recorded;
-mod reference;
-mod series;
-mod shapes;
-mod simulate;
-mod swings;
-mod tail_search;
-mod tails;
-mod test;
+mod simulated;
 mod tune;
-mod turning;
-mod waveform;
-mod window;
-mod zone;
 
-pub use centre::{PathCentre, UnknownPathCentre};
-pub use compare::{Comparison, Side};
-pub use crossing::{Crossing, PlaneAxis};
 pub use diagnosis::{
     Diagnosis, DiagnosisGrounds, Finding, FoundAt, NOTICEABLE_UM, diagnose, diagnose_comparison,
 };
-pub use direction::Direction;
-pub use evidence::CircleEvidence;
-pub use evidence_shape::{OtherShape, ShapeTerm, Term};
-pub use figures::{Figures, PathFigures, Paths};
+pub use evidence::{CircleEvidence, OtherShape, ShapeTerm, Term};
+pub use figures::{AxisShape, Bulge, Figures, Glitch, PathFigures, PathShape, Paths, Waveform};
 pub use fitted::{
     DriveFit, Extent, FittedDrive, ObservedCircle, SharesOn, predicted_height_um,
     recorded_height_um,
 };
-pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
-pub use lap::{Lap, LapRun};
+pub use geometry::{
+    ANGLES, Circle, CircleError, Crossing, Direction, MAX_STEPS, MIN_CYCLES, PathCentre, PlaneAxis,
+    RadialProfile, TURNS, UM_PER_M, UnknownPathCentre,
+};
 pub use learn::{
     LearnedCircle, LearnedRound, Learner, LearningProgress, Proposal, RecordedTwice, RoundVerdict,
     TooMuchCurrent,
 };
-pub use method::Method;
-pub use profile::{ANGLES, RadialProfile, UM_PER_M};
 pub use recorded::{
     CommandedCircle, GlitchOrder, LeftOut, MIN_POINTS, MeasuredGlitch, RecordedCircle,
     RecordedError, RecordedTrace, Recording, WholeTurns, WorseTurn,
 };
-pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
-pub use test::CircularTest;
+pub use simulated::{CircularTest, Comparison, Lap, LapRun, Method, Side};
 pub use tune::{
     Candidate, FeedResult, FreeParameter, Ranges, RemainingGlitch, Robust, Shaping, Simulations,
     Task, Tuned, TunedAxis, TuningAim, tune, tune_with,
 };
-pub use waveform::Waveform;

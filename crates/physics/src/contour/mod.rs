@@ -34,4 +34,4 @@ pub use options::{ContourAxis, ContourOptions, ListSource, MOST_AXES};
 pub use per_run::PerRun;
 pub use program::{ContourPoint, ContourSink, ProgramContour};
 pub use reversals::{ContourReversal, GlitchFigure};
-pub use verdict::{ContourLimits, ContourVerdict};
+pub use verdict::{ContourLimits, ContourVerdict, ExceededLimit, LimitedFigure};

@@ -2,6 +2,8 @@
 
 use super::obstacle::ContourObstacle;
 use super::program::{ContourSink, ProgramContour};
+use crate::motion::Cause;
+use std::sync::Arc;
 
 /// The limits of a contour.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,6 +28,30 @@ frictcomp::words! {
     }
 }
 
+/// A figure of a contour that is above its limit.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ExceededLimit {
+    /// The figure.
+    pub figure: LimitedFigure,
+    /// Its value in µm.
+    pub um: f64,
+    /// Its place.
+    pub at: Arc<Cause>,
+    /// The limit in µm.
+    pub limit_um: f64,
+}
+
+/// A figure of a contour that can have a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LimitedFigure {
+    /// The largest deviation as programmed.
+    Deviation,
+    /// The cost of missing compensation.
+    Due,
+}
+
 impl ContourLimits {
     /// Returns whether there is a limit.
     pub fn any(&self) -> bool {
@@ -42,13 +68,36 @@ impl ContourLimits {
         if !obstacles.is_empty() {
             return Some(ContourVerdict::NotJudged);
         }
-        let is_above = |limit: Option<f64>, um: f64| limit.is_some_and(|limit| um > limit);
-        let deviates = is_above(self.deviation_um, contour.deviations().programmed.max_um());
-        let verdict = if deviates || is_above(self.due_um, contour.due().um) {
-            ContourVerdict::Above
-        } else {
+        let verdict = if self.exceeded(contour).is_empty() {
             ContourVerdict::Within
+        } else {
+            ContourVerdict::Above
         };
         self.any().then_some(verdict)
+    }
+
+    /// Returns the figures of a contour that are above their limits, with their places.
+    pub fn exceeded<S: ContourSink>(&self, contour: &ProgramContour<S>) -> Vec<ExceededLimit> {
+        let programmed = &contour.deviations().programmed;
+        let due = contour.due();
+        let figures = [
+            (
+                LimitedFigure::Deviation,
+                programmed.max_um(),
+                programmed.max_at(),
+                self.deviation_um,
+            ),
+            (LimitedFigure::Due, due.um, due.at.as_ref(), self.due_um),
+        ];
+        let exceeded = figures.into_iter().filter_map(|(figure, um, at, limit)| {
+            let limit_um = limit.filter(|limit| um > *limit)?;
+            Some(ExceededLimit {
+                figure,
+                um,
+                at: at?.clone(),
+                limit_um,
+            })
+        });
+        exceeded.collect()
     }
 }

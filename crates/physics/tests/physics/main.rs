@@ -15,9 +15,6 @@ mod contour;
 mod current;
 mod diagnosis;
 mod glitch;
-#[path = "../../../cli/tests/command/learn/machine.rs"]
-#[allow(dead_code, reason = "the tests of the command use the rest")]
-mod machine;
 mod motion;
 mod plant_fit;
 mod recorded;

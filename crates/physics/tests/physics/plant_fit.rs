@@ -1,16 +1,16 @@
 //! The plant from recorded circles, on machines that the fit does not see (R16.3).
 
-use crate::machine::Machine;
 use frictcomp_physics::circle::{
     Circle, DriveFit, FittedDrive, ObservedCircle, PlaneAxis, RecordedCircle, RecordedTrace,
 };
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{DriveParameters, plant_list};
+use frictcomp_testing::PresetMachine;
 
 const FEEDS: [f64; 4] = [500.0, 800.0, 2000.0, 5000.0];
 
-/// Returns the prior knowledge: the reference, with the friction that `identify` finds, to 2 %.
-fn known(machine: &Machine, axis: PlaneAxis) -> DriveParameters {
+/// The prior knowledge: the reference, with the friction that `identify` finds, to 2 %.
+fn known(machine: &PresetMachine, axis: PlaneAxis) -> DriveParameters {
     let plant = machine.reference.plant();
     let (reference, own) = match axis {
         PlaneAxis::X => (plant.x, &machine.plant.x),
@@ -23,7 +23,7 @@ fn known(machine: &Machine, axis: PlaneAxis) -> DriveParameters {
     drive
 }
 
-fn fitted(machine: &Machine, axis: PlaneAxis, feeds: &[f64]) -> FittedDrive {
+fn fitted(machine: &PresetMachine, axis: PlaneAxis, feeds: &[f64]) -> FittedDrive {
     let drive = known(machine, axis);
     let mut list = plant_list(&drive);
     (
@@ -63,9 +63,9 @@ fn fitted(machine: &Machine, axis: PlaneAxis, feeds: &[f64]) -> FittedDrive {
 /// within its range, with fewer than 1000 simulated reversals; the best accuracy of the delay is 0.5 ms.
 #[test]
 fn the_plant_is_found_from_recorded_circles() {
-    let machine = Machine {
+    let machine = PresetMachine {
         radius_mm: 25.0,
-        ..Machine::half()
+        ..PresetMachine::half()
     };
     let feeds = FEEDS.map(|it| it / 2.0);
     let found = fitted(&machine, PlaneAxis::X, &feeds);
@@ -99,7 +99,7 @@ fn the_plant_is_found_from_recorded_circles() {
 #[ignore = "seconds per machine"]
 #[allow(clippy::print_stdout, reason = "the table is its purpose")]
 fn parameters_found_against_true() {
-    for machine in Machine::all() {
+    for machine in PresetMachine::all() {
         for axis in PlaneAxis::ALL {
             let found = fitted(&machine, axis, &FEEDS);
             let own = match axis {

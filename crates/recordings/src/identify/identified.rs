@@ -111,6 +111,8 @@ pub struct Identified {
     pub points: Vec<TablePoint>,
     /// The largest error of the straight lines between the points, in drive units.
     pub point_error: f64,
+    /// The error that was asked for, in drive units, if the points that are allowed do not keep it.
+    pub missed_error: Option<f64>,
     /// Part that repeats along the travel.
     pub ripple: Option<Ripple>,
     /// Change of friction over the recording, if speeds were visited more than once.

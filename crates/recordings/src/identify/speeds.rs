@@ -125,6 +125,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     let mut identified = Identified {
         points: points.collect(),
         point_error: support.error,
+        missed_error: support.missed,
         ripple: wave.map(|wave| wave.ripple()),
         drift,
         residuals,

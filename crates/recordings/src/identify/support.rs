@@ -30,6 +30,8 @@ pub(super) struct SpeedRange {
 pub(super) struct Support {
     pub(super) points: Vec<[f64; 2]>,
     pub(super) error: f64,
+    /// The error that was asked for, if that of the lines is larger.
+    pub(super) missed: Option<f64>,
 }
 
 /// Places for points.
@@ -65,8 +67,13 @@ pub(super) fn support(
             .map(|&at| [table.speeds[at], table.values[at]])
             .collect(),
         error: *error,
+        missed: None,
     };
-    table.balanced(on_curve)
+    let mut balanced = table.balanced(on_curve);
+    if let RequestedPoints::Error { part, .. } = wanted {
+        balanced.missed = (balanced.error > part * level).then_some(part * level);
+    }
+    balanced
 }
 
 struct CandidateTable {
@@ -128,6 +135,7 @@ impl CandidateTable {
                 best = Support {
                     points: points.clone(),
                     error,
+                    missed: None,
                 };
             }
             for at in 1..points.len() {

@@ -101,8 +101,8 @@ fn oddities(summary: &ChannelSummary<'_>) -> Vec<String> {
     if let Some(clock) = &summary.clock {
         if clock.gaps > 0 {
             odd.push(format!(
-                "{} gaps, the longest of {} ms after {} s",
-                clock.gaps,
+                "{}, the longest of {} ms after {} s",
+                counted(clock.gaps, "gap"),
                 number(clock.longest_gap_s * 1000.0),
                 number(clock.gap_at_s)
             ));

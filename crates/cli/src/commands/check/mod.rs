@@ -15,10 +15,10 @@ use crate::args::{
 };
 use crate::commands::diff::unseen_remark;
 use crate::output::{Console, DataTarget, Failure, Failures, FileWatch, Outputs, Printed};
-use baseline::{Baseline, BaselineArgs};
+use baseline::BaselineArgs;
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp_host::{
-    CalledPrograms, ChangedFile, ChangedPrograms, CheckOptions, CheckedPrograms, Disk,
+    Baseline, CalledPrograms, ChangedFile, ChangedPrograms, CheckOptions, CheckedPrograms, Disk,
     FileRegistry, HostError, Machines, Naming, ProgramsOnMachines, Revision, find_programs,
     is_source, processors,
 };
@@ -151,7 +151,7 @@ fn check(
     outputs.check()?;
     say_undescribed(args, &programs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
-    let mut baseline = args.baseline.open(&registry, &mut outputs)?;
+    let (mut baseline, written) = args.baseline.open(&registry, &mut outputs)?;
     outputs.check()?;
     let checked = failures.keep(programs.check(&options));
     let in_callers = checked.in_callers;
@@ -161,7 +161,7 @@ fn check(
     found.left_out.forget_read(&registry);
     let missed = found.left_out.diagnostics(&mut machines);
     list_missed(missed, &mut listing, &mut baseline);
-    let known = baseline.finish(console, &registry)?;
+    let known = baseline::finish((baseline, written), console, &registry)?;
     if let Some(record) = &known {
         listing.record(record);
     }

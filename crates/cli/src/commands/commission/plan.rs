@@ -129,7 +129,7 @@ impl PlanArgs {
         let ends = text.trim().strip_prefix(name).unwrap_or_default();
         let ends = ends.strip_prefix('=').unwrap_or(ends).split_once("..");
         let ends = ends.and_then(|(low, high)| {
-            let end = |text: &str| text.trim().parse().ok().filter(|it: &f64| it.is_finite());
+            let end = |text: &str| quantities::mm_or_degrees(text).ok();
             Some(FreeTravel {
                 low: end(low)?,
                 high: end(high)?,

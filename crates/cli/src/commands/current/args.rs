@@ -26,7 +26,7 @@ use frictcomp_physics::motion::PlannerOptions;
 pub(crate) struct CurrentArgs {
     /// The program, `-` for standard input, or the recorded motion of axes
     #[arg(
-        value_name = "FILE",
+        value_name = "PROGRAM|RECORDING",
         required_unless_present = "recording",
         conflicts_with = "recording"
     )]

@@ -131,6 +131,23 @@ fn find(text: &str) -> Option<Cow<'static, str>> {
         .or_else(|| vocabulary::find(text).map(Cow::Owned))
         .or_else(|| control_error(text).map(Cow::Owned))
         .or_else(|| channel_key(text).map(Cow::Owned))
+        .or_else(|| command(text).map(Cow::Owned))
+}
+
+/// Returns the page of a command of the tool: `circle`, `commission learn`.
+fn command(text: &str) -> Option<String> {
+    let mut command = &crate::description();
+    for word in text.split_whitespace().skip_while(|it| *it == "frictcomp") {
+        command = command.find_subcommand(word)?;
+    }
+    let about = command.get_long_about().or_else(|| command.get_about())?;
+    let name = text.trim_start_matches("frictcomp").trim();
+    (!name.is_empty()).then(|| {
+        format!(
+            "# frictcomp {name}\n\n{}.\n\n`frictcomp {name} --help` shows its options and examples.\n",
+            about.to_string().trim_end_matches('.')
+        )
+    })
 }
 
 /// Returns the page of an error number of the control, with `P-ERR-` or without (R2.114).
@@ -194,6 +211,8 @@ mod tests {
             "120434",
             "P-ERR-22008",
             "COMP",
+            "circle",
+            "frictcomp commission learn",
         ] {
             assert!(find(name).is_some(), "{name}");
         }

@@ -35,7 +35,7 @@ use listeners::{Listeners, Quiet, SharedReport};
 #[allow(clippy::struct_excessive_bools)]
 pub(crate) struct RunArgs {
     /// The programs, `-` for standard input
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required = true, value_name = "PROGRAM")]
     files: Vec<PathBuf>,
     /// Start with the state saved in this file, and save the state to it at the end
     #[arg(long, value_name = "FILE")]
@@ -54,7 +54,7 @@ pub(crate) struct RunArgs {
     /// Show all blocks; do not fold those without a change
     #[arg(long)]
     full: bool,
-    /// Print only the messages that count for the exit status
+    /// Print only the messages that count for the exit status, then the verdict
     #[arg(long, short, conflicts_with_all = ["changes", "full", "format", "columns"])]
     quiet: bool,
     /// The kinds of compensation to show: `FRICT,LEAD` or `all`

@@ -8,9 +8,9 @@ use frictcomp_physics::simulation::DriveParameters;
 use serde_json::Value;
 
 use super::fitted::{list, lists, program};
-use super::machine::{Machine, PITCH_MM};
 use super::{Driven, Recorder, circles_of, deviations_of, driven, planned_with, put};
 use crate::folder::{document, succeeded};
+use frictcomp_testing::{PITCH_MM, PresetMachine};
 
 const RADIUS_MM: f64 = 100.0;
 
@@ -40,7 +40,7 @@ const PLAN: [&str; 11] = [
 /// as much as lists tuned with knowledge of the machine.
 #[allow(clippy::print_stdout, reason = "the figures are what it is for")]
 fn comes_close_to_the_best_known_lists(name: &str) {
-    let mut machines = Machine::all().into_iter();
+    let mut machines = PresetMachine::all().into_iter();
     let machine = machines.find(|it| it.name == name).expect("a machine");
     let folder = planned_with(&PLAN);
     let folder = folder.path();
@@ -102,7 +102,7 @@ fn a_machine_twice_as_stiff_as_its_plant() {
 
 /// Returns the provisional lists and those that were tuned and accepted.
 #[allow(clippy::print_stdout, reason = "the figures are what it is for")]
-fn looped(folder: &Path, machine: &Machine) -> [[PathBuf; 2]; 2] {
+fn looped(folder: &Path, machine: &PresetMachine) -> [[PathBuf; 2]; 2] {
     for (axis, drive) in [&machine.plant.x, &machine.plant.y].into_iter().enumerate() {
         let text = friction_of(folder, axis, drive);
         put(folder, &format!("friction-{axis}.csv"), &text);
@@ -128,8 +128,8 @@ fn looped(folder: &Path, machine: &Machine) -> [[PathBuf; 2]; 2] {
     [provisional, tuned]
 }
 
-/// Returns the contact, Kp and Fc of X relative to the true ones, with their ranges; the delay in ms.
-fn told_plant(found: &Value, machine: &Machine) -> String {
+/// The contact, Kp and Fc of X relative to the true ones, with their ranges; the delay in ms.
+fn told_plant(found: &Value, machine: &PresetMachine) -> String {
     let axis = &found["predicted_axes"][0];
     let own = &machine.plant.x;
     let part = |key: &str, own: f64| {
@@ -160,7 +160,7 @@ fn plan(folder: &Path, lists: &[PathBuf; 2]) {
 }
 
 /// Records the circles of a round; the friction is a little different each time.
-fn record(folder: &Path, (round, machine): (usize, &Machine), lists: Option<&[PathBuf; 2]>) {
+fn record(folder: &Path, (round, machine): (usize, &PresetMachine), lists: Option<&[PathBuf; 2]>) {
     let on = lists.map(|it| it.each_ref().map(|name| list(&folder.join(name))));
     for (at, feed) in FEEDS.into_iter().enumerate() {
         let seed = (10 * round + at) as u64;
@@ -214,8 +214,8 @@ fn friction_of(folder: &Path, axis: usize, drive: &DriveParameters) -> String {
     text
 }
 
-/// Returns the glitches left by lists tuned with knowledge of the machine: three searches of up to 3600 lists.
-fn best_known(machine: &Machine) -> [f64; 2] {
+/// The glitches left by lists tuned with knowledge of the machine: three searches of up to 3600 lists.
+fn best_known(machine: &PresetMachine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());
     machine.left_um(&JUDGED, lists)

@@ -196,7 +196,10 @@ fn missing_compensation_has_a_limit_of_its_own() {
     assert_eq!(status(&off, "--fail-above-due", "-1"), Some(2));
     let (_, text, said) = contour(&off, &["--fail-above-due", "5"]);
     assert!(text.contains("missing compensation costs up to "), "{text}");
-    assert!(said.contains("what missing compensation costs, "), "{said}");
+    assert!(
+        said.contains("the cost of missing compensation, "),
+        "{said}"
+    );
     let found = document(&off, &[]);
     let due = number(&found["due"]["max"]);
     assert!(

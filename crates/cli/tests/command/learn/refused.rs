@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Bench, Machine, Row, SMALL, plain};
+use super::{Bench, PresetMachine, Row, SMALL, plain};
 use frictcomp_physics::circle::{LearnedRound, LearningProgress, RecordedCircle, RecordedTrace};
 use frictcomp_recordings::commission::{LearnedCircles, RecordedTurn};
 
@@ -51,7 +51,7 @@ fn round(bulge_um: f64) -> LearnedRound {
     let [circles, _] = LearnedCircles::of(&turns, &turns[0], 0.001)
         .expect("a round")
         .0;
-    let list = frictcomp_physics::simulation::plant_list(&Machine::small().plant.x);
+    let list = frictcomp_physics::simulation::plant_list(&PresetMachine::small().plant.x);
     LearnedRound { list, circles }
 }
 
@@ -86,7 +86,7 @@ fn only_what_gains_more_than_the_spread_is_accepted() {
 
 /// Returns a bench whose first round was recorded with circles that nothing drives.
 fn recorded() -> Bench {
-    let bench = Bench::new(Machine::small(), &SMALL);
+    let bench = Bench::new(PresetMachine::small(), &SMALL);
     let (status, text) = bench.begin(&[]);
     assert_eq!(status, Some(1), "{text}");
     for feed in SMALL {
@@ -208,7 +208,7 @@ fn recordings_that_are_no_round_are_refused() {
 /// it or twice.
 #[test]
 fn a_beginning_that_is_not_safe_is_refused() {
-    let bench = Bench::new(Machine::small(), &SMALL);
+    let bench = Bench::new(PresetMachine::small(), &SMALL);
     let (status, text) = bench.learn(&[]);
     assert_eq!(status, Some(2), "{text}");
     assert!(text.contains("begin with the measured friction"), "{text}");

@@ -6,8 +6,8 @@ use super::squares::ModelSetting;
 use super::unknowns::{
     CONTACT, DAMPING, DELAY, FRICTION, LOST, SHARE_OFF, SHARE_ON, SPEED_GAIN, Unknowns,
 };
-use crate::circle::cma_es::XorShift;
-use crate::circle::reference::CircleError;
+use crate::circle::geometry::CircleError;
+use crate::circle::tune::XorShift;
 use crate::simulation::{DriveParameters, FrictionModel};
 
 /// Contacts that are tried first: from an eighth to eight times as stiff, each twice as stiff as the one before.

@@ -1,10 +1,10 @@
 //! The glitch of an axis on a circle, for comparison with a prediction.
 
-use crate::circle::crossing::PlaneAxis;
+use crate::circle::figures::Waveform;
+use crate::circle::geometry::PlaneAxis;
+use crate::circle::geometry::{Circle, CircleError};
 use crate::circle::recorded::RecordedCircle;
-use crate::circle::reference::{Circle, CircleError};
 use crate::circle::tune::reversal::AxisAlone;
-use crate::circle::waveform::Waveform;
 use crate::current::Reading;
 use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::lists::FrictionList;

@@ -1,9 +1,9 @@
 //! The reversals of an axis on a recorded circle.
 
-use crate::circle::crossing::PlaneAxis;
+use crate::circle::figures::Waveform;
+use crate::circle::geometry::Circle;
+use crate::circle::geometry::PlaneAxis;
 use crate::circle::recorded::RecordedCircle;
-use crate::circle::reference::Circle;
-use crate::circle::waveform::Waveform;
 use crate::current::Reading;
 use crate::simulation::DriveParameters;
 use frictcomp::lists::FrictionList;

@@ -2,10 +2,10 @@
 
 use super::observed::DriveFit;
 use super::unknowns::{BEFORE, STEPS, UNKNOWNS, Unknowns};
-use crate::circle::cma_es::XorShift;
-use crate::circle::reference::CircleError;
+use crate::circle::figures::Waveform;
+use crate::circle::geometry::CircleError;
+use crate::circle::tune::XorShift;
 use crate::circle::tune::reversal::AxisAlone;
-use crate::circle::waveform::Waveform;
 use crate::linear::Normal;
 use crate::simulation::FrictionModel;
 

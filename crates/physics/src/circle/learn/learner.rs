@@ -3,13 +3,13 @@
 use super::bounds::{Steps, VARIABLES};
 use super::progress::LearningProgress;
 use super::round::{LearnedCircle, LearnedRound};
-use crate::circle::cma_es::{CmaEs, POINTS};
-use crate::circle::crossing::PlaneAxis;
-use crate::circle::method::Method;
-use crate::circle::reference::{Circle, CircleError};
+use crate::circle::figures::Waveform;
+use crate::circle::geometry::PlaneAxis;
+use crate::circle::geometry::{Circle, CircleError};
+use crate::circle::simulated::Method;
 use crate::circle::tune::reversal::AxisAlone;
+use crate::circle::tune::{CmaEs, POINTS};
 use crate::circle::tune::{Heights, Ranges, Simulations};
-use crate::circle::waveform::Waveform;
 use crate::current::Reading;
 use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::lists::{FrictionList, Points};

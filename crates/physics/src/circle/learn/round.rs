@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
-use crate::circle::crossing::PlaneAxis;
-use crate::circle::direction::Direction;
+use crate::circle::figures::Waveform;
+use crate::circle::geometry::Circle;
+use crate::circle::geometry::Direction;
+use crate::circle::geometry::PlaneAxis;
 use crate::circle::recorded::RecordedCircle;
-use crate::circle::reference::Circle;
-use crate::circle::waveform::Waveform;
 use crate::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::FrictionList;
 

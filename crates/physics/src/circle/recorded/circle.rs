@@ -10,10 +10,10 @@ use super::fit::FittedCircle;
 use super::limits::{LIKE, MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
 use super::search::search;
 use super::trace::RecordedTrace;
-use crate::circle::direction::Direction;
-use crate::circle::profile::{Gap, Gatherer, Quality, RadialProfile};
-use crate::circle::quality::quality;
-use crate::circle::zone::{least_squares, zone_about};
+use crate::circle::geometry::Direction;
+use crate::circle::geometry::quality;
+use crate::circle::geometry::{Gap, Gatherer, Quality, RadialProfile};
+use crate::circle::geometry::{least_squares, zone_about};
 
 /// Rounds in which the turn is fitted and cut again.
 const ROUNDS: usize = 3;

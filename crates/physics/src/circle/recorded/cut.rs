@@ -7,7 +7,7 @@ use super::ends::{LEAST, run_in};
 use super::fit::FittedCircle;
 use super::limits::WIDEST_GAP_DEG;
 use super::trace::RecordedTrace;
-use crate::circle::direction::Direction;
+use crate::circle::geometry::Direction;
 
 /// The distance back after which a path has turned round, in radians: more than noise and
 /// standstill cause.

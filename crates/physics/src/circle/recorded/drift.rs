@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::cut::PathRun;
 use super::fit::FittedCircle;
-use crate::circle::drift::CircleDrift;
+use crate::circle::geometry::CircleDrift;
 
 /// Parts of a turn in which two turns are compared.
 const PARTS: u16 = 360;

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
-use crate::circle::direction::Direction;
+use crate::circle::geometry::Direction;
 use frictcomp::diagnostic::ReadableNumber;
 
 /// A recording that is not a circle.

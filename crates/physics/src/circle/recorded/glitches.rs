@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::circle::RecordedCircle;
 use super::limits::WIDEST_GAP_DEG;
-use crate::circle::crossing::{Crossing, PlaneAxis};
-use crate::circle::profile::{Gatherer, RadialProfile};
-use crate::circle::waveform::Waveform;
+use crate::circle::figures::Waveform;
+use crate::circle::geometry::{Crossing, PlaneAxis};
+use crate::circle::geometry::{Gatherer, RadialProfile};
 
 /// Number of standard errors by which the glitches of turns scatter if the turns differ.
 const APART: f64 = 3.0;

@@ -3,9 +3,9 @@
 use super::circle::RecordedCircle;
 use super::error::RecordedError;
 use super::limits::{LIKE, MOST_MM};
-use crate::circle::centre::PathCentre;
-use crate::circle::compare::Side;
 use crate::circle::figures::{Nominal, Paths};
+use crate::circle::geometry::PathCentre;
+use crate::circle::simulated::Side;
 
 /// One or two recorded circles with their figures.
 #[derive(Debug, Clone)]

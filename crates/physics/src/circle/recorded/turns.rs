@@ -5,10 +5,10 @@ use std::fmt;
 use serde::Serialize;
 
 use super::circle::RecordedCircle;
-use crate::circle::crossing::Crossing;
-use crate::circle::direction::Direction;
-use crate::circle::profile::RadialProfile;
-use crate::circle::waveform::Waveform;
+use crate::circle::figures::Waveform;
+use crate::circle::geometry::Crossing;
+use crate::circle::geometry::Direction;
+use crate::circle::geometry::RadialProfile;
 
 /// Part of its glitch by which a turn has to be worse than another one …
 const WORSE: f64 = 0.25;

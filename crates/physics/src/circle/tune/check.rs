@@ -5,11 +5,11 @@ use std::iter;
 
 use serde::Serialize;
 
-use super::super::crossing::PlaneAxis;
-use super::super::method::Method;
-use super::super::reference::{Circle, CircleError};
 use super::reversal::{AxisAlone, phase_at};
 use super::task::Task;
+use crate::circle::geometry::PlaneAxis;
+use crate::circle::geometry::{Circle, CircleError};
+use crate::circle::simulated::Method;
 use crate::simulation::DriveParameters;
 
 /// Accelerations at which a result is checked.

@@ -7,9 +7,6 @@
 
 use std::collections::BTreeSet;
 
-use super::super::crossing::PlaneAxis;
-use super::super::method::Method;
-use super::super::reference::{Circle, CircleError};
 use super::candidate::Candidate;
 use super::check::{Deviating, PLACES};
 use super::minimax::{FreeValues, LinearCurve, LinearModel, LinearValue};
@@ -17,6 +14,9 @@ use super::reversal::{AxisAlone, cycles_of_window, phase_at};
 use super::shape::{ALLOWED, BEND, BOUND, FREE, ListShape, ShapedLists};
 use super::task::Task;
 use super::tuned::{Reserve, Simulations};
+use crate::circle::geometry::PlaneAxis;
+use crate::circle::geometry::{Circle, CircleError};
+use crate::circle::simulated::Method;
 use crate::simulation::DriveParameters;
 use frictcomp::lists::{FrictionList, Points};
 

@@ -8,6 +8,7 @@
 
 mod candidate;
 mod check;
+mod cma_es;
 mod descent;
 mod heights;
 mod minimax;
@@ -21,6 +22,7 @@ mod tuned;
 
 pub use candidate::Candidate;
 pub use check::RemainingGlitch;
+pub(crate) use cma_es::{CmaEs, POINTS, XorShift};
 pub(crate) use heights::Heights;
 pub use ranges::{FreeParameter, Ranges};
 pub use task::{Shaping, Task, TuningAim};

@@ -2,12 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::super::crossing::PlaneAxis;
-use super::super::direction::Direction;
-use super::super::method::Method;
-use super::super::profile::UM_PER_M;
-use super::super::reference::{Circle, CircleArc, CircleError};
-use super::super::simulate::{AxesSimulation, AxisRun};
+use crate::circle::geometry::Direction;
+use crate::circle::geometry::PlaneAxis;
+use crate::circle::geometry::UM_PER_M;
+use crate::circle::geometry::{Circle, CircleArc, CircleError};
+use crate::circle::simulated::Method;
+use crate::circle::simulated::{AxesSimulation, AxisRun};
 use crate::current::Reading;
 use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::lists::FrictionList;

@@ -1,15 +1,15 @@
 //! The task of tuning.
 
-use super::super::compare::Comparison;
-use super::super::crossing::PlaneAxis;
-use super::super::direction::Direction;
-use super::super::lap::LapRun;
-use super::super::method::Method;
-use super::super::reference::{Circle, CircleError};
-use super::super::test::CircularTest;
 use super::heights::Heights;
 use super::ranges::Ranges;
 use super::reversal::AxisAlone;
+use crate::circle::geometry::Direction;
+use crate::circle::geometry::PlaneAxis;
+use crate::circle::geometry::{Circle, CircleError};
+use crate::circle::simulated::CircularTest;
+use crate::circle::simulated::Comparison;
+use crate::circle::simulated::LapRun;
+use crate::circle::simulated::Method;
 use crate::current::{Reading, Switched};
 use crate::simulation::{DriveParameters, FrictionModel, Plant};
 use frictcomp::lists::Points;

@@ -2,9 +2,6 @@
 
 use serde::Serialize;
 
-use super::super::crossing::PlaneAxis;
-use super::super::method::Method;
-use super::super::reference::{Circle, CircleError};
 use super::candidate::Candidate;
 use super::check::{CHECKED, Deviating, RemainingGlitch};
 use super::descent::Descent;
@@ -13,6 +10,9 @@ use super::search::Search;
 use super::space::{Lists, Space, Stictions};
 use super::task::TuningAim;
 use super::task::{Shaping, Task, Variant};
+use crate::circle::geometry::PlaneAxis;
+use crate::circle::geometry::{Circle, CircleError};
+use crate::circle::simulated::Method;
 use crate::stiction::StictionParameters;
 use frictcomp::lists::FrictionList;
 

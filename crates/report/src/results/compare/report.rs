@@ -60,8 +60,11 @@ impl VersionsReport {
                 ),
             }
         });
-        let parts = ends.chain(moves).chain(self.verdict()).chain(contours);
-        let parts: Vec<String> = parts.collect();
+        let mut parts: Vec<String> = ends.chain(moves).collect();
+        if parts.is_empty() || self.comparison.agreement() != Agreement::Different {
+            parts.extend(self.verdict());
+        }
+        parts.extend(contours);
         Headline::new(standing, parts.join("; "))
     }
 

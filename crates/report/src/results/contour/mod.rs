@@ -14,4 +14,4 @@ pub use document::{ContourSubject, document, headline};
 pub use golden::{GoldenContour, agreed_contour};
 pub use json::{render_json, render_summary};
 pub use recorder::ContourRecorder;
-pub use remarks::{contour_remarks, exceeded, why_not_judged};
+pub use remarks::{contour_remarks, limit_remarks, why_not_judged};

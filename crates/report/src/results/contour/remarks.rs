@@ -4,8 +4,8 @@ use super::places::ProgramBlock;
 use crate::assumptions::rests_on_text;
 use crate::wording::{Detail, assumed_limits, visible_line};
 use frictcomp_physics::contour::{
-    ContourAxis, ContourLimits, ContourObstacle, ContourOptions, ContourSink, ListSource,
-    ProgramContour,
+    ContourAxis, ContourLimits, ContourObstacle, ContourOptions, ContourSink, LimitedFigure,
+    ListSource, ProgramContour,
 };
 use frictcomp_physics::motion::{Departure, Transitions};
 
@@ -124,35 +124,27 @@ pub fn why_not_judged<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String
     not_judged(&contour.obstacles()).collect()
 }
 
-/// Returns the exceeded limits of a contour, one line each.
-pub fn exceeded<S: ContourSink>(
+/// Returns why a contour is not judged, or the limits that it exceeds, one line each; nothing without limits.
+pub fn limit_remarks<S: ContourSink>(
     contour: &ProgramContour<S>,
     limits: &ContourLimits,
 ) -> Vec<String> {
     if !limits.any() {
         return Vec::new();
     }
-    let mut lines = why_not_judged(contour);
-    let programmed = &contour.deviations().programmed;
-    let due = contour.due();
-    for (what, um, at, limit) in [
-        (
-            "the largest deviation",
-            programmed.max_um(),
-            programmed.max_at(),
-            limits.deviation_um,
-        ),
-        (
-            "what missing compensation costs",
-            due.um,
-            due.at.as_ref(),
-            limits.due_um,
-        ),
-    ] {
-        if let (Some(limit), Some(at)) = (limit.filter(|limit| um > *limit), at) {
-            let at = ProgramBlock::from(&**at).words();
-            lines.push(format!("{what}, {um:.2} µm at {at}, is above {limit} µm"));
-        }
-    }
-    lines
+    let exceeded = limits.exceeded(contour).into_iter().map(|it| {
+        let figure = match it.figure {
+            LimitedFigure::Due => "the cost of missing compensation",
+            _ => "the largest deviation",
+        };
+        let at = ProgramBlock::from(&*it.at).words();
+        format!(
+            "{figure}, {:.2} µm at {at}, is above {} µm",
+            it.um, it.limit_um
+        )
+    });
+    why_not_judged(contour)
+        .into_iter()
+        .chain(exceeded)
+        .collect()
 }

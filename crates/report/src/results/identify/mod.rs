@@ -55,10 +55,30 @@ impl IdentifyReport {
             Rounded(fastest.friction, 3),
             self.unit(),
         );
+        let limits = self.limits_of_list().map(|it| format!("; {it}"));
+        let text = text + &limits.collect::<String>();
         Headline::new(Standing::Plain, text).with_fault(self.findings())
     }
 
-    /// Returns a title with the name of the axis, if it has one.
+    /// What the value list cannot hold, each a clause.
+    fn limits_of_list(&self) -> impl Iterator<Item = String> {
+        let found = &self.identified;
+        let branches = found
+            .branches()
+            .map(|_| "it differs by direction, and the list is the mean of both".to_owned());
+        let missed = found.missed_error.map(|asked| {
+            format!(
+                "{} are up to {} {} off, {} were asked for",
+                counted(found.points.len(), "point"),
+                Rounded(found.point_error, 3),
+                self.unit(),
+                Rounded(asked, 3)
+            )
+        });
+        branches.into_iter().chain(missed)
+    }
+
+    /// What is shown, and of which axis.
     pub(crate) fn titled(&self, what: &str) -> String {
         match &self.axis {
             Some(axis) => format!("{what} of axis {axis}"),
@@ -66,14 +86,13 @@ impl IdentifyReport {
         }
     }
 
-    /// Returns the faults of the recording, one line each for the written list (R6.21).
+    /// Returns the faults of the recording and the limits of the list, one line each for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let faults = self
             .findings()
             .filter(|it| it.severity == Severity::Warning);
-        faults
-            .map(|it| format!("{}: {}", it.code, it.message))
-            .collect()
+        let faults = faults.map(|it| format!("{}: {}", it.code, it.message));
+        faults.chain(self.limits_of_list()).collect()
     }
 
     /// Returns the unit of torque and friction.

@@ -344,7 +344,7 @@ crate::words! {
         On = "on",
         /// Deselected.
         Off = "off",
-        /// Not known offline.
+        /// Motion not known offline.
         Unknown = "unknown",
     }
 }

@@ -52,7 +52,7 @@ pub(crate) struct PyFix {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub(crate) struct PyEnd {
     file: String,
-    /// From 1.
+    /// Line of the block, from 1.
     line: u32,
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct PyMessage {
     code: PickledWord,
     severity: PickledWord,
     file: String,
-    /// From 1.
+    /// Line of the block, from 1.
     line: u32,
     /// From 1, in characters.
     column: u32,

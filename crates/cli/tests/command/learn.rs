@@ -36,7 +36,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// A machine with its measured friction in `friction-X.lis` and `friction-Y.lis`.
+    /// Returns a machine with its measured friction in `friction-X.lis` and `friction-Y.lis`.
     fn new(machine: PresetMachine, feeds: &'static [f64]) -> Self {
         let bench = Self {
             folder: tempfile::tempdir().expect("a folder"),
@@ -319,7 +319,7 @@ fn five_rounds_come_close_to_the_best_known_lists() {
     }
 }
 
-/// The glitches left by lists tuned with knowledge of the machine.
+/// Returns the glitches left by lists tuned with knowledge of the machine.
 fn best_known(machine: &PresetMachine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());

@@ -128,7 +128,7 @@ fn looped(folder: &Path, machine: &PresetMachine) -> [[PathBuf; 2]; 2] {
     [provisional, tuned]
 }
 
-/// The contact, Kp and Fc of X relative to the true ones, with their ranges; the delay in ms.
+/// Returns the contact, Kp and Fc of X relative to the true ones, with their ranges; the delay in ms.
 fn told_plant(found: &Value, machine: &PresetMachine) -> String {
     let axis = &found["predicted_axes"][0];
     let own = &machine.plant.x;
@@ -214,7 +214,7 @@ fn friction_of(folder: &Path, axis: usize, drive: &DriveParameters) -> String {
     text
 }
 
-/// The glitches left by lists tuned with knowledge of the machine: three searches of up to 3600 lists.
+/// Returns the glitches left by lists tuned with knowledge of the machine: three searches of up to 3600 lists.
 fn best_known(machine: &PresetMachine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());

@@ -54,7 +54,7 @@ pub struct CircleEvidence {
 }
 
 impl CircleEvidence {
-    /// The evidence in the paths; `None` if the masked reversals leave too little of a turn.
+    /// Returns the evidence in the paths; `None` if the masked reversals leave too little of a turn.
     pub(crate) fn of<'a>(
         paths: impl Iterator<Item = (Direction, &'a RadialProfile)>,
         quality: Quality,
@@ -111,7 +111,7 @@ impl CircleEvidence {
         })
     }
 
-    /// The shapes of the residual.
+    /// Returns the shapes of the residual.
     pub(crate) fn others(&self) -> impl Iterator<Item = OtherShape> {
         [self.other, self.second].into_iter().flatten()
     }

@@ -29,7 +29,7 @@ const LEAST_UM: f64 = 0.3;
 /// Number of standard deviations of the noise, averaged over eight samples, that a swing must exceed.
 const OF_NOISE: f64 = 9.0 / 2.828;
 
-/// The largest swing of an axis that sticks and slips, in µm, for paths with this noise.
+/// Returns the largest swing of an axis that sticks and slips, in µm, for paths with this noise.
 pub(crate) fn stick_slip(
     paths: &[(Direction, &RadialProfile)],
     axis: PlaneAxis,

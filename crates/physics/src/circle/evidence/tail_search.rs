@@ -35,7 +35,7 @@ const HEIGHTS: [f64; 2] = [0.15, 2.5];
 /// Number of variances that a tail explains at least.
 const EXPLAINS: f64 = 16.0;
 
-/// The shapes of paths with the tails of their peaks, if they have any.
+/// Returns the shapes of paths with the tails of their peaks, if they have any.
 pub(crate) fn fit(
     paths: &[(Direction, &RadialProfile)],
     (series, rough): (&[AngleSeries], &[AngleSeries]),

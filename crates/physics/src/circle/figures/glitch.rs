@@ -90,7 +90,7 @@ pub struct PathShape {
 const SETTLED: f64 = 0.15;
 
 impl PathShape {
-    /// The shape of a path whose peaks have these tails; `None` if its windows reach the next crossings.
+    /// Returns the shape of a path whose peaks have these tails; `None` if its windows reach the next crossings.
     pub(crate) fn of(profile: &RadialProfile, direction: Direction, tails: Tails) -> Option<Self> {
         let seen = Seen::of(profile, direction, tails)?;
         let quiet = seen.without_tails;

@@ -120,7 +120,7 @@ pub(crate) enum Nominal {
 }
 
 impl Figures {
-    /// The figures of one or two paths, those of both about a centre.
+    /// Returns the figures of one or two paths, those of both about a centre.
     pub(crate) fn of(paths: &Paths, nominal: Nominal, centre: PathCentre) -> Self {
         let quality = paths.quality();
         let evidence = quality.and_then(|it| CircleEvidence::of(paths.iter(), it));

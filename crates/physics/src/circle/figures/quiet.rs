@@ -73,7 +73,7 @@ impl QuietPath {
         })
     }
 
-    /// The path without any step in the direction of a point.
+    /// Returns the path without any step in the direction of a point.
     pub(crate) fn smooth(&self, point: ProfilePoint) -> f64 {
         let [along, across] = second_harmonic(point);
         self.mean
@@ -83,7 +83,7 @@ impl QuietPath {
             + self.ellipse[1] * across
     }
 
-    /// The path on one side of a crossing, continued beyond it, in the direction of a point.
+    /// Returns the path on one side of a crossing, continued beyond it, in the direction of a point.
     pub(crate) fn level(&self, crossing: Crossing, beside: Beside, point: ProfilePoint) -> f64 {
         let side = match beside {
             Beside::Before => -1.0,

@@ -35,7 +35,7 @@ frictcomp::words! {
 }
 
 impl PlaneAxis {
-    /// The other axis of the plane.
+    /// Returns the other axis of the plane.
     pub(crate) fn other(self) -> Self {
         match self {
             Self::X => Self::Y,

@@ -94,8 +94,8 @@ pub(crate) struct Gap {
 }
 
 impl Gatherer {
-    /// For a path around the origin, deviations against `radius` in m. A gap of more than `widest`
-    /// degrees between two points is not bridged.
+    /// Creates the profile of a path around the origin, with deviations against `radius` in m. A gap of more than
+    /// `widest` degrees between two points is not bridged.
     pub(crate) fn new(radius: f64, widest: f64) -> Self {
         Self {
             radius,
@@ -264,12 +264,12 @@ impl RadialProfile {
         &self.fixed
     }
 
-    /// The outermost point of each sector that has one.
+    /// Returns the outermost point of each sector that has one.
     pub(crate) fn outer(&self) -> impl Iterator<Item = &ProfilePoint> {
         self.outer.iter().flatten()
     }
 
-    /// The innermost point of each sector that has one.
+    /// Returns the innermost point of each sector that has one.
     pub(crate) fn inner(&self) -> impl Iterator<Item = &ProfilePoint> {
         self.inner.iter().flatten()
     }
@@ -295,7 +295,7 @@ impl RadialProfile {
         }
     }
 
-    /// The quality of recorded points.
+    /// Returns the quality of recorded points.
     pub(crate) fn quality(&self) -> Option<Quality> {
         self.quality
     }
@@ -310,8 +310,8 @@ impl RadialProfile {
         self.turn_s
     }
 
-    /// The path at the fixed angles around a crossing, each with its number from there in the
-    /// direction of travel.
+    /// Returns the path at the fixed angles around a crossing, each with its number from there in the direction of
+    /// travel.
     pub(crate) fn fixed(
         &self,
         crossing: Crossing,
@@ -324,7 +324,7 @@ impl RadialProfile {
         })
     }
 
-    /// The path around a crossing with the outermost and the innermost point between each two fixed angles.
+    /// Returns the path around a crossing with the outermost and the innermost point between each two fixed angles.
     pub(crate) fn every(
         &self,
         crossing: Crossing,

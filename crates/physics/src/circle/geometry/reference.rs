@@ -223,12 +223,12 @@ impl Circle {
         self.radius_mm / 1000.0
     }
 
-    /// Angular velocity in rad/s.
+    /// Returns the angular velocity in rad/s.
     pub(crate) fn angular_velocity(&self) -> f64 {
         self.feed_mm_per_min / 60.0 / self.radius_mm
     }
 
-    /// CNC cycles of a stretch, one more than its duration.
+    /// Returns the number of CNC cycles of a stretch, one more than its duration.
     pub(crate) fn cycles(&self, length: f64) -> usize {
         let cycles = (length / (self.angular_velocity() * self.cycle_time_s)).ceil();
         let most = MAX_STEPS / 4.0;
@@ -237,7 +237,7 @@ impl Circle {
         cycles + 1
     }
 
-    /// A simulation step as a part of a CNC cycle.
+    /// Returns a simulation step as a part of a CNC cycle.
     pub(crate) fn step_in_cycle(&self) -> f64 {
         STEP_S / self.cycle_time_s
     }
@@ -256,7 +256,7 @@ impl Circle {
         }
     }
 
-    /// Position in m and velocity in m/s of both axes at CNC cycle `k` of a stretch.
+    /// Returns the position in m and the velocity in m/s of both axes at CNC cycle `k` of a stretch.
     pub(crate) fn at(&self, stretch: CircleArc, k: usize) -> [(f64, f64); 2] {
         #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
         let time = k as f64 * self.cycle_time_s;

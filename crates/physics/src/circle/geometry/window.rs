@@ -30,8 +30,8 @@ pub(crate) struct CrossingWindow {
 }
 
 impl CrossingWindow {
-    /// The window of a path with a number of seconds per turn; ±8° if that is not known. `None`
-    /// if it would reach the next crossing.
+    /// Returns the window of a path with a number of seconds per turn; ±8° if that is not known. `None` if it would
+    /// reach the next crossing.
     pub(crate) fn of(turn_s: Option<f64>) -> Option<Self> {
         let turning = turn_s.map_or(0.0, |turn_s| 360.0 / turn_s);
         if turning > FASTEST_DEG_PER_S * (1.0 + 1e-9) {
@@ -48,12 +48,12 @@ impl CrossingWindow {
         -BEFORE_DEG * PER_DEGREE..=self.after
     }
 
-    /// The side before the window.
+    /// Returns the side before the window.
     pub(crate) fn before() -> RangeInclusive<i32> {
         -SIDE_DEG * PER_DEGREE..=-BEFORE_DEG * PER_DEGREE
     }
 
-    /// The side after the window.
+    /// Returns the side after the window.
     pub(crate) fn after(self) -> RangeInclusive<i32> {
         self.after..=(2 * self.after).max(SIDE_DEG * PER_DEGREE)
     }
@@ -78,7 +78,7 @@ impl CrossingWindow {
     }
 }
 
-/// The highest feed in mm/min at which a circle of this radius in mm has figures at its crossings.
+/// Returns the highest feed in mm/min at which a circle of this radius in mm has figures at its crossings.
 pub(crate) fn fastest_feed(radius_mm: f64) -> f64 {
     FASTEST_DEG_PER_S.to_radians() * radius_mm * 60.0
 }

@@ -20,10 +20,10 @@ pub(crate) struct Zone {
     pub(crate) width: f64,
 }
 
-/// The least-squares circle of the deviations at the fixed angles: its centre, and its radius as a
-/// deviation from the radius of the profile, all in m. As the centre is moved by micrometres in a
-/// circle of millimetres, r = R + a·cos φ + b·sin φ is exact to far below a nanometre, and over
-/// whole turns of even angles the sums are the Fourier coefficients.
+/// Returns the least-squares circle of the deviations at the fixed angles: its centre, and its radius as a deviation
+/// from the radius of the profile, all in m. As the centre is moved by micrometres in a circle of millimetres, r = R +
+/// a·cos φ + b·sin φ is exact to far below a nanometre, and over whole turns of even angles the sums are the Fourier
+/// coefficients.
 pub(crate) fn least_squares(profile: &RadialProfile) -> ([f64; 2], f64) {
     #[allow(clippy::cast_precision_loss)] // 36000
     let count = profile.deviations_m().len() as f64;
@@ -38,7 +38,7 @@ pub(crate) fn least_squares(profile: &RadialProfile) -> ([f64; 2], f64) {
     ([2.0 * a / count, 2.0 * b / count], mean / count)
 }
 
-/// The width in m of the zone about a centre that holds every point of the profiles.
+/// Returns the width in m of the zone about a centre that holds every point of the profiles.
 pub(crate) fn zone_about(profiles: &[&RadialProfile], centre: [f64; 2]) -> f64 {
     let [outer, inner] = extremes(profiles, centre);
     outer.map_or(0.0, |it| it.1) - inner.map_or(0.0, |it| it.1)

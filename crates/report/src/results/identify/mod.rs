@@ -78,7 +78,7 @@ impl IdentifyReport {
         branches.into_iter().chain(missed)
     }
 
-    /// What is shown, and of which axis.
+    /// Returns a title with the name of the axis, if it has one.
     pub(crate) fn titled(&self, what: &str) -> String {
         match &self.axis {
             Some(axis) => format!("{what} of axis {axis}"),

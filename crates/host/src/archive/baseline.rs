@@ -69,7 +69,7 @@ enum Purpose {
     None,
     /// Known findings are left out.
     Compare,
-    /// Everything is kept for the file.
+    /// All findings are kept for the file.
     Keep,
 }
 
@@ -86,7 +86,7 @@ pub struct KnownFindings {
 }
 
 impl Baseline {
-    /// A baseline whose file will be `path`: every finding is kept for it, and none is listed.
+    /// Creates a baseline whose file will be `path`: every finding is kept for it, and none is listed.
     pub fn kept_for(path: &Path) -> Self {
         Self {
             purpose: Purpose::Keep,

@@ -54,9 +54,9 @@ pub fn outline_of(
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FoundList {
-    /// Its path.
+    /// Path of the list.
     pub path: PathBuf,
-    /// Its kind; a TwinCAT project, which holds all lists, counts as a start-up list.
+    /// Kind of the list; a TwinCAT project, which holds all lists, counts as a start-up list.
     pub kind: ListKind,
 }
 

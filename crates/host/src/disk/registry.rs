@@ -96,7 +96,7 @@ impl Claim {
     }
 }
 
-/// Whether a file is an existing list of another kind than a value list, judged by its keys.
+/// Returns whether a file is an existing list of another kind than a value list, judged by its keys.
 fn is_other_list(path: &Path) -> bool {
     let is_there = path.is_file();
     let text = is_there

@@ -34,9 +34,9 @@ frictcomp::words! {
 pub struct ExceededLimit {
     /// The figure.
     pub figure: LimitedFigure,
-    /// Its value in µm.
+    /// Value in µm.
     pub um: f64,
-    /// Its place.
+    /// Place of the value.
     pub at: Arc<Cause>,
     /// The limit in µm.
     pub limit_um: f64,

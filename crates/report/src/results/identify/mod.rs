@@ -60,7 +60,7 @@ impl IdentifyReport {
         Headline::new(Standing::Plain, text).with_fault(self.findings())
     }
 
-    /// What the value list cannot hold, each a clause.
+    /// Returns the limits of what the value list can hold, each a clause.
     fn limits_of_list(&self) -> impl Iterator<Item = String> {
         let found = &self.identified;
         let branches = found

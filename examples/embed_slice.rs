@@ -28,7 +28,7 @@ impl ListFiles for Disk {
     }
 }
 
-/// The host's own idea of a block: where the axis brackets are.
+/// Returns the host's own idea of a block: where the axis brackets are.
 fn brackets(block: &str) -> impl Iterator<Item = &str> {
     block.match_indices('[').filter_map(|(open, _)| {
         let start = block[..open].rfind(' ').map_or(0, |blank| blank + 1);

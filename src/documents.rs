@@ -30,9 +30,9 @@ pub const WORDS: &str = include_str!("../docs/words.md");
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ParameterPage {
-    /// Its number in the manuals, `P-COMP-00041`.
+    /// Number in the manuals, `P-COMP-00041`.
     pub number: &'static str,
-    /// Its key in the lists.
+    /// Key in the lists.
     pub key: &'static str,
     /// The page.
     pub page: &'static str,

@@ -13,7 +13,7 @@ use frictcomp::lists::ChannelKey;
 use rules_runner::{fixes, lists, runs::Shown};
 use support::{Bench, MACHINE, SourceMode};
 
-/// Set to write what the cases show.
+/// Environment variable that is set to write what the cases show.
 const UPDATE: &str = "UPDATE_DOCS";
 
 #[test]
@@ -84,7 +84,7 @@ fn each_key_of_a_channel_list_changes_what_its_case_shows() {
     assert!(same.is_empty(), "the same is shown by\n{}", same.join("\n"));
 }
 
-/// The head of a document and its case with a heading.
+/// Returns the head of a document and its case with a heading.
 fn section(text: &str, heading: &str) -> Option<String> {
     let mut parts = text.split("\n## ");
     let head = parts.next()?;
@@ -119,7 +119,7 @@ fn documents(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The lines around the first one that differs.
+/// Returns the lines around the first one that differs.
 fn first_difference(text: &str, fresh: &str) -> String {
     let (old, new): (Vec<_>, Vec<_>) = (text.lines().collect(), fresh.lines().collect());
     let at = old
@@ -150,7 +150,7 @@ struct Document {
     case: Case,
 }
 
-/// What the next result is made of: everything since the heading or the last result.
+/// Parts of the next result: everything since the heading or the last result.
 #[derive(Debug, Clone, Default)]
 struct Case {
     machine: Option<String>,
@@ -179,7 +179,7 @@ impl Case {
 }
 
 impl Document {
-    /// The text with the current results.
+    /// Returns the text with the current results.
     fn replayed(text: &str) -> String {
         let mut document = Self::default();
         let mut fresh = String::new();
@@ -197,7 +197,7 @@ impl Document {
         fresh
     }
 
-    /// The lines of the results of a text.
+    /// Returns the lines of the results of a text.
     fn results(text: &str) -> Vec<&str> {
         text.lines()
             .filter(|line| line.starts_with(RESULT))

@@ -1,4 +1,4 @@
-//! What Windows shows of `frictcomp.exe`: its icon, and version and product among its properties.
+//! Windows resources of `frictcomp.exe`: its icon, and version and product among its properties.
 
 #![allow(
     clippy::print_stdout,

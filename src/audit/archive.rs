@@ -29,7 +29,7 @@ pub enum MendedEnd {
     Leavers,
     /// The programs that inherit it.
     Inheritors,
-    /// For each axis whichever are fewer.
+    /// The side with fewer programs, for each axis.
     Smaller,
 }
 
@@ -42,7 +42,7 @@ pub struct AxisFinding {
     pub axis: String,
     /// Kind of compensation.
     pub kind: Kind,
-    /// Whether it is selected at the start of the control.
+    /// Whether compensation is selected at the start of the control.
     pub on_at_start_up: bool,
     /// The position of the axis and kind in [`ProgramAudit::axes`].
     pub at: usize,
@@ -90,7 +90,7 @@ impl AxisFinding {
         }
     }
 
-    /// Whether programs leave, or may leave, it away from its start-up state and others inherit that.
+    /// Returns whether programs leave, or may leave, it away from its start-up state and others inherit that.
     pub fn is_worth_a_warning(&self) -> bool {
         let movers = self.movers();
         !(movers.is_empty() || self.leavers.is_empty() && self.unknown.is_empty())
@@ -274,7 +274,7 @@ pub struct StepAxis {
     /// The possible states at its end, each with the ways to it, if ways differ.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub possible: Option<PossibleStates>,
-    /// Whether it is selected at the start of the control.
+    /// Selection at the start of the control.
     #[serde(skip)]
     pub start_up: Selected,
     /// The last command that made it what it is at the end.
@@ -289,7 +289,7 @@ pub struct StepAxis {
 }
 
 impl StepAxis {
-    /// Whether its first motion away from its start-up state is certain, and so is that state.
+    /// Returns whether its first motion away from its start-up state is certain, and so is that state.
     pub fn moves_certainly(&self) -> bool {
         let away = self.away.as_ref();
         away.is_some_and(|away| !away.perhaps && away.ways.is_empty())
@@ -313,7 +313,7 @@ impl<'a> Sequence<'a> {
     /// does not change them (R1.28).
     ///
     /// # Errors
-    /// Those of `run`.
+    /// The errors of `run`.
     pub fn step<E>(
         &mut self,
         file: &str,

@@ -28,18 +28,18 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum ProgramEffect {
-        /// The program ends with the selection that it found.
+        /// No change: the selection at the end is the one that the program found.
         Keeps = "keeps",
-        /// It ends selected, whatever it found.
+        /// Kind selected at the end, whatever the state found.
         #[serde(rename = "leaves on")]
         LeavesOn = "leaves on",
-        /// It ends deselected, whatever it found.
+        /// Kind deselected at the end, whatever the state found.
         #[serde(rename = "leaves off")]
         LeavesOff = "leaves off",
-        /// It depends on values that only the machine knows, or on the state that it finds: the ways to each selection
-        /// are known (R14.6, R10.10).
+        /// State at the end that depends on values known only to the machine, or on the state found: the ways to each
+        /// selection are known (R14.6, R10.10).
         Depends = "depends",
-        /// Neither the state at the end nor its conditions are known offline.
+        /// Effect of which neither the state at the end nor its conditions are known offline.
         Unknown = "unknown",
     }
 }
@@ -71,11 +71,11 @@ impl FirstMotion {
     }
 }
 
-/// Whether a program moves an axis in the state that it finds (R10.1).
+/// Inheritance of a state: a motion of an axis in the state that a program finds (R10.1).
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Inherits {
-    /// It does not: the axis does not move, or a command comes first.
+    /// No inheritance: the axis does not move, or a command comes first.
     No,
     /// The first motion before any command of the program.
     Motion(FirstMotion),
@@ -104,7 +104,7 @@ impl Inherits {
 }
 
 impl Serialize for Inherits {
-    /// The motion, or `"no"` or `"unknown"`.
+    /// Returns the motion, or `"no"` or `"unknown"`.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::No => serializer.serialize_str("no"),
@@ -136,7 +136,7 @@ const MAX_NAMED: usize = 4;
 enum Left<'a> {
     StartUp,
     Away,
-    /// It depends on values that only the machine knows.
+    /// States that depend on values known only to the machine.
     Either(&'a PossibleStates),
 }
 
@@ -271,7 +271,7 @@ impl Scope {
         &self.subjects
     }
 
-    /// Whether anything says that the axis of a subject is configured for it (R18.2).
+    /// Returns whether anything says that the axis of a subject is configured for it (R18.2).
     pub(super) fn is_described(&self, at: usize) -> bool {
         self.undescribed.iter().all(|(_, open)| *open != at)
     }
@@ -328,7 +328,7 @@ impl Scope {
         self.found(|it| is_away && it == at).state(axis, kind)
     }
 
-    /// Whether a subject is selected at the start of the control.
+    /// Returns whether a subject is selected at the start of the control.
     pub(super) fn is_on_at_start_up(&self, subject: AuditedKind) -> bool {
         self.start_up.selected(subject.axis).contains(subject.kind)
     }
@@ -340,11 +340,11 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Selected {
-        /// It is selected.
+        /// Selected.
         On = "on",
-        /// It is not.
+        /// Deselected.
         Off = "off",
-        /// It is not known offline.
+        /// Motion not known offline.
         Unknown = "unknown",
     }
 }

@@ -14,11 +14,11 @@ use super::runs::ProgramRuns;
 use crate::interpreter::{EndedBy, Interpreter, Observer};
 use crate::text::Numbering;
 
-/// Whether a block may change the state in which an axis moves.
+/// Motions whose state of compensation a block may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum CuredMotions {
-    /// Every motion keeps its state (R10.8).
+    /// No motion: every one keeps its state (R10.8).
     #[default]
     Kept,
     /// A block that changes one is taken where no other helps.
@@ -53,7 +53,7 @@ pub struct Missed {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WhyMissed {
-    /// No single block takes the program out of the hazards.
+    /// No single block cures the program of its hazards.
     NotCured,
     /// Blocks that do so change the state in which axes move in this program (R10.8).
     ChangesMotion(Arc<str>),
@@ -87,7 +87,7 @@ impl<E, F> RunWith<E> for F where
 /// state, unless `motions` may change (R10.8). `run` runs a program, by its position, with a text in place of the file.
 ///
 /// # Errors
-/// Those of `run`.
+/// The errors of `run`.
 pub fn mend<E>(
     text: &str,
     programs: &[Affected<'_>],
@@ -135,7 +135,7 @@ struct Trial<'a, R> {
     programs: &'a [Affected<'a>],
     /// The runs of the programs without any block.
     before: Vec<ProgramRuns>,
-    /// Those with the accepted blocks, if there are any.
+    /// The runs with the accepted blocks; `None` before the first block is accepted.
     now: Option<Vec<ProgramRuns>>,
     accepted: Mended,
     motions: CuredMotions,
@@ -281,8 +281,8 @@ impl<R> Trial<'_, R> {
         blocks
     }
 
-    /// Whether every motion keeps its state when started in the start-up state, and from another state changes at most
-    /// to the start-up state.
+    /// Returns whether every motion keeps its state when started in the start-up state, and from another state changes
+    /// at most to the start-up state.
     fn keeps_motions(&self, program: usize, after: &ProgramRuns) -> bool {
         let before = &self.before[program];
         let scope = self.programs[program].auditor.scope();
@@ -302,7 +302,7 @@ impl<R> Trial<'_, R> {
         })
     }
 
-    /// Whether a program now leaves, or may leave, an axis away from its start-up state.
+    /// Returns whether a program now leaves, or may leave, an axis away from its start-up state.
     fn brings_a_hazard(&self, program: usize, after: &ProgramRuns) -> bool {
         let auditor = self.programs[program].auditor;
         let worse = |axis: &AxisAudit| axis.leaves_away() || axis.is_unknown();
@@ -311,7 +311,7 @@ impl<R> Trial<'_, R> {
         pairs.any(|(before, after)| worse(&after) && !worse(before))
     }
 
-    /// Whether a program no longer takes part in the hazards.
+    /// Returns whether a program no longer takes part in the hazards.
     fn is_cured(&self, program: usize, runs: &ProgramRuns, mending: Mending) -> bool {
         let audit = &self.programs[program].auditor.axes(runs)[mending.at];
         match mending.cure {
@@ -329,12 +329,11 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Cure {
-        /// There is no hazard.
+        /// No hazard, so no program to mend.
         None = "none",
-        /// Those that leave the axis away from its start-up state; mended by a command before the
-        /// end.
+        /// The programs that leave the axis away from its start-up state; mended by a command before the end.
         Leavers = "leavers",
-        /// Those that inherit it; mended by a command before the first motion.
+        /// The programs that inherit that state; mended by a command before the first motion.
         Inheritors = "inheritors",
     }
 }

@@ -20,7 +20,7 @@ use crate::text::Place;
 pub(super) enum SelectionOrigin {
     /// A command that was executed.
     Command(Site),
-    /// Something that is not known offline.
+    /// Cause not known offline.
     Doubt(WhyUnknown),
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Moved {
 pub(super) struct Observed {
     /// The origin of its state at the end; before it, the last doubt about it.
     pub(super) last: Option<SelectionOrigin>,
-    /// Whether a command of the program named it.
+    /// Whether a command of the program named the subject.
     pub(super) commanded: bool,
     /// The first motion in the state that the program found: the first certain one, else the first possible one.
     pub(super) inherited: Option<Moved>,
@@ -82,7 +82,7 @@ impl FoundSide {
 pub(super) struct Observation {
     /// The observed side of a run that finds states open.
     side: Option<FoundSide>,
-    /// Whether the sides of a run that finds states open show what runs from their states would.
+    /// Whether the sides of a run that finds states open show the results of runs from their states.
     pub(super) is_of_sides: bool,
     pub(super) observed: Vec<Observed>,
     /// The reason for its end; `None` if the end was not observed.
@@ -101,13 +101,13 @@ pub(super) struct Observation {
     pub(super) possible: Vec<Option<PossibleStates>>,
     /// The subjects whose states it asked for before it set them, each with the first place.
     pub(super) asked: BTreeMap<usize, Site>,
-    /// Its blocks in the main program, or in the observed called file.
+    /// Blocks in the main program, or in the observed called file.
     pub(super) within: Within,
     /// The called files whose blocks it executed.
     pub(super) called: BTreeSet<Arc<str>>,
     /// The open questions whose readings decided something in it (R15.3).
     pub(super) rests_on: QuestionSet,
-    /// Its use of variables that outlive programs.
+    /// Use of variables that outlive programs.
     pub(super) used: VariableUse,
     /// The main file.
     main: Option<Arc<str>>,
@@ -279,7 +279,8 @@ impl Observation {
         }
     }
 
-    /// The possible states of a kind on the observed side. The sides cannot be told apart where sets were widened.
+    /// Returns the possible states of a kind on the observed side. The sides cannot be told apart where sets were
+    /// widened.
     fn possible_of(
         &mut self,
         (compensation, found): (&Compensation, FoundStates<'_>),
@@ -291,7 +292,7 @@ impl Observation {
         possible
     }
 
-    /// The selection of a subject with its possible states, on the observed side.
+    /// Returns the selection of a subject with its possible states, on the observed side.
     fn stood(&mut self, scope: &Scope, at: usize, executed: &Executed<'_>) -> Stood {
         let AuditedKind { axis, kind } = scope.subjects()[at];
         let states = (executed.compensation, executed.found);
@@ -558,7 +559,7 @@ pub(super) struct Stood {
 }
 
 impl Stood {
-    /// The selection of a subject, with its possible states if there are several.
+    /// Returns the selection of a subject, with its possible states if there are several.
     pub(super) fn new(selected: Selected, possible: Option<&PossibleStates>) -> Self {
         let mut digest = DefaultHasher::new();
         if let Some(possible) = possible {
@@ -600,8 +601,7 @@ impl SelectionAtMotions {
         self.rest = step.wrapping_mul(0x0100_0000_01b3).max(1);
     }
 
-    /// Whether every motion of another run has the same selection as in this one, or the wanted
-    /// one.
+    /// Returns whether every motion of another run has the same selection as in this one, or the wanted one.
     pub(super) fn only_become(&self, after: &Self, wanted: Selected) -> bool {
         if self == after {
             return true;

@@ -24,7 +24,7 @@ use crate::timeline::ReadingsInForce;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum Ending {
-    /// At M30 or M02 of a line of the main program.
+    /// M30 or M02 in a line of the main program.
     At(u32),
     /// Elsewhere: where the file ends, or in a program that it calls.
     Elsewhere,
@@ -40,13 +40,13 @@ pub struct AxisAudit {
     /// Kind of compensation.
     #[serde(skip)]
     pub kind: Kind,
-    /// Whether it is selected at the start of the control.
+    /// Whether compensation is selected at the start of the control.
     #[serde(skip)]
     pub on_at_start_up: bool,
-    /// Whether anything says if the axis is configured for it; if nothing does, it may be (R18.2).
+    /// Whether a source describes the compensation of the axis; without one, the axis may be configured for it (R18.2).
     #[serde(skip)]
     pub is_described: bool,
-    /// Whether a command of the program is about it.
+    /// Whether a command of the program switches it.
     #[serde(skip)]
     pub is_commanded: bool,
     /// Effect on the selection.
@@ -61,12 +61,12 @@ pub struct AxisAudit {
     /// The reason for which the effect is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<WhyUnknown>,
-    /// Whether the program moves the axis before any of its own commands.
+    /// Inheritance of the state by a motion before any command of the program.
     pub inherits: Inherits,
 }
 
 impl AxisAudit {
-    /// Whether the program leaves the axis away from its start-up state, on all or some ways.
+    /// Returns whether the program leaves the axis away from its start-up state, on all or some ways.
     pub fn leaves_away(&self) -> bool {
         match self.effect {
             ProgramEffect::LeavesOn => !self.on_at_start_up,
@@ -76,21 +76,21 @@ impl AxisAudit {
         }
     }
 
-    /// Returns the ways on which it leaves the axis away from its start-up state, in words as seen from a file: `if
-    /// skip level 1 is on`; `None` if it does so on all of them.
+    /// Returns the ways on which it leaves the axis away from its start-up state, in words as seen from a file:
+    /// `if skip level 1 is on`; `None` if it does so on all of them.
     pub fn leaves_away_when(&self, file: &str) -> Option<String> {
         let possible = self.possible.as_ref()?;
         let is_away = |state: State| (state == State::Inactive) == self.on_at_start_up;
         possible.when(is_away, file)
     }
 
-    /// Whether it moves the axis in the state that it finds.
+    /// Returns whether it moves the axis in the state that it finds.
     pub fn is_inheritor(&self) -> bool {
         let motion = self.inherits.motion();
         motion.is_some_and(|motion| !motion.perhaps)
     }
 
-    /// Whether it may move the axis in the state that it finds.
+    /// Returns whether it may move the axis in the state that it finds.
     pub fn may_inherit(&self) -> bool {
         let motion = self.inherits.motion();
         motion.is_some_and(|motion| motion.perhaps)
@@ -106,13 +106,13 @@ impl AxisAudit {
         }
     }
 
-    /// Whether anything about it is not known offline.
+    /// Returns whether anything about it is not known offline.
     pub fn is_unknown(&self) -> bool {
         self.effect == ProgramEffect::Unknown || self.inherits == Inherits::Unknown
     }
 
-    /// Whether its effect is unknown because it depends on values that only the machine knows or on the state that the
-    /// program finds, not because something stopped the program.
+    /// Returns whether its effect is unknown because it depends on values that only the machine knows or on the state
+    /// that the program finds, not because something stopped the program.
     pub fn depends_on_the_machine(&self) -> bool {
         let code = self.reason.as_ref().and_then(|reason| reason.code);
         self.effect == ProgramEffect::Unknown
@@ -210,7 +210,7 @@ impl Auditor {
     /// `run` runs it on an interpreter: the host knows where its text comes from and where called programs are.
     ///
     /// # Errors
-    /// Those of `run`.
+    /// The errors of `run`.
     pub fn audit<E>(
         &self,
         file: &str,

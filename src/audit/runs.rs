@@ -28,7 +28,7 @@ impl RunStart {
         }
     }
 
-    /// Whether a subject starts away from its start-up state.
+    /// Returns whether a subject starts away from its start-up state.
     pub(super) fn is_away(&self, at: usize) -> bool {
         self.is_away != self.apart.contains(&at)
     }
@@ -143,7 +143,7 @@ impl ProgramRuns {
         self.all().find(has_failed)
     }
 
-    /// Whether a command is about a subject.
+    /// Returns whether a command is about a subject.
     pub(super) fn is_commanded(&self, at: usize) -> bool {
         self.all().any(|run| run.observed[at].commanded)
     }
@@ -176,8 +176,8 @@ impl ProgramRuns {
         }
     }
 
-    /// The effect of a program that is stopped on all ways: an error leaves away what is away there (R18.10); where it
-    /// would have led otherwise is not known.
+    /// Returns the effect of a program that is stopped on all ways: an error leaves away what is away there (R18.10);
+    /// where it would have led otherwise is not known.
     fn left_at_error(&self, scope: &Scope, at: usize) -> ProgramEffect {
         let is_on = scope.is_on_at_start_up(scope.subjects()[at]);
         let away = if is_on { Selected::Off } else { Selected::On };
@@ -276,7 +276,7 @@ impl Within {
         }
     }
 
-    /// Whether the main program is observed.
+    /// Returns whether the main program is observed.
     pub(super) fn is_of_main(&self) -> bool {
         self.called.is_none()
     }

@@ -1,5 +1,5 @@
-//! What compensation depends on, the COMP command as data, the compensation state of every axis, and what a command does to it or
-//! why it is refused.
+//! The preconditions of compensation, the COMP command as data, the compensation state of every axis, and the effect of
+//! a command on it or the reason for its refusal.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -44,7 +44,7 @@ impl AxisState {
         })
     }
 
-    /// Whether the axis is configured for kinds is open.
+    /// Leaves open whether the axis is configured for kinds.
     fn rewrite(&mut self, kinds: KindSet) {
         self.unselected = self.unselected.without(kinds);
         self.configured = self.configured.union(kinds);
@@ -118,7 +118,7 @@ impl Compensation {
         compensation
     }
 
-    /// Whether this is a state of these axes.
+    /// Returns whether this is a state of these axes.
     pub(crate) fn fits(&self, axes: impl IntoIterator<Item = AxisSetup>) -> bool {
         let setups = axes.into_iter().map(|axis| (axis.name, axis.is_spindle));
         let own = self
@@ -141,7 +141,7 @@ impl Compensation {
         self.axes.len()
     }
 
-    /// Whether the machine has no axes.
+    /// Returns whether the machine has no axes.
     pub fn is_empty(&self) -> bool {
         self.axes.is_empty()
     }
@@ -265,8 +265,8 @@ impl Compensation {
         }
     }
 
-    /// A program wrote the parameters of a kind into the machine data: whether the axis is configured for it is open, and
-    /// so is what a command that switches it on does, until a restart of the control (R2.92).
+    /// Records that a program wrote the parameters of a kind into the machine data: until a restart of the control it
+    /// is open whether the axis is configured for the kind, and what a command that switches it on does (R2.92).
     pub(crate) fn rewrite(&mut self, axis: AxisIndex, kind: Kind, changes: &mut Vec<Change>) {
         let state = &mut self.axes[axis.get()];
         changes.extend(state.change(axis, kind, |state| {
@@ -275,7 +275,7 @@ impl Compensation {
         }));
     }
 
-    /// The kinds whose parameters a program wrote.
+    /// Returns the kinds whose parameters a program wrote.
     pub(crate) fn rewritten(&self, axis: AxisIndex) -> KindSet {
         self.axes[axis.get()].rewritten
     }
@@ -337,7 +337,7 @@ impl Compensation {
         differ.intersection(mine.configured)
     }
 
-    /// Whether the value list of a kind counts as accepted.
+    /// Returns whether the value list of a kind counts as accepted.
     pub(crate) fn is_parameterised(&self, axis: AxisIndex, kind: Kind) -> bool {
         self.axes[axis.get()].parameterised.contains(kind)
     }
@@ -349,21 +349,21 @@ impl Compensation {
         state.unknown.remove(kind);
     }
 
-    /// Whether an axis is configured for a kind.
+    /// Returns whether an axis is configured for a kind.
     pub fn is_configured(&self, axis: AxisIndex, kind: Kind) -> bool {
         self.axes[axis.get()].configured.contains(kind)
     }
 }
 
-/// Whether an axis takes part in a coupling.
+/// Membership of an axis in a coupling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Coupling {
-    /// It does.
+    /// Member of a coupling.
     Active,
-    /// It does or it does not, which only the machine knows.
+    /// Possible member of a coupling, which only the machine knows.
     Perhaps,
-    /// It does not.
+    /// Not a member of a coupling.
     None,
 }
 
@@ -422,7 +422,7 @@ impl AxisIndex {
 pub struct AxisSetup {
     /// The name in NC programs, case-sensitive.
     pub name: String,
-    /// Whether it is a spindle; spindles have no COMP.
+    /// Whether the axis is a spindle; spindles have no COMP.
     pub is_spindle: bool,
     /// The kinds that the axis parameters configure.
     pub configured: KindSet,
@@ -482,7 +482,7 @@ pub struct CompCommand {
     pub selection: Selection,
     /// Whether the bracket contains `NO_MOVE`, which does not matter to friction compensation (R1.6).
     pub no_move: bool,
-    /// From the axis name to the closing bracket.
+    /// Span from the axis name to the closing bracket.
     pub span: Span,
 }
 

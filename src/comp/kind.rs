@@ -76,7 +76,7 @@ impl KindSet {
         Self(1 << kind as u8)
     }
 
-    /// Whether the kind is in the set.
+    /// Returns whether the kind is in the set.
     pub fn contains(self, kind: Kind) -> bool {
         self.0 & Self::of(kind).0 != 0
     }
@@ -114,7 +114,7 @@ impl KindSet {
         Self(self.0 & !other.0)
     }
 
-    /// Whether the set is empty.
+    /// Returns whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -137,13 +137,13 @@ impl FromIterator<Kind> for KindSet {
     }
 }
 
-/// Whether a kind belongs to a set.
+/// Membership of a kind in a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Membership {
-    /// It does.
+    /// Member of the set.
     In,
-    /// It does not.
+    /// Not a member of the set.
     Out,
 }
 
@@ -270,8 +270,8 @@ impl CncBuild {
 pub struct NoBuild(String);
 
 impl CncBuild {
-    /// Whether this build reads real numbers in the friction table: V3.1.3132.0 and later on the
-    /// V3 line, V4.29.0 and later on the V4 line (chapter 3.3).
+    /// Returns whether this build reads real numbers in the friction table: V3.1.3132.0 and later on the V3 line,
+    /// V4.29.0 and later on the V4 line (chapter 3.3).
     pub fn reads_real_points(self) -> bool {
         let first = match self.0[0] {
             0..=3 => Self([3, 1, 3132, 0]),

@@ -11,7 +11,7 @@ use super::section::Shape;
 pub enum Form {
     /// A text.
     Text,
-    /// One of these texts.
+    /// One of the given texts.
     OneOf(&'static [&'static str]),
     /// A list of texts.
     Texts,
@@ -57,9 +57,9 @@ pub struct KeyForm {
 /// A table with the forms of its values.
 #[derive(Debug, Clone, Copy)]
 pub struct TableForm {
-    /// Its header, `[[axis]]`; the file itself is named after it.
+    /// Header, `[[axis]]`; the file itself is named after it.
     pub header: &'static str,
-    /// Its keys, except those that the user chooses.
+    /// Keys, except those that the user chooses.
     pub keys: &'static [KeyForm],
     /// The form of the values of keys that the user chooses.
     pub free: Option<Form>,

@@ -208,7 +208,7 @@ codes! {
 }
 
 impl Code {
-    /// Whether it reports that a bound of the dry run was reached (R2.60).
+    /// Returns whether it reports that a bound of the dry run was reached (R2.60).
     pub fn is_budget(self) -> bool {
         matches!(
             self,
@@ -223,7 +223,7 @@ impl Code {
         )
     }
 
-    /// Whether it is about the program text as written, whichever way the control takes (R14.5).
+    /// Returns whether it is about the program text as written, whichever way the control takes (R14.5).
     pub(crate) fn is_about_text(self) -> bool {
         matches!(
             self,
@@ -247,7 +247,7 @@ impl Code {
         )
     }
 
-    /// Whether it is one of the control's numbers; those cannot be silenced (R9.24).
+    /// Returns whether it is one of the control's numbers; those cannot be silenced (R9.24).
     pub fn is_controller(self) -> bool {
         self.as_str().starts_with("P-ERR-")
     }
@@ -297,7 +297,7 @@ pub struct CodeFilter {
 }
 
 impl CodeFilter {
-    /// Whether a code is reported.
+    /// Returns whether a code is reported.
     pub fn keeps(&self, code: Code) -> bool {
         let selected = self.select.is_empty() || self.select.contains(&code);
         code.is_controller() || (selected && !self.ignore.contains(&code))

@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::text::{Numbering, Place, SourceFile, Span};
 
 crate::words! {
-    /// Whether a fix may be applied without review.
+    /// Safety of a fix: the need for a review before it is applied.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Safety {
-        /// The machine does the same before and after it.
+        /// Fix that leaves the behaviour of the machine unchanged.
         Safe = "safe",
-        /// It guesses the intention or changes what the machine does, and has to be reviewed.
+        /// Fix that guesses the intention or changes what the machine does, and has to be reviewed.
         Unsafe = "unsafe",
     }
 }
@@ -22,9 +22,9 @@ crate::words! {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum FixForm {
-    /// It is written as it is.
+    /// Text inserted as written.
     Text,
-    /// It is a block on a line of its own, with a number where its neighbours have numbers.
+    /// Block on a line of its own, with a number where its neighbours have numbers.
     Block,
 }
 
@@ -40,7 +40,7 @@ pub struct Fix<P = Place> {
     pub place: P,
     /// Replacement, with lines separated by `\n`.
     pub text: String,
-    /// Whether it may be applied without review.
+    /// Need for a review before it is applied.
     pub safety: Safety,
     /// Form of the replacement.
     pub form: FixForm,
@@ -97,7 +97,7 @@ impl<P> Fix<P> {
 }
 
 impl Fix {
-    /// The changes that it consists of.
+    /// Returns the changes that it consists of.
     pub fn changes(&self) -> impl Iterator<Item = &Self> {
         std::iter::successors(Some(self), |fix| fix.also.as_deref())
     }

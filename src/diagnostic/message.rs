@@ -29,9 +29,9 @@ pub struct Label {
 pub struct Diagnostic {
     /// The control's number, or one of ours.
     pub code: Code,
-    /// Its severity, already changed by the user's `[lint]` table.
+    /// Severity, already changed by the user's `[lint]` table.
     pub severity: Severity,
-    /// One sentence in lower case.
+    /// The message: one sentence in lower case.
     pub message: String,
     /// Place of the cause.
     pub place: Place,
@@ -83,12 +83,12 @@ impl Diagnostic {
         self.severity = self.severity.min(severity);
     }
 
-    /// Whether it is less severe than its code says, so that no setting raises it.
+    /// Returns whether it is less severe than its code says, so that no setting raises it.
     pub(crate) fn is_lowered(&self) -> bool {
         self.severity < self.code.severity()
     }
 
-    /// Whether it is more severe than its code says, so that no setting lowers or silences it.
+    /// Returns whether it is more severe than its code says, so that no setting lowers or silences it.
     pub fn is_raised(&self) -> bool {
         self.severity > self.code.severity()
     }
@@ -227,7 +227,7 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum Severity {
-        /// For information.
+        /// Information only.
         Info = "info",
         /// Likely a mistake, or an effect that outlives the program.
         Warning = "warning",
@@ -269,7 +269,7 @@ impl Collected {
         }
     }
 
-    /// Whether there are no messages.
+    /// Returns whether there are no messages.
     pub fn is_empty(&self) -> bool {
         self.said.is_empty()
     }
@@ -306,7 +306,7 @@ impl ReachedFrom {
         self.count
     }
 
-    /// Whether no other program reaches the place.
+    /// Returns whether no other program reaches the place.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -363,7 +363,7 @@ impl fmt::Display for ReadableNumber {
         if size != 0.0 && size.is_finite() && !(1e-9..1e12).contains(&size) {
             write!(f, "{:e}", self.0)
         } else {
-            // No negative zero.
+            // Adding 0 turns -0 into 0.
             write!(f, "{}", self.0 + 0.0)
         }
     }

@@ -95,7 +95,7 @@ pub enum Presence {
         /// The line that says so.
         evidence: TorqueEvidence,
     },
-    /// No source gives it, or the sources contradict each other.
+    /// Value that no source gives, or on which the sources contradict each other.
     Unknown {
         /// The reason, in words.
         reason: String,
@@ -134,8 +134,8 @@ pub struct DriveReport {
 }
 
 impl DriveReport {
-    /// Whether the torque would reach the drive and the control has none to send: no accepted value list, or a factor
-    /// of 0.
+    /// Returns whether the torque would reach the drive and the control has none to send: no accepted value list, or a
+    /// factor of 0.
     pub fn is_idle(&self) -> bool {
         let sends = self.largest_torque.is_some_and(|largest| largest > 0.0);
         self.configured && matches!(self.additive_torque, Presence::Present { .. }) && !sends
@@ -327,7 +327,7 @@ impl Judge<'_> {
             .find(|slave| slave.name == given.slave)
     }
 
-    /// FC505: the drive compensates friction by itself, or may do so (R7.10).
+    /// Returns FC505: the drive compensates friction by itself, or may do so (R7.10).
     fn own_friction(&self) -> Vec<Diagnostic> {
         let mut all = Vec::new();
         let (Some(network), Some(selector)) = (&self.evidence.network, self.selector) else {
@@ -380,7 +380,7 @@ impl Judge<'_> {
         all
     }
 
-    /// FC501 or FC502.
+    /// Reports FC501 or FC502.
     fn miss(&mut self, signal: Signal, place: Place) {
         let is_command = signal == Signal::AdditiveTorque
             && matches!(self.settings.telegram(signal), Telegram::HoldsCommand(_));
@@ -434,7 +434,7 @@ impl Judge<'_> {
         ))
     }
 
-    /// FC504.
+    /// Reports FC504.
     fn ask(&mut self, signal: Signal, reason: &str, place: Option<Place>) {
         let Some(place) = place.or_else(|| self.selector.map(Given::place)) else {
             return;

@@ -42,13 +42,13 @@ impl TorqueScale {
 /// Statement of a telegram of the axis list about a value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Telegram {
-    /// It has no entry in this direction; TwinCAT fills it in (R7.5).
+    /// No entry in this direction; TwinCAT fills it in (R7.5).
     Silent,
-    /// It contains the value.
+    /// Telegram that contains the value.
     Holds(Place),
-    /// It contains other values; the place of the first.
+    /// Telegram that contains other values, with the place of the first.
     Lacks(Place),
-    /// It contains the torque command itself instead.
+    /// Telegram that contains the torque command itself instead.
     HoldsCommand(Place),
 }
 
@@ -169,7 +169,7 @@ impl DriveSettings {
     }
 }
 
-/// FC130 for a value that cannot be used.
+/// Returns FC130 for a value that cannot be used.
 fn unusable(entry: &Entry, expected: &'static str) -> Diagnostic {
     let word = entry.word();
     let message = format!(

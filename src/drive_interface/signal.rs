@@ -53,7 +53,7 @@ impl Signal {
         channel(self.object(), index)
     }
 
-    /// Whether this is its IDN, in any parameter set.
+    /// Returns whether this is its IDN, in any parameter set.
     pub fn is_idn(self, idn: u16) -> bool {
         idn & IDN_OF_MANUFACTURER == 0 && idn & IDN_NUMBER == self.idn()
     }
@@ -72,7 +72,7 @@ impl Signal {
         }
     }
 
-    /// Whether an `nc_ref` names it.
+    /// Returns whether an `nc_ref` names it.
     pub(super) fn is_reference(self, reference: &str) -> bool {
         self.words().contains(&reference)
             || idn(reference).is_some_and(|idn| self.is_idn(idn))
@@ -80,7 +80,7 @@ impl Signal {
     }
 }
 
-/// Whether an `nc_ref` names the torque command itself, which is not the additive one (R7.1).
+/// Returns whether an `nc_ref` names the torque command itself, which is not the additive one (R7.1).
 pub(super) fn is_torque_command(reference: &str) -> bool {
     matches!(reference, "TORQUE_COMMAND_VALUE" | "MOMENT_SOLL_WERT")
         || idn(reference).is_some_and(|idn| idn == 80)
@@ -213,17 +213,17 @@ impl DriveType {
         row.map_or("", |row| row.name)
     }
 
-    /// Whether friction compensation is available with it (P-AXIS-00522).
+    /// Returns whether friction compensation is available with it (P-AXIS-00522).
     pub fn compensates_friction(self) -> bool {
         matches!(self, Self::Sercos | Self::CanOpen)
     }
 
-    /// Whether no drive exists that could take a torque.
+    /// Returns whether no drive exists that could take a torque.
     pub fn is_without_drive(self) -> bool {
         matches!(self, Self::Simulation | Self::Virtual)
     }
 
-    /// Whether it takes a static torque offset (P-AXIS-00324).
+    /// Returns whether it takes a static torque offset (P-AXIS-00324).
     pub(super) fn takes_torque_offset(self) -> bool {
         matches!(self, Self::Sercos | Self::Lightbus | Self::CanOpen)
     }
@@ -248,7 +248,7 @@ pub struct NetworkObject {
     pub pdo_name: String,
     /// The path of the element in the file.
     pub path: String,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
 }
 
@@ -262,7 +262,7 @@ pub struct OwnFriction {
     pub object: String,
     /// The path of the element in the file.
     pub path: String,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
 }
 
@@ -295,7 +295,7 @@ pub struct Slave {
     pub assigns: bool,
     /// The torque values that it exchanges in every cycle.
     pub mapped: Vec<NetworkObject>,
-    /// What its start-up writes that compensates friction in the device.
+    /// Start-up commands that switch on friction compensation in the device itself.
     pub own_friction: Vec<OwnFriction>,
     /// The path of its element in the file.
     pub path: String,
@@ -309,7 +309,7 @@ pub struct Slave {
 pub struct Network {
     /// The file as the user named it.
     pub file: Arc<str>,
-    /// Its devices in the order of the file.
+    /// Devices in the order of the file.
     pub slaves: Vec<Slave>,
 }
 
@@ -317,7 +317,7 @@ pub struct Network {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Device {
-    /// Its type, such as `AX5103-0000`.
+    /// Type, such as `AX5103-0000`.
     pub name: String,
     /// The number of the vendor.
     pub vendor: Option<u32>,
@@ -345,7 +345,7 @@ impl Network {
 }
 
 impl Slave {
-    /// Whether it is of a series that can compensate friction by itself, by its name (AX8000, AMP8000).
+    /// Returns whether it is of a series that can compensate friction by itself, by its name (AX8000, AMP8000).
     pub(super) fn may_compensate(&self) -> bool {
         ["AX8", "AMP8"]
             .iter()

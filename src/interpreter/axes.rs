@@ -1,5 +1,5 @@
-//! What axis names mean on a path: the axes of the machine, until the program exchanges them (TF5200 programming manual,
-//! 206977419 and its neighbours).
+//! Meaning of axis names on a path: the axes of the machine, until the program exchanges them (TF5200 programming
+//! manual, 206977419 and its neighbours).
 //!
 //! An axis that is given back keeps its compensation: what another channel does with it is reported when the programs of
 //! that channel are checked.
@@ -60,7 +60,7 @@ pub(crate) struct AxisLookup<'a> {
 }
 
 impl AxisLookup<'_> {
-    /// An axis or spindle by its name.
+    /// Returns an axis or spindle by its name.
     pub(crate) fn any(self, name: &str) -> Option<AxisIndex> {
         match self.channel.meaning(name) {
             None => self.machine.find(name),
@@ -68,7 +68,7 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// An axis by its name.
+    /// Returns an axis by its name.
     pub(crate) fn named(self, name: &str) -> Option<AxisIndex> {
         match self.channel.meaning(name) {
             None => self.own.get(name),
@@ -76,34 +76,34 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// An axis by its letter.
+    /// Returns an axis by its letter.
     pub(crate) fn letter(self, letter: u8) -> Option<AxisIndex> {
         self.named(char::from(letter).encode_utf8(&mut [0; 4]))
     }
 
-    /// The axis that `@X` means in the plane in force.
+    /// Returns the axis that `@X` means in the plane in force.
     pub(crate) fn main(self, letter: u8, modal: &Modal) -> Option<AxisIndex> {
         self.letter(modal.main_axis(letter)?)
     }
 
-    /// Every axis and spindle.
+    /// Returns every axis and spindle.
     pub(crate) fn all(self) -> impl Iterator<Item = AxisIndex> + use<> {
         (0..self.machine.axes.len()).map(AxisIndex::new)
     }
 
-    /// Every axis that words can move.
+    /// Returns every axis that words can move.
     pub(crate) fn path(self) -> Vec<AxisIndex> {
         let is_path = |axis: &AxisIndex| !self.machine.axis(*axis).is_spindle();
         self.all().filter(is_path).collect()
     }
 
-    /// Those of X, Y and Z that the machine has.
+    /// Returns the axes among X, Y and Z that the machine has.
     pub(crate) fn xyz(self) -> Vec<AxisIndex> {
         let letters = [b'X', b'Y', b'Z'].map(|it| self.letter(it));
         letters.into_iter().flatten().collect()
     }
 
-    /// The axes of the active plane; all main axes where it is not known.
+    /// Returns the axes of the active plane; all main axes where it is not known.
     pub(crate) fn plane(self, modal: &Modal) -> Vec<AxisIndex> {
         match [b'X', b'Y'].map(|it| self.main(it, modal)) {
             [Some(first), Some(second)] => vec![first, second],
@@ -111,13 +111,13 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// The axes that a command names.
+    /// Returns the axes that a command names.
     pub(crate) fn given(self, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
         let words = arguments.words(text);
         words.filter_map(|word| self.any(word)).collect()
     }
 
-    /// The axes that a command names, or else all.
+    /// Returns the axes that a command names, or else all.
     pub(crate) fn given_or_all(self, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
         let named = self.given(arguments, text);
         if named.is_empty() {
@@ -127,9 +127,9 @@ impl AxisLookup<'_> {
         }
     }
 
-    /// The pairs of axes that a definition of a coupling group names, slave and master: `[1, X = Y]`, or `[1, 8 = 2]` by
-    /// their logical numbers. An axis whose partner the machine does not have stands twice. `None` where a number may be
-    /// that of an axis without a known one.
+    /// Returns the pairs of axes that a definition of a coupling group names, slave and master: `[1, X = Y]`, or
+    /// `[1, 8 = 2]` by their logical numbers. An axis whose partner the machine does not have stands twice. `None`
+    /// where a number may be that of an axis without a known one.
     pub(crate) fn members(
         self,
         by: MembersBy,
@@ -155,14 +155,14 @@ impl AxisLookup<'_> {
         Some(members)
     }
 
-    /// The axis that an argument gives by its name or its logical number.
+    /// Returns the axis that an argument gives by its name or its logical number.
     pub(crate) fn argument(self, argument: &Argument, text: &str) -> Option<AxisIndex> {
         let number = argument.logical_number(text);
         let by_number = || self.machine.axis_numbered(number?);
         self.any(argument.span.of(text)).or_else(by_number)
     }
 
-    /// Whether a name is that of the main spindle (P-CHAN-00053).
+    /// Returns whether a name is that of the main spindle (P-CHAN-00053).
     pub(crate) fn is_main_spindle(self, name: &str) -> bool {
         let main = &self.machine.channel.main_spindle;
         name == "S" || main.iter().any(|main| main == name)
@@ -180,7 +180,7 @@ pub(crate) struct ChannelAxes {
 /// Meaning of an axis name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum AxisNameMeaning {
-    /// This axis of the machine, whatever its own name is.
+    /// Axis of the machine, possibly under another name.
     Axis(AxisIndex),
     /// An axis that the channel has given back.
     Released(Option<AxisIndex>),
@@ -200,27 +200,27 @@ impl AxisNameMeaning {
 /// Axis that a COMP command switches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Addressed {
-    /// This one.
+    /// Known axis.
     Axis(AxisIndex),
-    /// One that the channel does not have; the control refuses it.
+    /// Axis that the channel does not have; the control refuses it.
     Absent(Option<AxisIndex>),
     /// Any of them.
     Any,
 }
 
 impl ChannelAxes {
-    /// Whether every name means the axis of the machine.
+    /// Returns whether every name means the axis of the machine.
     #[inline]
     pub(crate) fn are_own(&self) -> bool {
         self.names.is_empty() && !self.doubtful
     }
 
-    /// Whether the meaning of every name is unknown.
+    /// Returns whether the meaning of every name is unknown.
     pub(crate) fn is_doubtful(&self) -> bool {
         self.doubtful
     }
 
-    /// Meaning of a name; `None` where it means the axis of the machine, or none.
+    /// Returns the meaning of a name; `None` where it means the axis of the machine, or none.
     pub(crate) fn meaning(&self, name: &str) -> Option<AxisNameMeaning> {
         if self.doubtful {
             return Some(AxisNameMeaning::Unknown);
@@ -228,23 +228,23 @@ impl ChannelAxes {
         self.names.get(name).copied()
     }
 
-    /// The meaning of a name, that of the machine included.
+    /// Returns the meaning of a name, that of the machine included.
     pub(crate) fn meaning_on(&self, machine: &Machine, name: &str) -> Option<AxisNameMeaning> {
         let own = || machine.find(name).map(AxisNameMeaning::Axis);
         self.meaning(name).or_else(own)
     }
 
-    /// Whether the program has changed what a name means.
+    /// Returns whether the program has changed what a name means.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.names.contains_key(name)
     }
 
-    /// The axes of the channel may be exchanged.
+    /// Makes the axes of the channel unknown, since some may have been exchanged.
     pub(crate) fn havoc(&mut self) {
         self.doubtful = true;
     }
 
-    /// The channel receives an axis under a name; `None` for one that is not known.
+    /// Gives the channel an axis under a name; `None` for one that is not known.
     pub(crate) fn request(&mut self, machine: &Machine, name: &str, axis: Option<AxisIndex>) {
         if axis.is_some() && axis == machine.find(name) {
             self.names.remove(name);
@@ -254,7 +254,7 @@ impl ChannelAxes {
         }
     }
 
-    /// The channel gives an axis back; the control does not mind where it does not have it.
+    /// Takes an axis from the channel; the control does not mind where it does not have it.
     pub(crate) fn release(&mut self, machine: &Machine, name: &str) {
         let own = machine.find(name).map(AxisNameMeaning::Axis);
         let released = match self.names.get(name).copied().or(own) {
@@ -266,7 +266,7 @@ impl ChannelAxes {
             .insert(name.to_owned(), AxisNameMeaning::Released(released));
     }
 
-    /// The channel gives back every axis but those of these names. Returns how many names it went through.
+    /// Takes every axis from the channel but those of these names. Returns how many names it went through.
     pub(crate) fn release_others(&mut self, machine: &Machine, stay: &[&str]) -> usize {
         let is_here =
             |name: &str| !matches!(self.names.get(name), Some(AxisNameMeaning::Released(_)));
@@ -283,13 +283,13 @@ impl ChannelAxes {
         count
     }
 
-    /// Whether the channel gave an axis away and does not have it under any name.
+    /// Returns whether the channel gave an axis away and does not have it under any name.
     pub(crate) fn has_released(&self, axis: AxisIndex) -> bool {
         let released = AxisNameMeaning::Released(Some(axis));
         self.names.values().any(|meaning| *meaning == released)
     }
 
-    /// Whether all axes that it names are below a number.
+    /// Returns whether all axes that it names are below a number.
     pub(crate) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {
             AxisNameMeaning::Axis(axis) | AxisNameMeaning::Released(Some(axis)) => {
@@ -299,7 +299,7 @@ impl ChannelAxes {
         })
     }
 
-    /// The names may or may not be those of another way through the program.
+    /// Merges the names of another way through the program, which may be in force instead.
     pub(crate) fn join(&mut self, other: &Self) {
         self.doubtful |= self != other;
     }

@@ -64,12 +64,12 @@ struct LineSpan {
     /// The number of the first of them.
     number: u32,
     text: Arc<str>,
-    /// The offsets of the first and the last line end between them.
+    /// Offsets of the ends of the first and the last line between them.
     breaks: Option<(usize, usize)>,
 }
 
 impl ShownBlockLines {
-    /// The place of a span: only the lines of the block that it touches.
+    /// Returns the place of a span: only the lines of the block that it touches.
     fn place(&self, at: &BlockContext<'_>, span: Span) -> Place {
         let text = at.text;
         let clamped = |offset: u32| {
@@ -111,7 +111,7 @@ impl ShownBlockLines {
 }
 
 impl LineSpan {
-    /// Whether the text between two offsets is shown with these lines.
+    /// Returns whether the text between two offsets is shown with these lines.
     fn show(&self, start: usize, end: usize) -> bool {
         let is_within = self.from <= start && start <= self.to && end <= self.to;
         let touches_all = || {
@@ -123,7 +123,7 @@ impl LineSpan {
 }
 
 impl<'a> BlockContext<'a> {
-    /// The block as one that sets a variable.
+    /// Returns the block as one that sets a variable.
     pub(crate) fn as_setter(&self) -> SetAt {
         SetAt {
             file: self.file.clone(),
@@ -131,7 +131,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A block of the main program, or one that is inspected, not executed.
+    /// Returns a block of the main program, or one that is inspected, not executed.
     #[inline]
     pub(crate) fn of_raw(
         file: &'a Arc<str>,
@@ -154,7 +154,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A block of the program that runs on a level of the call stack.
+    /// Returns a block of the program that runs on a level of the call stack.
     pub(crate) fn of_parsed(parsed: &'a Parsed, level: u32, shown: &'a ShownBlockLines) -> Self {
         Self {
             block: &parsed.block,
@@ -171,7 +171,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// Another block of the same program.
+    /// Returns the context of another block of the same program.
     pub(crate) fn other(&self, parsed: &'a Parsed, shown: &'a ShownBlockLines) -> Self {
         Self {
             block: &parsed.block,
@@ -182,7 +182,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// The code of a macro that is used at a span of this block or macro.
+    /// Returns the code of a macro that is used at a span of this block or macro.
     pub(crate) fn in_macro(
         &self,
         code: &MacroCode<'a>,
@@ -201,7 +201,7 @@ impl<'a> BlockContext<'a> {
 }
 
 impl BlockContext<'_> {
-    /// The span in the block of a span here, for messages once the whole block is known.
+    /// Returns the span in the block of a span here, for messages once the whole block is known.
     pub(crate) fn in_block(&self, span: Span) -> Span {
         self.used.unwrap_or(span)
     }
@@ -226,7 +226,7 @@ impl BlockContext<'_> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct OwnEnd {
     pub(crate) place: Place,
-    /// Whether no jump goes to it.
+    /// Whether no jump goes to the block.
     pub(crate) is_passed_into: bool,
 }
 
@@ -239,7 +239,7 @@ pub(crate) struct LastBlock {
 }
 
 impl LastBlock {
-    /// The whole block.
+    /// Returns the whole block.
     pub(crate) fn place(&self) -> Place {
         Place {
             file: self.file.clone(),
@@ -250,13 +250,13 @@ impl LastBlock {
     }
 }
 
-/// What comes between an error and the next program.
+/// Action required between an error and the next program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum AfterError {
     /// A reset of the channel.
     #[default]
     Reset,
-    /// That, or a restart of the control (R2.100).
+    /// A reset of the channel, or a restart of the control (R2.100).
     ResetOrRestart,
 }
 
@@ -299,7 +299,7 @@ pub(crate) struct BlockScratch {
     pub(crate) actions: BlockActions,
     pub(crate) ending: BlockEnding,
     pub(crate) messages: BlockMessages,
-    /// Whether it has only coordinates, a feed and G functions of groups so far, each a plain number.
+    /// Whether the block has only coordinates, a feed and G functions of groups so far, each a plain number.
     pub(crate) has_plain_words: bool,
     /// Whether an axis occurred for the first time.
     pub(crate) new_axes: bool,
@@ -307,7 +307,7 @@ pub(crate) struct BlockScratch {
     pub(crate) wrote: bool,
 }
 
-/// What the words of a block read.
+/// Values read by the words of a block.
 #[derive(Default, Clone)]
 pub(crate) struct BlockReading {
     pub(crate) stack: RefCell<Vec<Slot>>,
@@ -326,7 +326,7 @@ pub(crate) struct BlockReading {
     pub(crate) flushing: RefCell<Option<VariableName>>,
     /// A `V.I.` variable that was read and that no program of the run declares (R2.102).
     pub(crate) undeclared: RefCell<Option<String>>,
-    /// Why a program may be called that is not known, if one may.
+    /// Reason why an unknown program may be called, if one may.
     pub(crate) unknown_call: Option<Unknown>,
     /// A part of the macro expanded last that limits what may be in the block.
     pub(crate) lone: Option<LonePart>,
@@ -334,19 +334,19 @@ pub(crate) struct BlockReading {
     pub(crate) expansions: Cell<u32>,
 }
 
-/// How a block ends the program, or its way through it.
+/// End of the program, or of a way through it, at a block.
 #[derive(Default, Clone)]
 pub(crate) struct BlockEnding {
     /// The block that ends the program.
     pub(crate) at: Option<OwnEnd>,
-    /// What follows the error by which the block ends the program.
+    /// Action required after the error by which the block ends the program.
     pub(crate) after_error: AfterError,
     /// Messages on the end of the run or of a way through it: a budget, or the end of a file
     /// without M30.
     pub(crate) over: Vec<Diagnostic>,
-    /// Whether another way does what this one would do from here on.
+    /// Whether the way ends here because another way does the same from here on.
     pub(crate) covered: bool,
-    /// Whether that is a loop that never ends.
+    /// Whether the way ends here in a loop that never ends.
     pub(crate) endless: bool,
     /// Whether calls are nested too deeply for the run to continue (R9.91).
     pub(crate) too_deep: bool,
@@ -365,7 +365,7 @@ pub(crate) struct BlockMessages {
 }
 
 impl BlockReading {
-    /// Whether a variable was read whose reading the control may refuse.
+    /// Returns whether a variable was read whose reading the control may refuse.
     #[inline]
     pub(crate) fn may_be_refused(&mut self) -> bool {
         self.flushing.get_mut().is_some() || self.undeclared.get_mut().is_some()
@@ -426,7 +426,8 @@ impl BlockScratch {
         self.wrote = false;
     }
 
-    /// Whether the words of the block ask for nothing but a motion, and nothing is said on it or left to be done after it.
+    /// Returns whether the words of the block ask for nothing but a motion, and nothing is said on it or left to be
+    /// done after it.
     #[inline]
     pub(crate) fn is_done(&self) -> bool {
         (self.has_plain_words || self.asks_for_nothing())
@@ -439,7 +440,7 @@ impl BlockScratch {
             && !self.read.plc_acts
     }
 
-    /// Whether the words of the block ask for nothing but a motion, as plain ones do.
+    /// Returns whether the words of the block ask for nothing but a motion, as plain ones do.
     pub(crate) fn asks_for_nothing(&self) -> bool {
         let (actions, read) = (&self.actions, &self.read);
         actions.goes_on()
@@ -455,7 +456,7 @@ impl BlockScratch {
             && self.is_quiet()
     }
 
-    /// Whether the block switches nothing, and nothing is said on it.
+    /// Returns whether the block switches nothing, and nothing is said on it.
     pub(crate) fn is_quiet(&self) -> bool {
         self.outcomes.is_empty()
             && self.changes.is_empty()
@@ -471,10 +472,10 @@ impl BlockScratch {
 /// The F word of a block.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) enum Feed {
-    /// There is none.
+    /// No F word.
     #[default]
     Absent,
-    /// Its value, where it is known.
+    /// Value, where it is known.
     Given(Option<f64>),
 }
 
@@ -483,11 +484,11 @@ pub(crate) enum Feed {
 pub(crate) enum LookedFor {
     /// The one of a name.
     Named(String),
-    /// One whose name the program computes.
+    /// File whose name the program computes.
     Computed,
 }
 
-/// What the words of a block ask for, and what is done after them.
+/// Actions requested by the words of a block.
 #[derive(Default, Clone)]
 pub(crate) struct BlockActions {
     /// M02, M30.
@@ -592,20 +593,20 @@ impl BlockActions {
         found.is_ok()
     }
 
-    /// Whether the block itself leads only to the next one.
+    /// Returns whether the block itself leads only to the next one.
     pub(crate) fn goes_on(&self) -> bool {
         self.end.is_none() && !self.returns && self.step.is_none()
     }
 }
 
-/// A single message.
+/// Returns a single message.
 pub(crate) fn one(diagnostic: Diagnostic) -> Collected {
     let mut notes = Collected::default();
     notes.push(diagnostic);
     notes
 }
 
-/// Whether a diagnostic stops the control.
+/// Returns whether a diagnostic stops the control.
 pub(crate) fn stops(diagnostic: &Diagnostic) -> bool {
     diagnostic.code.severity() == Severity::Error
 }
@@ -619,7 +620,7 @@ pub(crate) fn ended_by(said: &[Diagnostic]) -> EndedBy {
     }
 }
 
-/// Whether a fault is about a word that the user declares harmless.
+/// Returns whether a fault is about a word that the user declares harmless.
 pub(crate) fn is_harmless(words: &HarmlessWords, fault: &Fault, text: &str) -> bool {
     fault.code == Code::Fc210 && words.has_command(fault.span.of(text))
 }
@@ -634,7 +635,7 @@ pub(crate) struct FailedAt {
 }
 
 impl FailedAt {
-    /// The executed block `seq`, with its messages.
+    /// Returns the executed block `seq`, with its messages.
     pub(crate) fn new(seq: u64, at: &BlockContext<'_>, said: &[Diagnostic]) -> Self {
         Self {
             seq,
@@ -691,12 +692,12 @@ impl LonePart {
         }
     }
 
-    /// Whether the control may or may not execute what shares the block with it.
+    /// Returns whether the control may or may not execute what shares the block with it.
     pub(crate) fn leaves_rest_open(self) -> bool {
         self != Self::Call
     }
 
-    /// The first part of a block that should not be in it together with a macro.
+    /// Returns the first part of a block that should not be in it together with a macro.
     pub(crate) fn conflict(self, block: &Block, used: Span) -> Option<Span> {
         let from = block
             .items
@@ -720,12 +721,12 @@ fn is_part(item: &Item) -> bool {
     !matches!(item, Item::Label(_) | Item::BadCommand(_))
 }
 
-/// Whether the code ends in a comment: a word after it would not be read.
+/// Returns whether the code ends in a comment: a word after it would not be read.
 fn ends_in_comment(code: &str) -> bool {
     code.contains([';', '(']) && !code_of(&format!("{code} X")).ends_with('X')
 }
 
-/// The name that a declaration declares, without its dimensions.
+/// Returns the name that a declaration declares, without its dimensions.
 pub(crate) fn declared_name(declaration: &Declaration, at: &BlockContext<'_>) -> VariableName {
     VariableName::array_of(declaration.target.span.of(at.text))
 }

@@ -27,7 +27,7 @@ use crate::text::Place;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ControlState {
     pub(crate) compensation: Compensation,
-    /// What switched each kind, on each way that leads here.
+    /// The commands that switched each kind, on each way that leads here.
     pub(crate) history: History,
     pub(crate) memory: Memory,
     pub(crate) modal: Modal,
@@ -47,7 +47,7 @@ pub(crate) struct ControlState {
     pub(crate) saved: SavedConfig,
     /// Files that programs changed.
     pub(crate) files: ChangedFiles,
-    /// Whether the control may skip blocks while it moves backward (`#OPTIONAL EXECUTION`).
+    /// Optional section around the block, which the control may skip while it moves backward (`#OPTIONAL EXECUTION`).
     pub(crate) optional: OptionalSection,
     /// G functions and positions before a contour description, inside it.
     pub(crate) described: Option<Box<Description>>,
@@ -70,7 +70,7 @@ impl OptionalSection {
 }
 
 impl ControlState {
-    /// The states at this block, for where the machine does not execute what follows.
+    /// Returns the states at this block, for where the machine does not execute what follows.
     pub(crate) fn earlier_states(&self) -> EarlierStates {
         EarlierStates {
             compensation: self.compensation.clone(),
@@ -78,7 +78,7 @@ impl ControlState {
         }
     }
 
-    /// The state before the first program.
+    /// Returns the state before the first program.
     pub(crate) fn new(compensation: Compensation, modal: Modal) -> Self {
         Self {
             compensation,
@@ -148,7 +148,7 @@ impl ControlState {
         differing
     }
 
-    /// A description of geometry that is open on one way only may be open or not (R2.70).
+    /// Merges a description of geometry: one that is open on one way only may be open or not (R2.70).
     fn join_description(&mut self, other: Option<&Description>) {
         match (self.described.take(), other) {
             (Some(mut mine), Some(theirs)) if mine.opener == theirs.opener => {
@@ -167,7 +167,7 @@ impl ControlState {
         }
     }
 
-    /// The values whose numbers differ in another state; `None` where anything else does.
+    /// Returns the values whose numbers differ in another state; `None` where anything else does.
     pub(crate) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let Self {
             compensation,
@@ -247,25 +247,25 @@ pub(crate) enum RepeatedCall {
 }
 
 impl ModalCycles {
-    /// A cycle that is in force.
+    /// Returns a cycle that is in force.
     pub(crate) fn of(cycle: Repeated) -> Self {
         Self {
             cycles: vec![cycle],
         }
     }
 
-    /// Whether no cycle is in force.
+    /// Returns whether no cycle is in force.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.cycles.is_empty()
     }
 
-    /// The cycles that may be in force.
+    /// Returns the cycles that may be in force.
     pub(crate) fn known(&self) -> &[Repeated] {
         &self.cycles
     }
 
-    /// It may have been switched off.
+    /// Marks the cycles as possibly switched off.
     pub(crate) fn havoc(&mut self) {
         for cycle in &mut self.cycles {
             if let RepeatedCall::Program(found) = cycle.call {
@@ -274,7 +274,7 @@ impl ModalCycles {
         }
     }
 
-    /// Another cycle may be in force instead.
+    /// Adds a cycle that may be in force instead.
     pub(crate) fn add(&mut self, cycle: Repeated) {
         self.cycles.push(cycle);
         self.havoc();
@@ -285,7 +285,7 @@ impl ModalCycles {
         }
     }
 
-    /// Those of another way may be in force instead.
+    /// Merges the cycles of another way, which may be in force instead.
     pub(crate) fn join(&mut self, other: &Self) {
         if self == other {
             return;
@@ -309,12 +309,12 @@ pub(crate) fn after_motion_only(call: &Call) -> Option<bool> {
 /// A configuration that `#LOAD CONFIG` restores.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) enum SavedItem<T> {
-    /// An earlier program may have saved one.
+    /// Configuration that an earlier program may have saved.
     #[default]
     Perhaps,
-    /// None is there.
+    /// No saved configuration.
     Nothing,
-    /// This one.
+    /// Known configuration.
     Known(T),
 }
 
@@ -336,7 +336,7 @@ impl<T: PartialEq> SavedItem<T> {
 }
 
 impl SavedConfig {
-    /// Another way may have saved another one.
+    /// Merges the configurations of another way, which may have been saved instead.
     pub(crate) fn join(&mut self, other: &Self) {
         self.axes.join(&other.axes);
         self.links.join(&other.links);
@@ -346,13 +346,13 @@ impl SavedConfig {
 /// The files that are not those of the archive any more.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct ChangedFiles {
-    /// Their names without folders, in lower case.
+    /// Names of the files without folders, in lower case.
     names: BTreeSet<String>,
     /// Whether any file may have changed: the program computes a name.
     any: bool,
     /// The files to which `#MSG SAVE` may write, where the program named one.
     messages: BTreeSet<String>,
-    /// What `#FILE EXIST` looked for last and is not here.
+    /// The file that `#FILE EXIST` looked for last and did not find in the archive.
     #[serde(default)]
     missing: MissingFile,
 }
@@ -369,7 +369,7 @@ enum MissingFile {
 }
 
 impl ChangedFiles {
-    /// A file is changed; `None` for one whose name is not known.
+    /// Records a change of a file; `None` for one whose name is not known.
     pub(crate) fn change(&mut self, name: Option<&str>) {
         match name {
             Some(name) => _ = self.names.insert(base_name(name)),
@@ -377,7 +377,7 @@ impl ChangedFiles {
         }
     }
 
-    /// Whether a program is not that of the archive.
+    /// Returns whether a program is not that of the archive.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.any || !self.names.is_empty() && self.names.contains(&base_name(name))
     }
@@ -387,22 +387,22 @@ impl ChangedFiles {
         self.messages = BTreeSet::from([base_name(name)]);
     }
 
-    /// A message is written.
+    /// Records the write of a message to its files.
     pub(crate) fn write_message(&mut self) {
         self.names.extend(self.messages.iter().cloned());
     }
 
-    /// `#FILE EXIST` looked for a file that is not here; `None` for one whose name is not known.
+    /// Records that `#FILE EXIST` looked for a file that is not here; `None` for one whose name is not known.
     pub(crate) fn miss(&mut self, name: Option<&str>) {
         self.missing = name.map_or(MissingFile::Any, |name| MissingFile::Named(base_name(name)));
     }
 
-    /// `#FILE EXIST` found its file.
+    /// Records that `#FILE EXIST` found its file.
     pub(crate) fn find(&mut self) {
         self.missing = MissingFile::Nothing;
     }
 
-    /// Whether the program asked whether a file that is not here exists.
+    /// Returns whether the program asked whether a file that is not here exists.
     pub(crate) fn is_guarded(&self, name: &str) -> bool {
         match &self.missing {
             MissingFile::Nothing => false,
@@ -411,7 +411,7 @@ impl ChangedFiles {
         }
     }
 
-    /// The files of another way may be changed, too.
+    /// Merges the changed files of another way.
     pub(crate) fn join(&mut self, other: &Self) {
         self.names.extend(other.names.iter().cloned());
         self.any |= other.any;

@@ -29,9 +29,9 @@ pub(crate) struct Couplings {
     turns: u64,
     /// Every axis that a group ever named.
     named: BTreeSet<AxisIndex>,
-    /// Whether groups may be defined that are not known.
+    /// Whether unknown groups may be defined.
     vague: bool,
-    /// Whether such groups may be in force.
+    /// Whether unknown groups may be in force.
     doubted: bool,
     /// Number of groups of the channel parameters in force, whose axes are unknown.
     unknown: u32,
@@ -51,15 +51,15 @@ struct CoupledAxes {
     axes: Vec<AxisIndex>,
     /// The turn at which it was enabled, while it is in force.
     enabled: Option<u64>,
-    /// Whether the channel parameters define it, so that its axes are unknown.
+    /// Whether the channel parameters define the group, so that its axes are unknown.
     unknown: bool,
 }
 
-/// More groups in force than a control has; conflicts of further ones are not looked for.
+/// Limit on the groups in force, beyond any control; conflicts of further ones are not looked for.
 const MOST_GROUPS: usize = 32;
 
 impl CoupledAxes {
-    /// Its pairs, slave and master, of which both are axes of the machine.
+    /// Returns its pairs, slave and master, of which both are axes of the machine.
     fn pairs(&self) -> impl Iterator<Item = [AxisIndex; 2]> {
         let pairs = self.axes.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
         pairs.filter(|[slave, master]| slave != master)
@@ -67,7 +67,7 @@ impl CoupledAxes {
 }
 
 impl PartialEq for Couplings {
-    /// Whether the blocks that follow find the same couplings.
+    /// Returns whether the blocks that follow find the same couplings.
     fn eq(&self, other: &Self) -> bool {
         let groups = |couplings: &Self| {
             let groups = couplings.groups.iter();
@@ -83,7 +83,7 @@ impl PartialEq for Couplings {
 }
 
 impl Couplings {
-    /// Whether an axis may move because another one does.
+    /// Returns whether an axis may move because another one does.
     #[inline]
     pub(crate) fn carry(&self) -> bool {
         self.doubted
@@ -115,35 +115,35 @@ impl Couplings {
         self.followers.insert(command, pairs);
     }
 
-    /// Whether axes follow others by a command.
+    /// Returns whether axes follow others by a command.
     pub(crate) fn is_following(&self, command: &str) -> bool {
         self.followers.contains_key(command)
     }
 
-    /// They do not any more.
+    /// Ends the following of axes by a command.
     pub(crate) fn unfollow(&mut self, command: &str) {
         self.followers.remove(command);
     }
 
-    /// No axis follows another one except by a coupling group.
+    /// Ends all following of axes other than by a coupling group.
     pub(crate) fn end_following(&mut self) {
         self.followers.clear();
         self.strays.clear();
     }
 
-    /// An axis that follows another one by such a command may do so, or not; so may these axes.
+    /// Makes the following of axes uncertain, and lets these axes possibly follow others, too.
     pub(crate) fn havoc_followers(&mut self, axes: &[AxisIndex]) {
         let followers = std::mem::take(&mut self.followers);
         let followers = followers.into_values().flatten().map(|(axis, _)| axis);
         self.strays.extend(followers.chain(axes.iter().copied()));
     }
 
-    /// Whether a group is in force, or may be.
+    /// Returns whether a group is in force, or may be.
     pub(crate) fn is_any(&self) -> bool {
         self.doubted || !self.enabled.is_empty()
     }
 
-    /// The pairs of axes that groups couple; `None` where that is not known.
+    /// Returns the pairs of axes that groups couple; `None` where that is not known.
     pub(crate) fn in_force(&self) -> Option<Vec<AxisIndex>> {
         let groups = self.enabled.values().map(|name| self.groups.get(name));
         let groups: Option<Vec<_>> = groups.collect();
@@ -151,7 +151,7 @@ impl Couplings {
         (!self.is_doubted()).then(|| axes.copied().collect())
     }
 
-    /// Whether axes may be coupled by a group whose axes are unknown.
+    /// Returns whether axes may be coupled by a group whose axes are unknown.
     fn is_doubted(&self) -> bool {
         self.doubted || self.unknown > 0
     }
@@ -161,13 +161,13 @@ impl Couplings {
         self.groups.len()
     }
 
-    /// The groups that are known, with their axes.
+    /// Returns the groups that are known, with their axes.
     pub(crate) fn groups(&self) -> impl Iterator<Item = (&str, &[AxisIndex])> {
         let groups = self.groups.iter().filter(|(_, group)| !group.unknown);
         groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
     }
 
-    /// The axes that unknown groups may name.
+    /// Returns the axes that unknown groups may name.
     pub(crate) fn lost(&self) -> impl Iterator<Item = AxisIndex> {
         self.named.iter().copied().filter(|_| self.vague)
     }
@@ -183,7 +183,7 @@ impl Couplings {
         }
     }
 
-    /// Whether a group is in force, or may be; one without a known number may be any.
+    /// Returns whether a group is in force, or may be; one without a known number may be any.
     pub(crate) fn of_group(&self, group: &str) -> Coupling {
         let is_known = !group.is_empty() && group.bytes().all(|it| it.is_ascii_digit());
         let known = self.groups.get(group);
@@ -196,15 +196,15 @@ impl Couplings {
         }
     }
 
-    /// The definition of a group is not known.
+    /// Forgets the definition of a group, and returns the axes that it coupled.
     fn forget(&mut self, group: &str) -> Vec<AxisIndex> {
         let changed = self.release(group);
         self.groups.remove(group);
         changed
     }
 
-    /// An axis of a group that is to be enabled and that another group in force does not admit, with the number of the error
-    /// (R2.114).
+    /// Returns an axis of a group that is to be enabled and that another group in force does not admit, with the number
+    /// of the error (R2.114).
     pub(crate) fn conflict(&self, group: &str) -> Option<(u32, AxisIndex)> {
         if self.enabled.len() > MOST_GROUPS {
             return None;
@@ -255,8 +255,8 @@ impl Couplings {
         self.vague = true;
     }
 
-    /// Some coupling command may have been executed. Returns the axes whose coupling may have
-    /// changed.
+    /// Makes the groups unknown, since some coupling command may have been executed. Returns the axes whose coupling
+    /// may have changed.
     pub(crate) fn havoc(&mut self) -> Vec<AxisIndex> {
         self.release_all();
         self.groups.clear();
@@ -265,7 +265,7 @@ impl Couplings {
         self.named.iter().copied().collect()
     }
 
-    /// Other couplings may be in force instead. Returns the axes whose coupling may have changed.
+    /// Merges other couplings, which may be in force instead. Returns the axes whose coupling may have changed.
     pub(crate) fn join(&mut self, other: &Self) -> Vec<AxisIndex> {
         if self == other {
             return Vec::new();
@@ -278,7 +278,7 @@ impl Couplings {
         self.havoc()
     }
 
-    /// Whether all axes that it names are below a number.
+    /// Returns whether all axes that it names are below a number.
     pub(crate) fn fits(&self, axes: usize) -> bool {
         let members = self.groups.values().flat_map(|group| &group.axes);
         let pairs = self.followers.values().flatten();
@@ -326,7 +326,7 @@ impl Couplings {
         self.axes_of(group)
     }
 
-    /// The axes that a group couples, or may couple.
+    /// Returns the axes that a group couples, or may couple.
     fn axes_of(&self, group: &str) -> Vec<AxisIndex> {
         match self.groups.get(group) {
             Some(group) if group.unknown => self.named.iter().copied().collect(),
@@ -395,7 +395,7 @@ impl ControlState {
         self.mark_coupled(changed);
     }
 
-    /// The definition of a group is not known: once it is in force, any axis may be coupled.
+    /// Discards the definition of a group: once it is in force, any axis may be coupled.
     pub(crate) fn forget_coupling(&mut self, group: &str) {
         let changed = self.couplings.forget(group);
         self.mark_coupled(changed);
@@ -449,14 +449,14 @@ impl ControlState {
         }
     }
 
-    /// No coupling is in force; the definitions stay.
+    /// Releases all couplings; the definitions stay.
     pub(crate) fn release_couplings(&mut self) {
         let changed = self.couplings.release_all();
         self.mark_coupled(changed);
         self.modal.simplify(Simplification::Coupling, Holds::Off);
     }
 
-    /// Any coupling may be in force, or none.
+    /// Makes all couplings uncertain: any may be in force, or none.
     pub(crate) fn havoc_couplings(&mut self) {
         let changed = self.couplings.havoc();
         self.couplings.havoc_followers(&[]);
@@ -469,7 +469,7 @@ impl ControlState {
         self.mark_coupled(changed);
     }
 
-    /// Any axes may be coupled.
+    /// Couples possibly any axes.
     pub(crate) fn couple_any(&mut self, machine: &Machine) {
         let all = (0..machine.axes.len()).map(AxisIndex::new).collect();
         self.define_coupling(RESTORED, all);

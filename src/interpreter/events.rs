@@ -75,14 +75,14 @@ pub enum NoteKind {
     Opaque,
 }
 
-/// Whether notes are taken.
+/// Recording of notes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Notes {
-    /// They are not.
+    /// Notes are not taken.
     #[default]
     None,
-    /// They are, with the places.
+    /// Notes are taken, with their places.
     Taken,
 }
 
@@ -107,25 +107,25 @@ pub struct Executed<'a> {
     pub line: u32,
     /// The source lines joined by `\n`, without trailing blanks.
     pub text: &'a str,
-    /// Whether the text has comments.
+    /// Comments of the text.
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
-    /// Its block number, where it is known.
+    /// Block number, where it is known.
     pub number: Option<i64>,
     /// The call depth, from 1; absent in the main program.
     pub level: Option<u32>,
     /// Tree of the block.
     pub block: &'a Block,
-    /// Its executed COMP commands, from left to right.
+    /// Executed COMP commands, from left to right.
     pub outcomes: &'a [Outcome],
     /// Changes by the block.
     pub changes: &'a [Change],
     /// Kinds that the block leaves unknown though no command of it names them (R2.51).
     pub doubted: &'a [(AxisIndex, KindSet)],
-    /// Its axis words that move an axis; [`motions`](Self::motions) has every axis that it moves.
+    /// Axis words that move an axis; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
-    /// How it moves.
+    /// Motion of the block.
     pub(crate) moves: &'a BlockMotion,
     /// Details that are rarely requested.
     pub(crate) aside: &'a Aside,
@@ -163,15 +163,15 @@ pub struct Executed<'a> {
     pub version: u64,
 }
 
-/// What a block moves.
+/// The part of an executed block that concerns motion.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct BlockMove<'a> {
-    /// Whether the text has comments.
+    /// Comments of the text.
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
-    /// How it moves.
+    /// Motion of the block.
     pub(crate) moves: &'a BlockMotion,
     /// The answers of the machine that lead here, where the block is executed on some ways only.
     pub branch: Option<&'a [Vec<WayCondition>]>,
@@ -184,7 +184,7 @@ pub struct BlockMove<'a> {
 }
 
 impl<'a> BlockMove<'a> {
-    /// Every axis that the block moves, or may, and how (R10.7): its words first.
+    /// Returns every axis that the block moves, or may, and how (R10.7): its words first.
     #[inline]
     pub fn motions(&self) -> impl Iterator<Item = MovedAxis> + use<'a> {
         let kind = self.word_kind();
@@ -193,7 +193,7 @@ impl<'a> BlockMove<'a> {
         words.chain(self.moves.also_moved().iter().copied())
     }
 
-    /// Whether it moves an axis other than in rapid motion; `None` where it does not.
+    /// Returns whether the axis moves certainly or possibly other than in rapid motion; `None` if it does not.
     pub(crate) fn pace(&self, axis: AxisIndex) -> Option<Certainty> {
         let kind = self.word_kind();
         let words = self.moves.words().iter().filter(|it| it.axis == axis);
@@ -228,13 +228,13 @@ impl<'a> BlockMove<'a> {
 }
 
 impl Executed<'_> {
-    /// Every axis that the block moves, or may, and how (R10.7): its words first.
+    /// Returns every axis that the block moves, or may, and how (R10.7): its words first.
     #[inline]
     pub fn motions(&self) -> impl Iterator<Item = MovedAxis> {
         self.moves().motions()
     }
 
-    /// What it moves.
+    /// Returns the part of the block that concerns motion.
     #[inline]
     pub(crate) fn moves(&self) -> BlockMove<'_> {
         BlockMove {
@@ -248,7 +248,7 @@ impl Executed<'_> {
         }
     }
 
-    /// The states of a kind of an axis that are possible after it, where ways differ.
+    /// Returns the states of a kind of an axis that are possible after it, where ways differ.
     #[inline]
     pub fn possible_of(&self, axis: AxisIndex, kind: Kind) -> Option<&PossibleStates> {
         let mut possible = self.possible.iter();
@@ -280,7 +280,7 @@ pub struct Joined<'a> {
 pub struct ProgramEnd {
     /// The block: `M30`, the last one of the file, or the one that an error stops.
     pub place: Place,
-    /// What ends it there.
+    /// Cause of the end.
     pub by: EndedBy,
     /// Whether no jump goes to that block, so that blocks before it in the text come before the end.
     pub is_passed_into: bool,
@@ -292,7 +292,8 @@ pub struct ProgramEnd {
 }
 
 impl ProgramEnd {
-    /// What decides whether the program ends there, in words: `` `V.E.A` ``, a missing jump label.
+    /// Returns the unknown value that decides whether the program ends there, in words: `` `V.E.A` ``, a missing jump
+    /// label.
     pub(crate) fn decided_by(&self) -> Option<String> {
         self.cause.as_ref().map(Unknown::quoted)
     }
@@ -313,15 +314,15 @@ pub(crate) struct StoppedState {
 pub struct Ended<'a> {
     /// Number of executed blocks.
     pub seq: u64,
-    /// Why it ended.
+    /// Cause of the end.
     pub by: EndedBy,
-    /// Whether it would run until a reset ends it: its state repeats (R2.84).
+    /// Whether the program would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,
     /// The block that ends it, for example `M30`, where it is written in a program.
     pub at: Option<&'a Place>,
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
-    /// What switched each kind, on each way that ends.
+    /// The commands that switched each kind, on each way that ends.
     pub(crate) found: FoundStates<'a>,
     /// The state at the errors on all ways, where the run went on after them.
     pub(crate) stopped: Option<&'a StoppedState>,

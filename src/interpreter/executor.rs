@@ -131,7 +131,7 @@ impl Executor {
         self.used = Some(RefCell::new(used));
     }
 
-    /// The use of variables that outlive programs by the programs since.
+    /// Returns the use of variables that outlive programs by the programs since.
     pub(crate) fn take_use(&mut self) -> VariableUse {
         let used = self.used.take().map(RefCell::into_inner);
         used.unwrap_or_default()
@@ -144,12 +144,12 @@ impl Executor {
         }
     }
 
-    /// Whether a variable outlives programs, and only they write it.
+    /// Returns whether a variable outlives programs, and only they write it.
     pub(crate) fn only_programs_write(&self, name: &VariableName) -> bool {
         name.family() == VariableFamily::Shared || self.externals.is_own(name)
     }
 
-    /// The axes that names mean at the block.
+    /// Returns the axes that names mean at the block.
     pub(crate) fn axes(&self) -> AxisLookup<'_> {
         AxisLookup {
             machine: &self.machine,
@@ -158,7 +158,7 @@ impl Executor {
         }
     }
 
-    /// Where the path is in its programs.
+    /// Returns where the path is in its programs.
     pub(crate) fn position(&self) -> ProgramPosition<'_> {
         ProgramPosition {
             frames: &self.state.control.frames,
@@ -166,29 +166,29 @@ impl Executor {
         }
     }
 
-    /// The axis that `@X` means in the plane in force.
+    /// Returns the axis that `@X` means in the plane in force.
     pub(crate) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
         self.axes().main(letter, &self.state.control.modal)
     }
 
-    /// An axis occurs.
+    /// Records the occurrence of an axis.
     #[inline]
     pub(crate) fn see(&mut self, axis: AxisIndex) {
         self.scratch.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
-    /// The skip levels that are on, where they are known (R2.90).
+    /// Returns the skip levels that are on, where they are known (R2.90).
     pub(crate) fn skip_levels(&self) -> Option<SkipLevels> {
         self.options.skip.or(self.machine.skip)
     }
 
-    /// Whether a block is known not to be executed.
+    /// Returns whether a block is known not to be executed.
     pub(crate) fn is_skipped(&self, block: &Block) -> bool {
         let skips = |level| self.skip_levels().is_some_and(|levels| levels.has(level));
         block.skip.is_some_and(skips)
     }
 
-    /// The skip level that decides whether a block is executed, where that is not known.
+    /// Returns the skip level that decides whether a block is executed, where that is not known.
     #[inline]
     pub(crate) fn undecided_level(&self, block: &Block) -> Option<u8> {
         block
@@ -196,8 +196,8 @@ impl Executor {
             .filter(|_| self.skip_levels().is_none() && !self.state.is_on_marked_way())
     }
 
-    /// The level that decides whether the parts of a control block belong together: one of them has a
-    /// skip mark and its opener has none.
+    /// Returns the level that decides whether the parts of a control block belong together: one of them has a skip mark
+    /// and its opener has none.
     pub(crate) fn split_level(&self) -> Option<u8> {
         let frame = self.state.control.frames.running()?;
         let entry = frame.next.checked_sub(1)?;
@@ -212,7 +212,7 @@ impl Executor {
         self.options.limits.work.saturating_add(granted)
     }
 
-    /// Whether even reading what the ways could change takes too much work.
+    /// Returns whether even reading what the ways could change takes too much work.
     #[inline]
     pub(crate) fn is_past_all_ways(&self) -> bool {
         self.state.work.ways() > self.options.limits.ways
@@ -226,13 +226,12 @@ impl Executor {
         self.options.limits.ways.saturating_add(granted)
     }
 
-    /// Whether the budget of work is used up.
+    /// Returns whether the budget of work is used up.
     pub(crate) fn is_exhausted(&self) -> bool {
         self.state.work.level() > self.work_bound() || self.is_past_all_ways()
     }
 
-    /// The macros of the channel list, which no program takes away (TF5200 Programming manual,
-    /// 208400267).
+    /// Defines the macros of the channel list, which no program takes away (TF5200 Programming manual, 208400267).
     pub(crate) fn define_machine_macros(&mut self) {
         for (name, code) in &self.machine.programs.macros {
             self.state.control.memory.define_macro(name, code);
@@ -252,7 +251,7 @@ impl Executor {
 }
 
 impl RunState {
-    /// Whether the current way executes the blocks with a skip mark around this one.
+    /// Returns whether the current way executes the blocks with a skip mark around this one.
     fn is_on_marked_way(&self) -> bool {
         let frames = &self.control.frames;
         let here = frames.running().zip(self.track.marked);
@@ -290,7 +289,7 @@ pub(crate) struct RunState {
     pub(crate) once: BTreeSet<String>,
     /// The axes that occurred.
     pub(crate) occurred: Vec<bool>,
-    /// Whether a loop is compared with an earlier pass, so that what is read matters.
+    /// Whether a loop is compared with an earlier pass, so that reads matter.
     pub(crate) watching: bool,
     pub(crate) reads: RefCell<Reads>,
     /// The last executed block of the main program.
@@ -304,7 +303,7 @@ pub(crate) struct RunState {
 }
 
 impl RunState {
-    /// The state before the first program.
+    /// Returns the state before the first program.
     pub(crate) fn at_start(machine: &Machine, compensation: Compensation) -> Self {
         let configured = machine.axis_set == AxisSet::Configured;
         let occurred = |axis: &Axis| configured || axis.frict_comp_origin != Origin::Default;
@@ -330,13 +329,13 @@ impl RunState {
         }
     }
 
-    /// The states of the control here and where paths have ended.
+    /// Returns the states of the control here and where paths have ended.
     pub(crate) fn controls_mut(&mut self) -> impl Iterator<Item = &mut ControlState> {
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path.control);
         std::iter::once(&mut self.control).chain(ended)
     }
 
-    /// The states that the program found, where it is now.
+    /// Returns the states that the program found, where it is now.
     pub(crate) fn found_states(&self) -> FoundStates<'_> {
         FoundStates {
             history: &self.control.history,
@@ -345,7 +344,7 @@ impl RunState {
         }
     }
 
-    /// The run goes on only on some of the ways that lead here.
+    /// Restricts the run to some of the ways that lead here.
     pub(crate) fn go_on_with(&mut self, ways: WaySet) {
         self.track.reach = ways;
         let control = &mut self.control;
@@ -363,7 +362,7 @@ impl RunState {
         }
     }
 
-    /// Whether a word that is reported once occurs for the first time in the program.
+    /// Returns whether a word that is reported once occurs for the first time in the program.
     pub(crate) fn is_new_word(&mut self, word: &str) -> bool {
         let words = &mut self.once;
         words.len() < MAX_ONCE && words.insert(word.to_owned())
@@ -400,13 +399,13 @@ impl MentionedUnknowns {
         }
     }
 
-    /// The block where a value first occurred.
+    /// Returns the block where a value first occurred.
     pub(crate) fn origin(&self, cause: &Unknown) -> Option<&Place> {
         self.roots.get(cause).map(|root| &root.place)
     }
 
-    /// Whether a message names anything that no message about the same value in another block has named.
-    /// A message that a loop repeats at its own place is counted, not withheld (R2.85).
+    /// Returns whether a message names anything that no message about the same value in another block has named. A
+    /// message that a loop repeats at its own place is counted, not withheld (R2.85).
     pub(crate) fn is_new(
         &mut self,
         cause: &Unknown,

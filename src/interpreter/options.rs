@@ -18,7 +18,7 @@ pub enum StopPolicy {
     FirstError,
     /// The failing command is treated as if it were not there.
     KeepGoing,
-    /// As `KeepGoing`; blocks that are never executed are checked for their syntax too.
+    /// Like `KeepGoing`; blocks that are never executed are checked for their syntax too.
     CheckAll,
 }
 
@@ -26,11 +26,11 @@ pub enum StopPolicy {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Branches {
-    /// Every way is executed, and what they agree on is known.
+    /// All ways: each one is executed, and what they agree on is known.
     #[default]
     Followed,
-    /// Events are raised on one way only: the blocks that another answer would pass over are executed without
-    /// events, and what the ways agree on is known after them. This also applies where blocks report their motion.
+    /// One way with events: the blocks that another answer would pass over are executed without events, and what the
+    /// ways agree on is known after them. This also applies where blocks report their motion.
     OneFollowed,
 }
 
@@ -45,11 +45,11 @@ pub struct Options {
     pub skip: Option<SkipLevels>,
     /// Budgets.
     pub limits: Limits,
-    /// Whether plain blocks are parsed by hand, and what only moves or computes is executed without looking for more.
+    /// Use of the fast path for plain blocks: they are parsed by hand, and executed step by step only where necessary.
     pub fast_path: FastPath,
-    /// Whether notes are taken.
+    /// Recording of notes.
     pub notes: Notes,
-    /// Whether blocks report their motion.
+    /// Reports of motion by blocks.
     pub motions: Motions,
     /// Treatment of a condition that depends on a value that only the machine knows.
     pub branches: Branches,
@@ -58,12 +58,12 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether events are raised on one way only, and the others are its shadows (R14.8).
+    /// Returns whether events are raised on one way only, and the others are its shadows (R14.8).
     pub(crate) fn follows_one_way(&self) -> bool {
         self.branches == Branches::OneFollowed || self.takes_motions()
     }
 
-    /// Whether blocks report their motion.
+    /// Returns whether blocks report their motion.
     pub(crate) fn takes_motions(&self) -> bool {
         self.motions == Motions::Taken
     }
@@ -132,7 +132,7 @@ pub enum RunOutcome {
 /// Mode in which the running program is handed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum SourceMode {
-    /// As a text in memory.
+    /// Text in memory.
     #[default]
     Whole,
     /// Line by line; its lines are gone once they are executed.
@@ -175,7 +175,7 @@ const WAYS_PER_WORK: u64 = 70;
 const WORK: u64 = 10_000_000;
 
 impl Limits {
-    /// The default limits, and repeated work for about two seconds of a processor (R9.91).
+    /// Returns the default limits, and repeated work for about two seconds of a processor (R9.91).
     pub fn brief() -> Self {
         Self::default().with_repeats(BRIEF_REPEATS)
     }

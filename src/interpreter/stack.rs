@@ -48,7 +48,7 @@ pub(crate) struct CallFrame {
 }
 
 impl CallFrame {
-    /// The program that it belongs to.
+    /// Returns the program that it belongs to.
     pub(crate) fn program(&self) -> ProgramId {
         ProgramId {
             unit: self.unit,
@@ -57,10 +57,10 @@ impl CallFrame {
     }
 }
 
-/// Whether a cycle keeps its changes to G functions and feed.
+/// Changes to G functions and feed that outlive a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Retains {
-    /// It does not.
+    /// No changes.
     Nothing,
     /// `#RETAIN CYCLE CHANGES` may have been executed.
     Perhaps,
@@ -123,62 +123,62 @@ impl CallStack {
         }
     }
 
-    /// The program whose blocks are executed.
+    /// Returns the program whose blocks are executed.
     #[inline]
     pub(crate) fn running(&self) -> Option<&CallFrame> {
         self.0.last()
     }
 
-    /// The program whose blocks are executed.
+    /// Returns the program whose blocks are executed.
     #[inline]
     pub(crate) fn running_mut(&mut self) -> Option<&mut CallFrame> {
         self.0.last_mut()
     }
 
-    /// The main program.
+    /// Returns the main program.
     pub(crate) fn main(&self) -> Option<&CallFrame> {
         self.0.first()
     }
 
-    /// Whether a subprogram is being executed.
+    /// Returns whether a subprogram is being executed.
     pub(crate) fn is_running(&self, program: ProgramId) -> bool {
         self.iter().any(|frame| {
             frame.level > 0 && (frame.unit, frame.section) == (program.unit, program.section)
         })
     }
 
-    /// The running cycle, whose end restores what was in force before it.
+    /// Returns the running cycle, whose end restores what was in force before it.
     pub(crate) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
         let mut frames = self.0.iter_mut().rev();
         frames.find(|frame| frame.restores.is_some())
     }
 
-    /// The place of the program whose blocks are executed.
+    /// Returns the place of the program whose blocks are executed.
     pub(crate) fn program(&self) -> Option<ProgramId> {
         self.running().map(CallFrame::program)
     }
 
-    /// The call depth of the program whose blocks are executed; 0 is the main program.
+    /// Returns the call depth of the program whose blocks are executed; 0 is the main program.
     pub(crate) fn level(&self) -> u32 {
         self.running().map_or(0, |frame| frame.level)
     }
 
-    /// The block that is executed.
+    /// Returns the block that is executed.
     pub(crate) fn entry(&self) -> Option<EntryIndex> {
         self.running()?.next.checked_sub(1)
     }
 
-    /// Whether a block of the running program comes before the next one.
+    /// Returns whether a block of the running program comes before the next one.
     pub(crate) fn is_passed(&self, target: EntryIndex) -> bool {
         self.running().is_some_and(|frame| target < frame.next)
     }
 
-    /// The outermost program of a call depth.
+    /// Returns the outermost program of a call depth.
     pub(crate) fn at_level(&self, level: u32) -> Option<&CallFrame> {
         self.0.iter().find(|frame| frame.level == level)
     }
 
-    /// The program at a call depth, the main program being the first.
+    /// Returns the program at a call depth, the main program being the first.
     pub(crate) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut CallFrame> {
         self.0.get_mut(depth.checked_sub(1)?)
     }
@@ -188,32 +188,32 @@ impl CallStack {
         self.0.len()
     }
 
-    /// Whether no program runs.
+    /// Returns whether no program runs.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The programs, the main program first.
+    /// Returns the programs, the main program first.
     pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &CallFrame> {
         self.0.iter()
     }
 
-    /// A program is called.
+    /// Enters a called program.
     pub(crate) fn push(&mut self, frame: CallFrame) {
         self.0.push(frame);
     }
 
-    /// A program is left.
+    /// Leaves a program.
     pub(crate) fn pop(&mut self) -> Option<CallFrame> {
         self.0.pop()
     }
 
-    /// The programs that called the running one.
+    /// Returns the programs that called the running one.
     pub(crate) fn without_running(&self) -> Self {
         Self(self.0[..self.0.len().saturating_sub(1)].to_vec())
     }
 
-    /// The running program, whoever called it.
+    /// Returns the running program, whoever called it.
     pub(crate) fn running_alone(&self) -> Self {
         let alone = |frame: &CallFrame| CallFrame {
             called_from: None,
@@ -222,7 +222,7 @@ impl CallStack {
         Self(self.running().map(alone).into_iter().collect())
     }
 
-    /// All programs are left.
+    /// Leaves all programs.
     pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
@@ -233,7 +233,7 @@ impl CallStack {
 pub(crate) enum ControlStep {
     /// The program was announced and has not begun.
     Begin,
-    /// To a block of the same program.
+    /// Jump to a block of the same program.
     Jump(EntryIndex),
     /// Programs, one after the other.
     Call(Vec<Request>),
@@ -268,8 +268,7 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
-    /// The start of the next pass, when there is one. A pass of blocks that are all skipped is the
-    /// last one.
+    /// Returns the start of the next pass, when there is one. A pass of blocks that are all skipped is the last one.
     pub(crate) fn again(&mut self, executed: u64) -> Option<EntryIndex> {
         if self.left == 0 || executed == self.begun {
             return None;
@@ -292,7 +291,7 @@ pub(crate) struct Destination {
 }
 
 impl Destination {
-    /// The block after the call of a level.
+    /// Returns the block after the call of a level.
     pub(crate) fn after_call(level: u32) -> Self {
         Self {
             level,
@@ -309,7 +308,7 @@ pub(crate) struct AwaitedBlock {
     pub(crate) lost: Diagnostic,
 }
 
-/// Where a path is in its programs.
+/// Position of a path in its programs.
 #[derive(Clone, Copy)]
 pub(crate) struct ProgramPosition<'a> {
     pub(crate) frames: &'a CallStack,
@@ -317,7 +316,7 @@ pub(crate) struct ProgramPosition<'a> {
 }
 
 impl ProgramPosition<'_> {
-    /// The statement being executed and the end of its control block.
+    /// Returns the statement being executed and the end of its control block.
     pub(crate) fn current_block(self) -> Range<EntryIndex> {
         self.frames.running().map_or(0..0, |frame| {
             let entry = frame.next - 1;
@@ -325,7 +324,7 @@ impl ProgramPosition<'_> {
         })
     }
 
-    /// Whether an `$IF` of the running file has no `$ENDIF`.
+    /// Returns whether an `$IF` of the running file has no `$ENDIF`.
     pub(crate) fn is_unclosed(self, opener: EntryIndex) -> bool {
         let frame = self.frames.running();
         frame.is_some_and(|frame| {
@@ -334,7 +333,7 @@ impl ProgramPosition<'_> {
         })
     }
 
-    /// What a jump from the current block crosses.
+    /// Returns the control blocks that a jump from the current block crosses.
     pub(crate) fn jump_across(self, to: EntryIndex) -> JumpAcross {
         let frames = &self.frames;
         match (frames.running(), frames.entry()) {
@@ -343,8 +342,8 @@ impl ProgramPosition<'_> {
         }
     }
 
-    /// Whether a jump of the running program may go to the block: it names the number or the label of the block, or
-    /// computes its target.
+    /// Returns whether a jump of the running program may go to the block: it names the number or the label of the
+    /// block, or computes its target.
     pub(crate) fn may_be_jumped_to(self, at: &BlockContext<'_>) -> bool {
         let Some(frame) = self.frames.running() else {
             return true;
@@ -362,7 +361,7 @@ impl ProgramPosition<'_> {
         names.any(|name| name.is_none_or(|name| targets.may_be(&name)))
     }
 
-    /// Whether the file that runs is a main program: one that ends with M02 or M30.
+    /// Returns whether the file that runs is a main program: one that ends with M02 or M30.
     pub(crate) fn runs_main_program(self) -> bool {
         let Some(frame) = self.frames.iter().next() else {
             return true;
@@ -372,8 +371,8 @@ impl ProgramPosition<'_> {
         index.entries.is_empty() || is_main_program(index.text_from(frame.section, start))
     }
 
-    /// Whether the running program has M30 or M02 after its last executed block; `None` if its lines are read one
-    /// after another.
+    /// Returns whether the running program has M30 or M02 after its last executed block; `None` if its lines are read
+    /// one after another.
     pub(crate) fn holds_end_after(self) -> Option<bool> {
         let frame = self.frames.running()?;
         let index = self.programs.index(frame.unit);
@@ -381,12 +380,12 @@ impl ProgramPosition<'_> {
         is_kept.then(|| holds_program_end(index.text_from(frame.section, frame.next)))
     }
 
-    /// The block after the one being executed.
+    /// Returns the block after the one being executed.
     pub(crate) fn next_block(self) -> EntryIndex {
         self.frames.running().map_or(0, |it| it.next)
     }
 
-    /// Whether a part belongs to the program being executed.
+    /// Returns whether a part belongs to the program being executed.
     pub(crate) fn is_here(self, wanted: &WantedCall) -> bool {
         let own_name = || {
             let found = self.frames.program()?;

@@ -29,7 +29,7 @@ pub struct AxisCommand {
     pub(crate) motion: Option<MotionEffect>,
     /// Simplification of the commanded trace.
     pub(crate) simplifies: Option<Simplification>,
-    /// Other effect.
+    /// Any other effect.
     pub(crate) action: AxisAction,
     /// Part of the PLC in it: it acknowledges M and H functions, `S[M3 REV1000]`.
     pub(crate) plc: Plc,
@@ -39,9 +39,9 @@ pub struct AxisCommand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum AxisAction {
     None,
-    /// Overrides of the axis are programmed (PM/208662411).
+    /// Programming of overrides of the axis (PM/208662411).
     Override,
-    /// The axis follows no other one any more.
+    /// End of the following of another axis.
     EndFollowing,
 }
 
@@ -134,7 +134,8 @@ impl BracketRow {
 }
 
 impl AxisCommand {
-    /// The command with a keyword, and all its words with blanks in between. One that no row names does nothing.
+    /// Returns the command with a keyword, and all its words with blanks in between. One that no row names does
+    /// nothing.
     pub(crate) fn of(keyword: &str, words: &[&str]) -> Self {
         let parts = || words.iter().flat_map(|word| word.split(is_between));
         let has = |wanted: &str| parts().any(|word| word.eq_ignore_ascii_case(wanted));
@@ -158,27 +159,27 @@ impl AxisCommand {
         }
     }
 
-    /// Whether a keyword opens a command of an axis: one of the rows, or an M or H function.
+    /// Returns whether a keyword opens a command of an axis: one of the rows, or an M or H function.
     pub(crate) fn is_known(keyword: &str) -> bool {
         let number = keyword.strip_prefix(['M', 'H', 'm', 'h']);
         let is_numbered = number.is_some_and(|it| it.starts_with(|it: char| it.is_ascii_digit()));
         is_numbered || BracketRow::of(keyword).is_some()
     }
 
-    /// The keywords, for "did you mean".
+    /// Returns the keywords, for "did you mean".
     pub(crate) fn keywords() -> impl Iterator<Item = &'static str> {
         let keywords = BRACKETS.iter().map(|row| row.keyword);
         keywords.filter(|keyword| !keyword.starts_with(MOTION_CONTROL))
     }
 }
 
-/// Whether a word is an M or H function.
+/// Returns whether a word is an M or H function.
 fn is_function(word: &str) -> bool {
     let number = word.strip_prefix(['M', 'H', 'm', 'h']);
     number.is_some_and(|it| !it.is_empty() && it.bytes().all(|it| it.is_ascii_digit()))
 }
 
-/// Whether a character separates the words of a bracket.
+/// Returns whether a character separates the words of a bracket.
 fn is_between(letter: char) -> bool {
     !(letter.is_ascii_alphanumeric() || letter == '_')
 }

@@ -38,7 +38,7 @@ pub(crate) struct GFunction {
     pub(crate) simplifies: Option<(Simplification, Holds)>,
     /// Effect on coordinates that is not in the other columns.
     pub(crate) coordinates: CoordinateEffect,
-    /// Where it flushes the channel and the control refuses it (R2.111).
+    /// Conditions under which it flushes the channel and the control refuses that (R2.111).
     pub(crate) flushes: Flushes,
     /// Number of the group of a channel list in which it may be the default at program start (P-CHAN-00063).
     default_of: Option<u32>,
@@ -47,9 +47,9 @@ pub(crate) struct GFunction {
 /// Execution of a G function in a dry run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum GAction {
-    /// Nothing but the effects in the other columns.
+    /// No effect but those in the other columns.
     PassOver,
-    /// It calls a program (P-CHAN-00187).
+    /// Call of a program (P-CHAN-00187).
     Call,
     /// G04: the axes rest.
     Dwell,
@@ -99,16 +99,16 @@ pub(crate) enum BlockGroup {
 /// Effect of a G function on coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CoordinateEffect {
-    /// None, or that of the other columns.
+    /// No effect, or that in the other columns.
     None,
-    /// Positions are those of the program from here on: weights of axes, diameters, the operator's hand wheel.
+    /// Change to positions of the program: weights of axes, diameters, the operator's hand wheel.
     Unfollowed,
-    /// Only its group is known.
+    /// Function of which only the group is known.
     NotKnown,
 }
 
 impl BlockGroup {
-    /// Its place after the groups of which one is in force.
+    /// Returns the index of the group, after those of the groups of which one function is in force.
     pub(crate) const fn place(self) -> usize {
         match self {
             Self::ExactStop => Group::ExactStop as usize,
@@ -286,7 +286,7 @@ static FUNCTIONS: &[GFunction] = {
     }
 };
 
-/// One past the highest number.
+/// Upper end of the numbers, one past the highest.
 const NUMBERS: usize = 906;
 
 /// The place of the row of each number, from one on; zero where it has none.
@@ -322,7 +322,7 @@ static GROUPS: [Option<Group>; NUMBERS] = {
 };
 
 impl Group {
-    /// The group of a G number; `None` for one that is not modal or not modelled.
+    /// Returns the group of a G number; `None` for one that is not modal or not modelled.
     #[inline]
     pub fn of(number: u32) -> Option<Self> {
         GROUPS.get(number as usize).copied().flatten()
@@ -330,25 +330,25 @@ impl Group {
 }
 
 impl GFunction {
-    /// The row of a number; `None` where none names it.
+    /// Returns the row of a number; `None` where none names it.
     pub(crate) fn of(number: u32) -> Option<&'static Self> {
         let place = usize::from(*PLACES.get(number as usize)?);
         FUNCTIONS.get(place.checked_sub(1)?)
     }
 
-    /// Whether a function is an interpolation at the path feed: G01, G02, G03.
+    /// Returns whether a function is an interpolation at the path feed: G01, G02, G03.
     #[inline]
     pub(crate) const fn is_feed_move(number: u32) -> bool {
         matches!(number, 1..=3)
     }
 
-    /// Whether a function is a circular interpolation: G02, G03.
+    /// Returns whether a function is a circular interpolation: G02, G03.
     #[inline]
     pub(crate) const fn is_arc(number: u32) -> bool {
         matches!(number, 2 | 3)
     }
 
-    /// The row of a number after G, which may be a fraction.
+    /// Returns the row of a number after G, which may be a fraction.
     pub(crate) fn of_value(number: f64) -> Option<&'static Self> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
         let whole = number as u32;
@@ -356,20 +356,20 @@ impl GFunction {
         Self::of(whole).filter(|_| is_whole)
     }
 
-    /// The row of a number whose function is known, and not only its group.
+    /// Returns the row of a number whose function is known, and not only its group.
     pub(crate) fn known(number: u32) -> Option<&'static Self> {
         Self::of(number).filter(|row| row.coordinates != CoordinateEffect::NotKnown)
     }
 
-    /// The functions that may be the default of a group of a channel list (P-CHAN-00063).
+    /// Returns the functions that may be the default of a group of a channel list (P-CHAN-00063).
     pub(crate) fn defaults_of(group: u32) -> impl Iterator<Item = u32> {
         let rows = FUNCTIONS.iter();
         let rows = rows.filter(move |row| row.default_of == Some(group));
         rows.flat_map(|row| row.first..=row.last)
     }
 
-    /// Whether an axis word in its block is a number, so that an axis cannot only be named: the groups, block ends,
-    /// G04 and G92.
+    /// Returns whether an axis word in its block is a number, so that an axis cannot only be named: the groups, block
+    /// ends, G04 and G92.
     pub(crate) fn takes_numbers(&self) -> bool {
         self.group.is_some()
             || matches!(self.action, GAction::Dwell | GAction::SetReference)
@@ -379,18 +379,18 @@ impl GFunction {
             )
     }
 
-    /// Whether it takes effect in a dry run, so that it cannot be declared harmless: those of the groups, mirroring and
-    /// G92 (R2.45).
+    /// Returns whether it takes effect in a dry run, so that it cannot be declared harmless: those of the groups,
+    /// mirroring and G92 (R2.45).
     pub(crate) fn is_followed(&self) -> bool {
         self.group.is_some() || matches!(self.action, GAction::Mirror | GAction::SetReference)
     }
 
-    /// Whether its motion ends where a probe triggers.
+    /// Returns whether its motion ends where a probe triggers.
     pub(crate) fn is_measuring(&self) -> bool {
         self.axis_words == AxisWords::Measuring
     }
 
-    /// Whether it is an implicit call.
+    /// Returns whether it is an implicit call.
     pub(crate) fn is_call(&self) -> bool {
         self.action == GAction::Call
     }

@@ -47,7 +47,7 @@ pub(crate) struct HashCommand {
     pub(crate) basis: Option<Question>,
     /// Error of the control for a COMP command up to its end (R2.109).
     pub(crate) refuses_comp: Option<u32>,
-    /// Where it flushes the channel and the control refuses it (R2.111).
+    /// Conditions under which it flushes the channel and the control refuses that (R2.111).
     pub(crate) flushes: Flushes,
     /// Name in the state and in messages, where that is another command's.
     known_as: Option<&'static str>,
@@ -56,15 +56,15 @@ pub(crate) struct HashCommand {
 /// Effect of a `#` command on the followed state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Touches {
-    /// Neither flow nor values; its effect on coordinates is that of its chain.
+    /// No effect on flow or values; the effect on coordinates is that of the chain.
     Nothing,
-    /// It writes the parameters and variables that its brackets name.
+    /// Write to the parameters and variables that its brackets name.
     Values,
-    /// It says which axes the channel has, and under which names.
+    /// Choice of the axes of the channel and of their names.
     Axes,
-    /// It moves axes to places that are not followed.
+    /// Motion of axes to places that are not followed.
     Motion,
-    /// It moves the axes of the plane to places that are not followed.
+    /// Motion of the axes of the plane to places that are not followed.
     Plane,
     /// Friction compensation of the axes that it names, of all where it names none, in a way that no
     /// public page describes (R2.93).
@@ -74,87 +74,87 @@ pub(crate) enum Touches {
 /// Execution of a `#` command in a dry run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum HashAction {
-    /// Nothing but the effects in the other columns.
+    /// No effect but those in the other columns.
     PassOver,
-    /// The blocks up to its end are a comment (PM/205979659).
+    /// Start of a comment, which consists of the blocks up to its end (PM/205979659).
     Comment,
-    /// A comment ends.
+    /// End of a comment.
     EndComment,
-    /// Variables are declared (PM/207960587).
+    /// Declaration of variables (PM/207960587).
     Declare,
-    /// Declarations end.
+    /// End of declarations.
     EndDeclarations,
-    /// Variables are deleted (PM/207960587).
+    /// Deletion of variables (PM/207960587).
     Delete,
-    /// Variables are initialised (PM/207988747).
+    /// Initialisation of variables (PM/207988747).
     Initialise,
-    /// The axes rest (PM/206602507).
+    /// Dwell (PM/206602507).
     Dwell,
-    /// The program waits for a condition (R2.99; PM/207058059).
+    /// Wait of the program for a condition (R2.99; PM/207058059).
     Wait,
-    /// The program may end (R2.100; PM/207457163).
+    /// Error that may end the program (R2.100; PM/207457163).
     ReportError,
-    /// The blocks up to its end run in real time (tf5261, 783727499).
+    /// Start of a loop whose blocks run in real time (tf5261, 783727499).
     RealTimeLoop,
-    /// A real-time loop ends.
+    /// End of a real-time loop.
     EndRealTimeLoop,
     /// Words get programs (PM/207504523).
     NamePrograms,
-    /// Modal cycles end (PM/206859019).
+    /// End of modal cycles (PM/206859019).
     EndModalCycles,
-    /// The running cycle keeps its changes to G functions and feed (PM/206859019).
+    /// Retention of the changes of the running cycle to G functions and feed (PM/206859019).
     RetainCycleChanges,
-    /// Macros of the program are forgotten.
+    /// Deletion of the macros of the program.
     ForgetMacros,
-    /// The blocks up to its end describe geometry and do not move (R2.81): the contour for a cycle (tf5293,
-    /// 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
+    /// Start of a description: the blocks up to its end describe geometry and do not move (R2.81): the contour for a
+    /// cycle (tf5293, 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
     Describe,
-    /// A description ends.
+    /// End of a description.
     EndDescription,
-    /// A coupling group is defined (PM/207120267).
+    /// Definition of a coupling group (PM/207120267).
     DefineCoupling(MembersBy),
-    /// A coupling group comes into force (PM/207133579).
+    /// Activation of a coupling group (PM/207133579).
     EnableCoupling,
-    /// A coupling group is released (PM/207133579).
+    /// Release of a coupling group (PM/207133579).
     ReleaseCoupling,
-    /// All coupling groups are released (PM/207133579).
+    /// Release of all coupling groups (PM/207133579).
     ReleaseCouplings,
-    /// The control may skip the blocks up to its end while it moves backward or simulates.
+    /// Start of blocks that the control may skip while it moves backward or simulates.
     SkipBackward,
-    /// Axes and couplings are saved or restored (PM/207535499).
+    /// Saving or restoring of axes and couplings (PM/207535499).
     SaveConfig(ConfigAction),
-    /// A file is renamed, deleted, written or looked for (PM/207511947).
+    /// Renaming, deletion, writing or search of a file (PM/207511947).
     ChangeFile(FileAction),
-    /// Axes come to the channel or leave it (PM/206977419 and its neighbours).
+    /// Arrival or departure of axes of the channel (PM/206977419 and its neighbours).
     ExchangeAxes(Exchange),
-    /// Coordinates are rotated in the plane (PM/207442315).
+    /// Rotation of coordinates in the plane (PM/207442315).
     Rotate,
-    /// Overrides are programmed (PM/207625099).
+    /// Programming of overrides (PM/207625099).
     Override,
-    /// Another spindle becomes the main one.
+    /// Change of the main spindle.
     SelectSpindle,
-    /// Transitions between blocks are rounded, or their parameters are set (R11.21).
+    /// Rounding of transitions between blocks, or its parameters (R11.21).
     Round(ContouringCommand),
-    /// The profile of the acceleration is selected (R11.20).
+    /// Selection of the profile of the acceleration (R11.20).
     SelectSlope(SlopeForm),
-    /// A parameter of an axis is written while the program runs (R2.92; PM/207492747).
+    /// Write of an axis parameter while the program runs (R2.92; PM/207492747).
     WriteMachineData,
 }
 
 /// Kind of an axis exchange.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Exchange {
-    /// The named axes come.
+    /// Arrival of the named axes.
     Request,
     /// The named axes go.
     Release,
-    /// The named axes come; all others go.
+    /// Arrival of the named axes, and departure of all others.
     Define,
-    /// Axes come or go in a way that no public page describes.
+    /// Exchange that no public page describes.
     Undescribed,
 }
 
-/// What a command does to the saved configurations.
+/// Effect of a command on the saved configurations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum ConfigAction {
     Save,
@@ -162,12 +162,12 @@ pub(crate) enum ConfigAction {
     Clear,
 }
 
-/// What a command does to a file.
+/// Effect of a command on a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum FileAction {
     Rename,
     Delete,
-    /// A message is written to it.
+    /// Write of a message to it.
     Message,
     LookFor,
 }
@@ -176,7 +176,7 @@ pub(crate) enum FileAction {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum MembersBy {
     Name,
-    /// By their logical numbers.
+    /// Logical numbers.
     Number,
 }
 
@@ -192,18 +192,18 @@ pub(crate) enum ContouringCommand {
 /// Form in which a profile of the acceleration is selected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum SlopeForm {
-    /// That of the channel list (PM/207190411).
+    /// Profile of the channel list (PM/207190411).
     Channel,
-    /// By its name (PM/207190411).
+    /// Profile named (PM/207190411).
     Named,
-    /// By its number, in the older command (HSC/15427921547).
+    /// Profile numbered, in the older command (HSC/15427921547).
     Numbered,
 }
 
-/// What may share the block with a `#` command (R2.47).
+/// Content that may share the block with a `#` command (R2.47).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BlockSharing {
-    /// Nothing.
+    /// No other content.
     None,
     /// Words before it (TF5200 Diagnosis, errors 20207, 20450).
     WordsBefore,
@@ -231,14 +231,14 @@ pub(crate) enum HashArguments {
 /// Part of the PLC in a `#` command (R2.99).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Plc {
-    /// None.
+    /// No part.
     Absent,
-    /// It acts by design: a dwell, a wait. Late M functions are acknowledged at `#EXPL`
+    /// Action by design: a dwell, a wait. Late M functions are acknowledged at `#EXPL`
     /// (`tf5200_m_and_h_func/286004619`).
     Acts,
-    /// It acts where the command has the word `WAIT`.
+    /// Action where the command has the word `WAIT`.
     ActsAfterWait,
-    /// It acts where the command has the word `ACK` or `SYN_ACK`.
+    /// Action where the command has the word `ACK` or `SYN_ACK`.
     ActsAfterAcknowledgement,
 }
 
@@ -257,7 +257,7 @@ pub(crate) enum Flushes {
 /// Effect of a `#` command on a motion in progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum PathFlow {
-    /// The axes may come to rest.
+    /// Possible rest of the axes.
     MayRest,
     /// The axes certainly keep moving.
     GoesOn,
@@ -646,7 +646,7 @@ pub(crate) struct HashWords {
 }
 
 impl FurtherWord {
-    /// The word, in either case.
+    /// Returns the word, in either case.
     pub(crate) fn of(word: &str) -> Option<Self> {
         let mut all = Self::ALL.into_iter();
         all.find(|known| known.as_str().eq_ignore_ascii_case(word))
@@ -654,7 +654,7 @@ impl FurtherWord {
 }
 
 impl HashWords {
-    /// The command of a name, in upper case with one blank between its words; `None` where no row names it.
+    /// Returns the command of a name, in upper case with one blank between its words; `None` where no row names it.
     pub(crate) fn of(name: &str) -> Option<Self> {
         let command = HashCommand::of(name)?;
         let further = name[command.words.len()..].split_ascii_whitespace();
@@ -667,17 +667,17 @@ impl HashWords {
         })
     }
 
-    /// Whether it has a further word.
+    /// Returns whether it has a further word.
     pub(crate) fn has(self, word: FurtherWord) -> bool {
         self.further.0 & 1 << word as u64 != 0
     }
 
-    /// Whether its words are only those of its row.
+    /// Returns whether its words are only those of its row.
     pub(crate) fn is_plain(self) -> bool {
         self.further == FurtherWords::default()
     }
 
-    /// Command up to which the lines after it are its text; none with a further word, `#RT CYCLE END`.
+    /// Returns the command up to which the lines after it are its text; none with a further word, `#RT CYCLE END`.
     pub(crate) fn region_end(self) -> Option<&'static str> {
         let has_region = matches!(
             self.arguments,
@@ -686,18 +686,18 @@ impl HashWords {
         self.until.filter(|_| has_region && self.is_plain())
     }
 
-    /// Its row.
+    /// Returns the row of the command in the table.
     pub(crate) fn row(self) -> &'static HashCommand {
         self.command
     }
 
-    /// Whether it switches off.
+    /// Returns whether it switches off.
     pub(crate) fn is_off(self) -> bool {
         let words = [FurtherWord::Off, FurtherWord::Del, FurtherWord::Out];
         words.into_iter().any(|word| self.has(word))
     }
 
-    /// The simplification that it brings, and how long. `#CONTOUR MODE` without ON or OFF only sets parameters
+    /// Returns the simplification that it brings, and how long. `#CONTOUR MODE` without ON or OFF only sets parameters
     /// (PM/475156491).
     pub(crate) fn simplification(self) -> Option<(Simplification, Holds)> {
         let what = self.simplifies?;
@@ -708,7 +708,7 @@ impl HashWords {
         (!only_parameters).then_some((what, Holds::On))
     }
 
-    /// Whether the PLC acts by design in it.
+    /// Returns whether the PLC acts by design in it.
     pub(crate) fn lets_plc_act(self) -> bool {
         match self.plc {
             Plc::Absent => false,
@@ -730,7 +730,7 @@ impl Deref for HashWords {
 }
 
 impl HashCommand {
-    /// The row that names the most words of a name.
+    /// Returns the row that names the most words of a name.
     pub(crate) fn of(name: &str) -> Option<&'static Self> {
         let mut words = name;
         loop {
@@ -741,30 +741,30 @@ impl HashCommand {
         }
     }
 
-    /// The row with these words.
+    /// Returns the row with these words.
     fn with(words: &str) -> Option<&'static Self> {
         let place = COMMANDS.binary_search_by(|row| row.words.cmp(words)).ok()?;
         COMMANDS.get(place)
     }
 
-    /// The row of a name in the state.
+    /// Returns the row of a name in the state.
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
         let by_alias = || COMMANDS.iter().find(|row| row.known_as == Some(name));
         let is_command = name.starts_with('#');
         is_command.then(|| Self::with(name).or_else(by_alias))?
     }
 
-    /// The words of every row.
+    /// Returns the words of every row.
     pub(crate) fn all_words() -> impl Iterator<Item = &'static str> {
         COMMANDS.iter().map(|row| row.words)
     }
 
-    /// Its name in the state and in messages.
+    /// Returns its name in the state and in messages.
     pub(crate) fn name(&self) -> &'static str {
         self.known_as.unwrap_or(self.words)
     }
 
-    /// Whether a dry run follows what is in its brackets.
+    /// Returns whether a dry run follows what is in its brackets.
     pub(crate) fn reads_brackets(&self) -> bool {
         self.arguments == HashArguments::Brackets
             && (self.action != HashAction::PassOver
@@ -787,7 +787,7 @@ impl<'de> Deserialize<'de> for &'static HashCommand {
     }
 }
 
-/// Whether a name is that of a known command.
+/// Returns whether a name is that of a known command.
 pub(crate) fn is_command(name: &str) -> bool {
     HashCommand::of(name).is_some()
 }

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Something that a control does and a commanded trace does not.
+/// Simplification: an effect that the control has and a commanded trace lacks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Simplification {
@@ -144,28 +144,28 @@ impl Simplification {
 pub struct Simplifications(u32);
 
 impl Simplifications {
-    /// Whether the set is empty.
+    /// Returns whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// Those of the set.
+    /// Returns the members of the set.
     pub fn iter(self) -> impl Iterator<Item = Simplification> {
         let all = Simplification::ALL.into_iter();
         all.filter(move |it| self.0 & 1 << *it as u32 != 0)
     }
 
-    /// Whether one of them is in the set.
+    /// Returns whether one of them is in the set.
     pub fn contains(self, one: Simplification) -> bool {
         self.0 & Self::from(one).0 != 0
     }
 
-    /// Those of either set.
+    /// Returns the members of either set.
     pub fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// Those of this set that are not in another.
+    /// Returns the members of this set that are not in another.
     pub fn without(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
@@ -193,11 +193,11 @@ impl From<Simplifications> for Vec<Simplification> {
 /// Duration of a simplification.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Holds {
-    /// In its block.
+    /// The block only.
     Once,
-    /// Until it is taken back.
+    /// Until the end is programmed.
     On,
-    /// It takes back what held.
+    /// End of a simplification that held.
     Off,
 }
 
@@ -211,41 +211,41 @@ crate::words! {
         Rapid = "rapid",
         /// G01, G02, G03 and everything else that interpolates at the path feed.
         Feed = "feed",
-        /// A reference point is approached.
+        /// Approach to a reference point.
         Homing = "homing",
-        /// The axis moves by itself, independently of the path or along with it.
+        /// Motion of the axis by itself, independently of the path or along with it.
         Independent = "independent",
-        /// It follows another axis.
+        /// Motion that follows another axis.
         Coupled = "coupled",
-        /// Coordinates are rotated or transformed: the motion word of another axis moves it.
+        /// Motion by the motion word of another axis, in rotated or transformed coordinates.
         Frame = "frame",
-        /// Not known offline.
+        /// Motion not known offline.
         Unknown = "unknown",
     }
 }
 
-/// Whether something happens on every way that a program may take.
+/// Certainty of an event over the ways that a program may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Certainty {
-    /// It does.
+    /// Certain on every way.
     Certain,
-    /// It may: that is not known offline.
+    /// Possible: not known offline.
     Possible,
 }
 
 /// The axes that a form moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Moves {
-    /// Those with a word in the block.
+    /// Axes with a word in the block.
     Words,
-    /// Those with a word in the block, or every axis where none has one.
+    /// Axes with a word in the block, or every axis where none has one.
     WordsOrAll,
     /// The axis before the bracket, now.
     Own,
     /// The axis before the bracket or named in it, whenever its master moves.
     Follower,
-    /// All that it names, whenever one of them moves.
+    /// All axes that the form names, whenever one of them moves.
     Gantry,
     /// The axes that it names, or all.
     NamedOrAll,
@@ -282,7 +282,7 @@ pub(crate) enum AxisWords {
 }
 
 impl AxisWords {
-    /// Whether the words move their axes.
+    /// Returns whether the words move their axes.
     pub(crate) fn move_axes(self) -> bool {
         !matches!(self, Self::Reference | Self::Other)
     }
@@ -291,15 +291,15 @@ impl AxisWords {
 /// Effect of a command or function on positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum ChainStep {
-    /// It switches to other coordinates, and back.
+    /// Switch to other coordinates, and back.
     Coordinates,
-    /// It chooses the kinematics of a transformation, which others switch on (R1.42).
+    /// Choice of the kinematics of a transformation, which other commands switch on (R1.42).
     Kinematics,
-    /// It switches all offsets off, and on again (PM/208517515).
+    /// Suspension of all offsets, and its end (PM/208517515).
     Machine,
-    /// It leaves the programmed points as they are and the path to them open (PM/207256971).
+    /// Effect on the path only: the programmed points stay, the path to them is open (PM/207256971).
     Path,
-    /// It moves the origin, by the machine's own values or for one block.
+    /// Shift of the origin, by the machine's own values or for one block.
     Origin,
 }
 

@@ -1,4 +1,4 @@
-//! What the control refuses, one row an error number (R2.114).
+//! Refusals of the control, one row per error number (R2.114).
 //!
 //! Each row says what is refused, on which page of the TF5200 diagnosis manual, and what a dry run does about it. An
 //! error has the number of the control only where the words of the page cover the case; else the message is a warning,
@@ -10,13 +10,13 @@
 pub struct ControlError {
     /// The number, without `P-ERR-`.
     pub number: u32,
-    /// What is refused.
+    /// Refused construct.
     pub refused: &'static str,
     /// The page that describes it, by its number; empty where only the number or its title was found.
     pub page: &'static str,
     /// Result of a dry run.
     pub check: ControlErrorCheck,
-    /// What to write instead.
+    /// Replacement to write instead.
     pub cure: &'static str,
 }
 
@@ -30,12 +30,12 @@ pub enum ControlErrorCheck {
     Possible,
     /// Another message of frictcomp, by its code.
     Said(&'static str),
-    /// Nothing, for a reason.
+    /// No message, for the given reason.
     Open(&'static str),
 }
 
 impl ControlErrorCheck {
-    /// What frictcomp does.
+    /// Returns the reaction of frictcomp in words.
     pub fn words(self) -> String {
         match self {
             Self::Error => "an error with this number".to_owned(),
@@ -234,7 +234,7 @@ static REFUSALS: &[ControlError] = {
 };
 
 impl ControlError {
-    /// Its page: what is refused, what frictcomp does, and the source.
+    /// Returns its page: what is refused, what frictcomp does, and the source.
     pub fn explanation(&self) -> String {
         let Self {
             number,
@@ -251,7 +251,7 @@ impl ControlError {
         )
     }
 
-    /// The document that describes it.
+    /// Returns the document that describes it.
     pub fn source(&self) -> String {
         match self.page {
             "" => "error texts of the control".to_owned(),
@@ -264,12 +264,12 @@ impl ControlError {
         }
     }
 
-    /// All of them, in the order of their numbers.
+    /// Returns all rows in the order of their numbers.
     pub fn all() -> &'static [Self] {
         REFUSALS
     }
 
-    /// The one with a number.
+    /// Returns the one with a number.
     pub fn of(number: u32) -> Option<&'static Self> {
         let place = REFUSALS.binary_search_by_key(&number, |row| row.number);
         REFUSALS.get(place.ok()?)
@@ -324,7 +324,7 @@ mod tests {
         of the page cover the case; where the page, or a list of the machine, leaves that open, the warning FC328 says so, and the \
         ways on which the program ends there are followed beside those on which it goes on.\n";
 
-    /// How far the search for numbers went.
+    /// Extent of the search for error numbers.
     const SEARCH: &str = "How many numbers the control has cannot be counted from what is public: the overview of the diagnosis \
         manual names ranges, and each number has a page of its own, of which not all can be read. These ranges are those of the \
         overview; in those that concern programs, pages were looked for by the words of the language and by the numbers beside \

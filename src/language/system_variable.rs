@@ -3,7 +3,7 @@
 //! TF5200 Programming manual, pages 207902603 (`V.A.`) and 207916683 (`V.G.`). A variable that is not listed here may be
 //! one that can be written: the pages list those of options elsewhere.
 
-/// Those of an axis, without `V.A.` and without the axis.
+/// Variables of an axis, without `V.A.` and without the axis.
 const OF_AXIS: &[&str] = &[
     "ABS",
     "ACS",
@@ -14,7 +14,7 @@ const OF_AXIS: &[&str] = &[
     "PROG",
 ];
 
-/// Those of the channel, without `V.G.`.
+/// Variables of the channel, without `V.G.`.
 const OF_CHANNEL: &[&str] = &[
     "BLOCK_NR",
     "FEEDRATE",
@@ -30,7 +30,7 @@ const OF_CHANNEL: &[&str] = &[
     "SATZ_NR",
 ];
 
-/// Whether a program may only read the variable, whose name has its family in upper case.
+/// Returns whether a program may only read the variable, whose name has its family in upper case.
 pub(crate) fn is_read_only(name: &str) -> bool {
     let is_in = |prefix: &str, rows: &[&str]| {
         let rest = name.strip_prefix(prefix);

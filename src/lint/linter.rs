@@ -97,8 +97,8 @@ impl<'m> Linter<'m> {
         name.clone_into(&mut self.program);
     }
 
-    /// Whether every axis that a block moves has moved before, so that the block is nothing new, and no check is
-    /// waiting for the next motion.
+    /// Returns whether every axis that a block moves has moved before, so that the block is nothing new, and no check
+    /// is waiting for the next motion.
     #[inline]
     pub(crate) fn knows(&self, moves: &BlockMotion) -> bool {
         !self.memory.has_new(moves)

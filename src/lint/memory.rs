@@ -24,14 +24,14 @@ pub(super) struct MovedBefore {
     pub(super) site: Arc<BlockSite>,
     /// The ways on which this or a later motion finds that state.
     on: FoundOn,
-    /// These ways as data; empty if all ways.
+    /// The ways as data; empty if the motion happens on all ways.
     pub(super) ways: Vec<Vec<WayCondition>>,
 }
 
 /// Effects of the program on one kind of one axis.
 #[derive(Debug, Clone, Default)]
 pub(super) struct KindMemory {
-    /// Whether a command of the program was about it.
+    /// Whether the program contained a command for the kind.
     pub(super) is_commanded: bool,
     /// The first block that certainly moved the axis, other than by homing, while the kind was, or may have been, as
     /// the program found it.
@@ -101,7 +101,7 @@ pub(super) struct Inherited {
     cut: Option<(Touch, FoundOn)>,
     /// The message about the other motions.
     pub(super) held: Option<Held>,
-    /// Whether no further motion changes what is said.
+    /// Whether no further motion changes the message.
     pub(super) is_settled: bool,
 }
 
@@ -139,9 +139,9 @@ pub(super) struct AxisMemory {
     moved_on: Option<FoundOn>,
     /// Whether a command of the program named the axis.
     pub(super) commanded: bool,
-    /// Whether it has moved on all ways that lead to its last motion, in any way or with certainty.
+    /// Evidence that the axis has moved on all ways that lead to its last motion: in any way, and with certainty.
     settled: Settled,
-    /// Its motions in a state that was left by something before the program.
+    /// Motions in a state that was left by something before the program.
     pub(super) inherited: Inherited,
 }
 
@@ -183,12 +183,12 @@ pub(super) fn command_to<'a>(
     ended.found.history.latest(axis, kind, effect)
 }
 
-/// Whether a motion counts for the second run (R1.53, R10.7).
+/// Returns whether a motion counts for the second run (R1.53, R10.7).
 fn counts(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
 }
 
-/// Whether a form of R10.7 moves, or may move, the axis; not if nothing about the motion is known.
+/// Returns whether a form of R10.7 moves, or may move, the axis; not if nothing about the motion is known.
 pub(super) fn is_of_a_kind(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain || motion.kind != MotionKind::Unknown
 }
@@ -225,13 +225,13 @@ impl ProgramEffects {
         }
     }
 
-    /// Whether an axis word of the block may be the first to move its axis.
+    /// Returns whether an axis word of the block may be the first to move its axis.
     #[inline]
     pub(super) fn has_new(&self, moves: &BlockMotion) -> bool {
         moves.named() & !self.moved != 0
     }
 
-    /// Whether none of these motions is new.
+    /// Returns whether none of these motions is new.
     pub(super) fn knows_all(&self, motions: &[MovedAxis]) -> bool {
         let is_known = |motion: &MovedAxis| {
             let memory = &self.axes[motion.axis.get()];
@@ -319,10 +319,10 @@ impl Maker {
     }
 }
 
-/// Whether a state left away from its start-up state was reported.
+/// Report of a state left away from its start-up state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum LeftAwayNotice {
-    /// It was not reported.
+    /// Not reported.
     #[default]
     No,
     /// FC401 or FC407 was reported for a program of this session.

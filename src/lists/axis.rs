@@ -38,7 +38,7 @@ pub struct AxisValues {
     pub end: Option<Given<usize>>,
 }
 
-/// Whether a name can be used in a program: a letter, then letters, digits or `_`, 16 at most (R2.20). Names of
+/// Returns whether a name can be used in a program: a letter, then letters, digits or `_`, 16 at most (R2.20). Names of
 /// spindles begin with other letters than those of axes.
 pub(crate) fn is_axis_name(name: &str) -> bool {
     let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -51,10 +51,10 @@ pub(crate) fn is_axis_name(name: &str) -> bool {
 pub(crate) const AXIS_NAME_HELP: &str =
     "a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`";
 
-/// More drive entries than any axis list has; further ones are not kept.
+/// Limit on the drive entries, beyond any axis list; further ones are not kept.
 const MAX_DRIVE_ENTRIES: usize = 4096;
 
-/// Whether a key belongs to the drive (chapter 7).
+/// Returns whether a key belongs to the drive (chapter 7).
 fn is_drive_key(pattern: &str) -> bool {
     pattern.starts_with("antr.")
         || matches!(

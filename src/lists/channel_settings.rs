@@ -20,7 +20,7 @@ pub enum FeedUnit {
     MillimetresPerMinute,
     /// m/min.
     MetresPerMinute,
-    /// The list has a factor whose meaning is not documented.
+    /// Factor whose meaning is not documented.
     Unknown,
 }
 
@@ -45,11 +45,11 @@ pub struct ChannelSettings {
     pub feed_mm_per_min: Option<f64>,
     /// Whether the lists of the channel were read and give no such feed.
     pub lacks_feed: bool,
-    /// Whether the lists of the channel were read, so that what they do not name is not there.
+    /// Whether the lists of the channel were read, so that anything they do not name does not exist.
     pub is_whole: bool,
     /// The G functions in force at the start of a program, P-CHAN-00063, if they differ from the control's defaults.
     pub functions: Vec<u32>,
-    /// The unit of coordinates is inch, P-CHAN-00054. What G70 and G71 do then is not documented.
+    /// Whether the unit of coordinates is inch, P-CHAN-00054. What G70 and G71 do then is not documented.
     pub inch: bool,
     /// The acceleration profile at the start of a program, P-CHAN-00071, if the list gives it.
     pub slope: Option<SlopeProfile>,
@@ -68,21 +68,21 @@ pub struct ChannelSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum ChannelSwitch {
-    /// P parameters are kept at program end.
+    /// Retention of P parameters at program end.
     KeepParameters,
-    /// A cycle keeps its changes to G functions and feed.
+    /// Retention of the changes of a cycle to G functions and feed.
     KeepCycleChanges,
-    /// Couplings are kept after a reset.
+    /// Retention of couplings after a reset.
     KeepCouplingsAfterReset,
-    /// Couplings are kept at program end.
+    /// Retention of couplings at program end.
     KeepCouplings,
-    /// The axes of the channel and their couplings are kept at program end.
+    /// Retention of the axes of the channel and their couplings at program end.
     KeepAxes,
-    /// The axes of the channel are kept after a reset.
+    /// Retention of the axes of the channel after a reset.
     KeepAxesAfterReset,
-    /// The zero offset is kept at program end.
+    /// Retention of the zero offset at program end.
     KeepOffset,
-    /// The tool data are kept at program end.
+    /// Retention of the tool data at program end.
     KeepToolData,
 }
 
@@ -113,7 +113,7 @@ impl ChannelSwitch {
 }
 
 impl ChannelSettings {
-    /// Whether a switch is on.
+    /// Returns whether a switch is on.
     pub fn has(&self, switch: ChannelSwitch) -> bool {
         self.switches.contains(&switch)
     }
@@ -255,7 +255,7 @@ impl ChannelDraft {
         }
     }
 
-    /// A part of a pair of the coupling group 0.
+    /// Reads a part of a pair of the coupling group 0.
     fn pair(&mut self, place: (u32, usize), entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
         let Some(given) = number(entry, diagnostics) else {
             return;
@@ -270,7 +270,7 @@ impl ChannelDraft {
         }
     }
 
-    /// The kind of synchronisation of a function, by its name or as a bit code. One that is not known counts as
+    /// Reads the kind of synchronisation of a function, by its name or as a bit code. One that is not known counts as
     /// acknowledged.
     fn synchronise(
         &mut self,
@@ -372,7 +372,7 @@ impl ChannelDraft {
         }
     }
 
-    /// The followers and leaders of the coupling group 0 by their logical numbers, without pairs of spindles.
+    /// Returns the followers and leaders of the coupling group 0 by their logical numbers, without pairs of spindles.
     fn coupled(&self) -> Vec<[u32; 2]> {
         let part = |place, part| {
             self.pairs

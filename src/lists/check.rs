@@ -35,13 +35,13 @@ impl Default for Conditions {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// The list has no friction parameters.
+    /// List without friction parameters.
     Absent,
     /// Mode 0.
     Off,
     /// A check failed; the code of the first one.
     Rejected(Code),
-    /// The list works.
+    /// List that works.
     Accepted(FrictionList),
 }
 
@@ -222,7 +222,7 @@ impl Check<'_> {
         points.into_iter().map(|(_, point)| point).collect()
     }
 
-    /// R3.23: the table must fit into the reserved size; `≤` (reading C6).
+    /// Checks that the table fits into the reserved size (R3.23); `≤` (reading C6).
     fn check_size(&mut self, entries: u16) {
         let max_points = self.draft.max_points();
         let Some(given) = self.draft.get(Field::TableEntries) else {
@@ -244,7 +244,7 @@ impl Check<'_> {
             });
     }
 
-    /// R3.21: the mode is 0 or 3 (reading C8), and mode 3 needs points.
+    /// Checks that the mode is 0 or 3 (R3.21, reading C8), and that mode 3 has points.
     fn check_mode(&mut self, mode: Option<u16>, entries: Option<u16>) {
         let Some(given) = self.draft.get(Field::Mode) else {
             return;
@@ -267,7 +267,7 @@ impl Check<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// R3.26: there must be exactly as many points as are used.
+    /// Checks that there are exactly as many points as are used (R3.26).
     fn check_count(&mut self, entries: u32) {
         let surplus = self.draft.table.range(entries..).next();
         if let Some((index, point)) = surplus
@@ -359,7 +359,7 @@ impl Check<'_> {
         None
     }
 
-    /// R3.20: velocities are not negative and strictly ascending (readings C4, C5).
+    /// Checks that velocities are not negative and strictly ascending (R3.20, readings C4, C5).
     fn check_ascending(&mut self, points: &[(u32, TablePoint)]) {
         let mut before: Option<f64> = None;
         for &(index, TablePoint { input, .. }) in points {
@@ -388,8 +388,8 @@ impl Check<'_> {
         }
     }
 
-    /// R3.28: with a first point (0, 0) the axis has no current until it reaches the second one. On a circle an axis
-    /// leaves its reversal with a = v²/r; chapter 4.3 sets r = 100 mm and the limit of 10 ms.
+    /// Reports R3.28: with a first point (0, 0) the axis has no current until it reaches the second one. On a circle an
+    /// axis leaves its reversal with a = v²/r; chapter 4.3 sets r = 100 mm and the limit of 10 ms.
     fn check_first_point(&mut self, list: &FrictionList) {
         const RADIUS_MM: f64 = 100.0;
         const LIMIT_MS: f64 = 10.0;
@@ -428,7 +428,7 @@ impl Check<'_> {
         }
     }
 
-    /// R3.29: the torque object of the drive has 16 bits.
+    /// Checks the values against the torque object of the drive, which has 16 bits (R3.29).
     fn check_drive_range(&mut self, list: &FrictionList) {
         let scaled = |point: &TablePoint| point.output * f64::from(list.scaling_factor) / 1000.0;
         let largest = (0_u32..)
@@ -570,7 +570,7 @@ fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     None
 }
 
-/// Returns FC139 at an output.
+/// Returns FC139 at an output of the table.
 fn said(draft: &FrictionDraft, index: u32, message: String) -> Option<Diagnostic> {
     let place = draft.table.get(&index)?.output.as_ref()?.place();
     Some(

@@ -124,7 +124,7 @@ impl Field {
         }
     }
 
-    /// Whether a value is an end of an interval that is documented as open (R3.45).
+    /// Returns whether a value is an end of an interval that is documented as open (R3.45).
     pub(super) fn is_end_of_open(self, value: i64) -> bool {
         let ends = [i16::MIN, i16::MAX].map(i64::from);
         self == Self::ScalingFactor && ends.contains(&value)
@@ -141,7 +141,7 @@ impl Field {
         }
     }
 
-    /// Whether a value of this parameter counts as 0, being a negative distance or time (R3.25).
+    /// Returns whether a value of this parameter counts as 0, being a negative distance or time (R3.25).
     pub(super) fn floors(self, value: i64) -> bool {
         let counted = matches!(
             self,
@@ -186,7 +186,7 @@ pub struct WrittenPoint {
 #[derive(Debug, Clone, Default)]
 pub struct FrictionDraft {
     scalars: BTreeMap<Field, Given<Written>>,
-    /// By index; only written points take memory, however large the index.
+    /// Points by index; only written ones take memory, however large the index.
     pub(super) table: BTreeMap<u32, WrittenPoint>,
 }
 
@@ -242,7 +242,7 @@ impl FrictionDraft {
         self.scalars.extend(other.scalars);
     }
 
-    /// Whether the list has no values of friction compensation.
+    /// Returns whether the list has no values of friction compensation.
     pub fn is_empty(&self) -> bool {
         self.scalars.is_empty() && self.table.is_empty()
     }
@@ -412,7 +412,7 @@ pub struct NoValues {
 }
 
 impl FrictionList {
-    /// Whether all outputs are 0, or scaled to 0.
+    /// Returns whether all outputs are 0, or scaled to 0.
     pub fn adds_nothing(&self) -> bool {
         self.scaling_factor == 0 || self.table.iter().all(|point| point.output == 0.0)
     }
@@ -446,13 +446,13 @@ impl FrictionList {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Points {
-    /// As whole numbers (SGN32), which every build of the control reads.
+    /// Whole numbers (SGN32), which every build of the control reads.
     Whole,
-    /// As real numbers, outputs with three decimals, which newer builds read.
+    /// Real numbers, outputs with three decimals, which newer builds read.
     Real,
 }
 
-/// Real outputs have three decimals.
+/// Factor of the three decimals of real outputs.
 const DECIMALS: f64 = 1000.0;
 
 impl Points {
@@ -502,7 +502,7 @@ pub struct ListHead<'a> {
     pub remarks: &'a [&'a str],
     /// The logical number of the axis, P-COMP-00001 (`kopf.achs_nr`).
     pub number: Option<u32>,
-    /// Its name, P-COMP-00002 (`kopf.log_achs_name`); left out if it is not a plain word.
+    /// Name, P-COMP-00002 (`kopf.log_achs_name`); left out if it is not a plain word.
     pub name: Option<&'a str>,
 }
 

@@ -21,13 +21,13 @@ macro_rules! keys {
     };
 }
 
-/// Every key that is read or referred to (TF5200 Axis, Compensation, Channel and Start-up parameters).
+/// Returns every key that is read or referred to (TF5200 Axis, Compensation, Channel and Start-up parameters).
 pub fn known_keys() -> impl Iterator<Item = KnownKey> {
     let channel = CHANNEL_KEYS.iter().map(|row| row.key);
     KEYS.iter().copied().chain(channel)
 }
 
-/// Those that are not in a channel list.
+/// Keys of lists other than channel lists.
 const KEYS: &[KnownKey] = keys! {
     "P-AXIS-00016" "kopf.achs_nr"
     "P-AXIS-00297" "kopf.log_achs_name"
@@ -100,7 +100,7 @@ const KEYS: &[KnownKey] = keys! {
     "P-STUP-00036" "achs_kw_log_ax_nr[]"
 };
 
-/// Whether a key, with its indices left empty, is one of them.
+/// Returns whether a key, with its indices left empty, is one of them.
 pub(super) fn is_known(pattern: &str) -> bool {
     known_keys().any(|key| key.pattern == pattern)
 }
@@ -160,9 +160,9 @@ pub struct ChannelKey {
 /// Use of a key in a dry run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum KeyUse {
-    /// What it decides, and the case of `tests/rules` or the test that shows it.
+    /// Key that is read: its effect, and the case of `tests/rules` or the test that shows it.
     Read(&'static str, &'static str),
-    /// Why nothing that a dry run shows depends on it.
+    /// Key that is not read: the reason why no result of a dry run depends on it.
     Unread(&'static str),
 }
 
@@ -290,7 +290,7 @@ pub(super) static CHANNEL_KEYS: &[ChannelKey] = {
     }
 };
 
-/// The number of the parameter of a key, with its indices left empty.
+/// Returns the number of the parameter of a key, with its indices left empty.
 pub(super) fn number_of(pattern: &str) -> &'static str {
     let mut rows = CHANNEL_KEYS.iter();
     let row = rows.find(|row| row.pattern() == pattern);
@@ -298,27 +298,27 @@ pub(super) fn number_of(pattern: &str) -> &'static str {
 }
 
 impl ChannelKey {
-    /// All of them, in the order of their numbers.
+    /// Returns all keys in the order of their numbers.
     pub fn all() -> &'static [Self] {
         CHANNEL_KEYS
     }
 
-    /// The key with its indices left empty, `g800_prog_file[]`.
+    /// Returns the key with its indices left empty, `g800_prog_file[]`.
     pub fn pattern(&self) -> &'static str {
         self.key.pattern
     }
 
-    /// The key as lists have it, `g800_prog_file[i]`.
+    /// Returns the key as lists have it, `g800_prog_file[i]`.
     pub fn key(&self) -> String {
         self.pattern().replace("[]", "[i]")
     }
 
-    /// The number of the parameter; empty where none is public.
+    /// Returns the number of the parameter; empty where none is public.
     pub fn number(&self) -> &'static str {
         self.key.number
     }
 
-    /// The case or test that shows what the key decides; `None` for a key that is not read.
+    /// Returns the case or test that shows what the key decides; `None` for a key that is not read.
     pub fn case(&self) -> Option<&'static str> {
         match self.usage {
             KeyUse::Read(_, case) => Some(case),
@@ -326,7 +326,7 @@ impl ChannelKey {
         }
     }
 
-    /// Its page: what frictcomp reads from it, or why it reads nothing.
+    /// Returns its page: what frictcomp reads from it, or why it reads nothing.
     pub fn explanation(&self) -> String {
         let number = match self.number() {
             "" => String::new(),

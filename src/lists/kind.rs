@@ -8,24 +8,24 @@ use crate::text::lines_of;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ListKind {
-    /// It names the other lists: `hochlauf.lis`.
+    /// Start-up list, which names the other lists: `hochlauf.lis`.
     Startup,
-    /// It names the axes of a channel.
+    /// Channel list, which names the axes of a channel.
     Channel,
     /// The parameters of one axis.
     Axis,
     /// The compensation values of one axis.
     Value,
-    /// Only the number and name of an axis, as in an axis list or a value list.
+    /// List with only the number and name of an axis, as in an axis list or a value list.
     Head,
 }
 
 /// The keys of a kind of list, as beginnings of their patterns.
 struct KindKeys {
     kind: ListKind,
-    /// One of them decides the kind.
+    /// Keys of which any one decides the kind.
     deciding: &'static [&'static str],
-    /// Without a deciding key of any kind these tell it.
+    /// Keys that identify the kind if the list has no deciding key of any kind.
     others: &'static [&'static str],
 }
 
@@ -104,7 +104,7 @@ impl KindKeys {
             .expect("there is a row for each kind")
     }
 
-    /// Whether a key belongs to the kind.
+    /// Returns whether a key belongs to the kind.
     fn has(&self, entry: &Entry) -> bool {
         begins(entry, self.deciding) || begins(entry, self.others)
     }
@@ -132,7 +132,7 @@ impl ListKind {
         most(list, |row| row.deciding).or_else(|| most(list, |row| row.others))
     }
 
-    /// Whether a text has a line that begins with a deciding key, or with the head of a list, and a value.
+    /// Returns whether a text has a line that begins with a deciding key, or with the head of a list, and a value.
     pub(crate) fn is_likely(text: &str) -> bool {
         let is_entry = |line: &str| {
             let line = line.trim_start();
@@ -150,7 +150,7 @@ impl ListKind {
         lines_of(text).any(is_entry)
     }
 
-    /// Whether a list can serve as one of this kind: one of its keys identifies this kind, or none identifies
+    /// Returns whether a list can serve as one of this kind: one of its keys identifies this kind, or none identifies
     /// another one. A start-up list, with which everything begins, needs a key of its own.
     pub fn admits(self, list: &Entries) -> bool {
         list.all().any(|entry| KindKeys::of(self).has(entry))

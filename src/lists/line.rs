@@ -14,7 +14,7 @@ use super::parameter::resolve;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::text::{Place, SourceFile, Span, changed_direction};
 
-/// More invalid lines than a list has by mistake; further ones are only counted.
+/// Number of invalid lines that are reported; further ones, more than a list has by mistake, are only counted.
 const MAX_ODD: usize = 20;
 
 /// The entries of one list.
@@ -77,7 +77,7 @@ impl Entries {
         }
     }
 
-    /// Whether keys lost their underscores, which has been reported.
+    /// Returns whether keys lost their underscores, which has been reported.
     pub(crate) fn lost_underscores(&self) -> bool {
         self.lost > 0
     }
@@ -141,7 +141,7 @@ enum LineKind {
     Entry(Entry),
     /// A key whose underscores turned into blanks, and the intended key.
     Lost(Span, &'static str),
-    /// None of these; the reason, to be completed to a sentence.
+    /// Anything else; the reason, to be completed to a sentence.
     Odd(&'static str),
 }
 
@@ -352,7 +352,7 @@ pub struct Entry {
     pub indices: Vec<u32>,
     /// Span of the key.
     pub key_span: Span,
-    /// Everything after the key, without blanks at either end.
+    /// Span of everything after the key, without blanks at either end.
     pub value_span: Span,
     /// Span of the effective value: the entry's own, or the target of a reference (R3.40).
     pub(super) meant: Span,
@@ -496,9 +496,9 @@ fn word_end(text: &str) -> usize {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Number {
-    /// Without decimal point and exponent, decimal or hexadecimal.
+    /// Number without decimal point and exponent, decimal or hexadecimal.
     Integer(i64),
-    /// With decimal point or exponent; always finite.
+    /// Number with decimal point or exponent; always finite.
     Real(f64),
 }
 
@@ -561,7 +561,7 @@ impl fmt::Display for Number {
 pub struct Written {
     /// The word as written.
     pub text: String,
-    /// Its number, if it is one.
+    /// Number, if it is one.
     pub number: Option<Number>,
 }
 

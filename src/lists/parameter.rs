@@ -61,7 +61,7 @@ impl FromStr for AxisType {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Origin {
-    /// No list sets it; the documented default applies.
+    /// Documented default; no list sets the parameter.
     Default,
     /// A line of a list or of `frictcomp.toml`.
     File {
@@ -82,7 +82,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// Whether the user assumes it.
+    /// Returns whether the user assumes it.
     pub fn is_assumed(&self) -> bool {
         matches!(self, Self::Assumed | Self::Enabled { .. })
     }
@@ -118,7 +118,7 @@ pub struct Parameter {
     pub key: String,
     /// The effective value, in list notation.
     pub value: String,
-    /// Its unit for the axis' type, empty for plain numbers.
+    /// Unit for the axis' type, empty for plain numbers.
     pub unit: &'static str,
     /// Origin of the value.
     pub origin: Origin,

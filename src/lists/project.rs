@@ -27,7 +27,7 @@ use crate::text::{SourceFile, Span};
 /// Depth of nested elements that no project reaches.
 const MAX_DEPTH: usize = 512;
 
-/// More lists than any project has; further ones are not read.
+/// Limit on the lists, beyond any project; further ones are not read.
 const MAX_LISTS: usize = 4096;
 
 /// The outermost elements of projects, of files that a project refers to, and of exported tree items.
@@ -49,12 +49,12 @@ const NAME_OF_FILE: &str = "__FILENAME__";
 const LIST_ELEMENTS: [(&str, ListKind); 2] =
     [("AchsMds", ListKind::Axis), ("SdaMds", ListKind::Channel)];
 
-/// Why a file gives no lists: what it is, in words that follow its name.
+/// Reason why a file gives no lists: its nature, in words that follow its name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{reason}")]
 #[non_exhaustive]
 pub(crate) struct NoProject {
-    /// What the file is.
+    /// Nature of the file.
     pub(crate) reason: String,
     /// The place at fault.
     pub(crate) span: Span,
@@ -63,7 +63,7 @@ pub(crate) struct NoProject {
 /// An item of a project: an axis, a channel, or a folder of them.
 #[derive(Debug, Clone)]
 pub(crate) struct ProjectItem {
-    /// Its name in the tree of the project.
+    /// Name in the tree of the project.
     pub(crate) name: String,
     /// The channel of the axis, from 1.
     pub(crate) channel: Option<Given<u32>>,
@@ -78,9 +78,9 @@ pub(crate) struct ProjectItem {
 pub(crate) struct ProjectList {
     /// The items around it, the nearest one first, as positions among all items.
     pub(crate) items: Vec<usize>,
-    /// Its text, with the line numbers of the file.
+    /// Text, with the line numbers of the file.
     pub(crate) source: Arc<SourceFile>,
-    /// Its kind; `None` for a list that does not concern compensation.
+    /// Kind; `None` for a list that does not concern compensation.
     pub(crate) kind: Option<ListKind>,
     /// Place and name of its element.
     pub(crate) element: Given<String>,
@@ -110,7 +110,7 @@ pub(crate) struct Project {
     pub(crate) odd: Vec<(&'static str, Given<String>)>,
 }
 
-/// Whether a text is XML, as TwinCAT projects are (R3.42).
+/// Returns whether a text is XML, as TwinCAT projects are (R3.42).
 pub fn is_xml(text: &str) -> bool {
     text.trim_start().starts_with('<')
 }
@@ -152,7 +152,7 @@ impl Project {
     }
 }
 
-/// What is known of an item while its element is open.
+/// Item whose element is still open.
 #[derive(Debug, Default)]
 struct ItemDraft {
     name: Option<String>,

@@ -14,7 +14,7 @@ use crate::diagnostic::{Code, Diagnostic};
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct NamedList {
-    /// Its path as written.
+    /// Path as written.
     pub path: Given<String>,
     /// The axis that it belongs to, if the start-up list gives it.
     pub axis_number: Option<Given<u32>>,
@@ -27,16 +27,16 @@ pub struct NamedList {
 pub(crate) struct AxisPlacement {
     /// The path of its axis list.
     pub(crate) list: String,
-    /// Its channel, from 1.
+    /// Channel, from 1.
     pub(crate) channel: Option<Given<u32>>,
-    /// Its position in the channel, from 0.
+    /// Position in the channel, from 0.
     pub(crate) index: Option<u32>,
-    /// Its name in programs.
+    /// Name in programs.
     pub(crate) name: Option<Given<String>>,
 }
 
 impl AxisPlacement {
-    /// Whether the axis is in the channel with a number, from 1.
+    /// Returns whether the axis is in the channel with a number, from 1.
     pub(crate) fn is_in(&self, number: u32) -> bool {
         self.channel
             .as_ref()
@@ -286,7 +286,7 @@ impl ChannelList {
 }
 
 impl ChannelAxis {
-    /// Whether it is an axis: number 0 is an empty slot.
+    /// Returns whether it is an axis: number 0 is an empty slot.
     fn is_there(&self) -> bool {
         self.number.as_ref().is_none_or(|number| number.value != 0)
     }
@@ -338,7 +338,7 @@ const WORDS: [(&str, &str); 13] = [
 /// P-CHAN-00187.
 const G800: &str = "g800_prog_file[]";
 
-/// More macros than any channel list has; further ones are not kept.
+/// Limit on the macros, beyond any channel list; further ones are not kept.
 const MAX_MACROS: usize = 4096;
 
 /// A program that a channel list names.
@@ -433,7 +433,7 @@ impl ChannelPrograms {
         self.named.insert(role, named);
     }
 
-    /// The modes of operation in which a program runs, `AUTOMATIC | MDI` (P-CHAN-00260, P-CHAN-00433).
+    /// Returns the modes of operation in which a program runs, `AUTOMATIC | MDI` (P-CHAN-00260, P-CHAN-00433).
     fn mode(&mut self, role: ProgramRole, entry: &Entry) -> Option<Diagnostic> {
         let given = entry.text();
         let text = given.value.trim().trim_matches('"').to_ascii_uppercase();
@@ -482,7 +482,7 @@ impl ChannelPrograms {
         })
     }
 
-    /// Whether a T word also has the effect of a D word.
+    /// Returns whether a T word also has the effect of a D word.
     pub fn data_with_tool(&self) -> bool {
         self.data_with_tool
             .as_ref()

@@ -18,16 +18,16 @@ use crate::lists::{
 };
 use crate::text::Place;
 
-/// Whether an axis has a friction value list that the control would accept.
+/// Existence of a friction value list for an axis that the control would accept.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Parameterisation {
-    /// No value list belongs to the axis.
+    /// No value list for the axis.
     #[default]
     Missing,
-    /// The list has mode 0, off.
+    /// List with mode 0, off.
     Off,
-    /// The list was read and rejected with this code.
+    /// List that was read and rejected with this code.
     Rejected {
         /// Path of the list.
         file: String,
@@ -36,7 +36,7 @@ pub enum Parameterisation {
     },
     /// The user assumes a list; its values are not known.
     Assumed,
-    /// The list was accepted.
+    /// List that was accepted.
     Accepted(FrictionList),
 }
 
@@ -152,13 +152,14 @@ impl Axis {
         )
     }
 
-    /// Whether it is a spindle.
+    /// Returns whether it is a spindle.
     pub fn is_spindle(&self) -> bool {
         self.axis_type == AxisType::Spindle
     }
 
-    /// Whether a list that was read, or the user, says what P-AXIS-00522 is. Otherwise the documented default takes its
-    /// place, and what a command to the axis does is not known (R1.37, R18.2). A spindle has no friction compensation.
+    /// Returns whether a list that was read, or the user, says what P-AXIS-00522 is. Otherwise the documented default
+    /// takes its place, and what a command to the axis does is not known (R1.37, R18.2). A spindle has no friction
+    /// compensation.
     pub fn is_described(&self) -> bool {
         self.is_spindle()
             || self.frict_comp_origin != Origin::Default
@@ -355,7 +356,8 @@ pub(super) struct AxisDraft {
     pub(super) enabled: Option<Given<bool>>,
     /// Whether the axis has an axis list of the control.
     pub(super) is_listed: bool,
-    /// Whether a start-up list leads to the axis, and every axis list that it names was read: no other one says more.
+    /// Whether a start-up list leads to the axis, and every axis list that it names was read, so that no other list
+    /// adds anything.
     pub(super) is_covered: bool,
     /// The list with the defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
@@ -399,7 +401,7 @@ impl AxisDraft {
         self.channel_number = number;
     }
 
-    /// Whether its lists say that it is a spindle.
+    /// Returns whether its lists say that it is a spindle.
     pub(super) fn is_spindle(&self) -> bool {
         let axis_type = self.values.axis_type.as_ref();
         axis_type.is_some_and(|given| given.value == AxisType::Spindle)
@@ -556,8 +558,8 @@ impl AxisDraft {
         }
     }
 
-    /// R3.14: all lists give the axis the same number. `Some` if the value list has another one; it
-    /// is then rejected.
+    /// Checks that all lists give the axis the same number (R3.14). `Some` if the value list has another one; it is
+    /// then rejected.
     fn check_numbers(&self, diagnostics: &mut Vec<Diagnostic>) -> Option<Code> {
         let code = Code::PErr110229;
         let differ = |list: &Given<u32>, other: &Given<u32>| {
@@ -587,7 +589,7 @@ impl AxisDraft {
         Some(code)
     }
 
-    /// R3.27 and R3.30: the axis list and the value list must agree.
+    /// Checks that the axis list and the value list agree (R3.27, R3.30).
     fn check_selection(&self, axis: &Axis) -> Option<Diagnostic> {
         let anchor = self.value_list.friction.anchor();
         let selector = self.values.frict_comp();

@@ -180,7 +180,8 @@ fn not_startup(entries: &Entries) -> Diagnostic {
         .with_help("a start-up list (`hochlauf.lis`) names the lists of the axes and channels")
 }
 
-/// FC124 for each axis whose logical number an earlier one has, too: what names an axis by its number takes the first.
+/// Returns FC124 for each axis whose logical number an earlier one has, too: what names an axis by its number takes the
+/// first.
 fn equal_numbers(axes: &[AxisDraft]) -> impl Iterator<Item = Diagnostic> {
     axes.iter().enumerate().filter_map(|(at, axis)| {
         let number = axis.values.number.as_ref()?;

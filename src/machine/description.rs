@@ -22,7 +22,7 @@ pub enum AxisSet {
     /// The configuration lists them; any other name raises P-ERR-21947.
     #[default]
     Configured,
-    /// Nothing is configured: X Y Z A B C U V W are added as they occur (R2.20).
+    /// No configuration: X Y Z A B C U V W are added as they occur (R2.20).
     AsTheyOccur,
 }
 
@@ -32,7 +32,7 @@ pub enum AxisSet {
 pub struct Machine {
     /// The axes, in the machine's order.
     pub axes: Vec<Axis>,
-    /// Whether the configuration lists the axes.
+    /// Origin of the axes: the configuration, or their occurrence.
     pub axis_set: AxisSet,
     /// Whether start-up lists of the control name the axes, and all of them were read: a word of any other axis is then
     /// reported (R2.94).
@@ -67,7 +67,7 @@ pub struct Machine {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GantrySlave {
-    /// Its name, if its list gives one.
+    /// Name, if its list gives one.
     pub name: String,
     /// The name of its master; `None` if no list describes the master.
     pub master: Option<String>,
@@ -77,10 +77,10 @@ pub struct GantrySlave {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Parameters {
-    /// They are cleared.
+    /// Parameters are cleared.
     #[default]
     Cleared,
-    /// They keep the values that an earlier program wrote.
+    /// Parameters keep the values that an earlier program wrote.
     Kept,
 }
 
@@ -123,8 +123,8 @@ impl Machine {
         admitted
     }
 
-    /// Whether anything describes the machine: a configuration that lists its axes, or an assumption about one of them
-    /// (R1.37).
+    /// Returns whether anything describes the machine: a configuration that lists its axes, or an assumption about one
+    /// of them (R1.37).
     pub fn is_described(&self) -> bool {
         self.axis_set == AxisSet::Configured || self.axes.iter().any(Axis::is_described)
     }
@@ -211,7 +211,7 @@ pub enum Setting {
 }
 
 impl Setting {
-    /// Whether a name is that of a variable or a parameter, which can have a value (R2.33, R2.34).
+    /// Returns whether a name is that of a variable or a parameter, which can have a value (R2.33, R2.34).
     pub fn is_for(name: &str) -> bool {
         let number = name.strip_prefix('@').unwrap_or(name);
         let number = number.strip_prefix(['P', 'p']);
@@ -298,7 +298,8 @@ impl HarmlessWords {
         number.is_some()
     }
 
-    /// Whether a text begins with one of these `#` commands; a command includes all longer ones that begin with it.
+    /// Returns whether a text begins with one of these `#` commands; a command includes all longer ones that begin with
+    /// it.
     pub fn has_command(&self, text: &str) -> bool {
         if self.commands.is_empty() || !text.starts_with('#') {
             return false;
@@ -310,7 +311,7 @@ impl HarmlessWords {
         })
     }
 
-    /// Whether a G or M function is one of them.
+    /// Returns whether a G or M function is one of them.
     pub(crate) fn has_function(&self, letter: u8, number: i64) -> bool {
         self.functions.contains(&(letter, number))
     }
@@ -324,7 +325,7 @@ impl HarmlessWords {
     }
 }
 
-/// Whether a G function takes effect in a dry run, so that it cannot be declared harmless.
+/// Returns whether a G function takes effect in a dry run, so that it cannot be declared harmless.
 fn is_followed(number: i64) -> bool {
     let function = u32::try_from(number).ok().and_then(GFunction::of);
     function.is_some_and(GFunction::is_followed)

@@ -17,7 +17,7 @@ use crate::lists::{
 };
 use crate::text::{Place, SourceFile, lines_of};
 
-/// More nested folders above a list than on any disk.
+/// Limit on the nested folders above a list, beyond any disk.
 const MAX_ABOVE: usize = 64;
 
 /// Reads lists through the host and collects the messages about them.
@@ -37,7 +37,7 @@ pub(super) struct Loader<'f> {
     pub(super) channel: Option<FirstChannel>,
     /// The lists of a project, by the names under which they are asked for.
     pub(super) embedded: BTreeMap<String, Arc<SourceFile>>,
-    /// Where these are in their files.
+    /// Places of the lists of the project in their files.
     pub(super) project: EmbeddedLists,
 }
 
@@ -320,10 +320,10 @@ fn whereabouts(asked: &Given<String>) -> (Arc<str>, String) {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoList {
-    /// Nothing exists there.
+    /// No file at the path.
     #[error("it is not found")]
     Missing,
-    /// Something exists there that cannot be read; the reason.
+    /// File that exists there but cannot be read; the reason.
     #[error("{0}")]
     Unreadable(String),
 }
@@ -417,13 +417,13 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
     }
 }
 
-/// Whether a list contains nothing before its `Ende` except comments, like a template.
+/// Returns whether a list contains nothing before its `Ende` except comments, like a template.
 pub(super) fn has_nothing(entries: &Entries) -> bool {
     let is_plain = entries.diagnostics.is_empty() && entries.entries.is_empty();
     is_plain && !entries.source().text().trim().is_empty()
 }
 
-/// Whether a line begins like an NC program: with a name, a comment or a letter with its number.
+/// Returns whether a line begins like an NC program: with a name, a comment or a letter with its number.
 fn is_block(line: &str) -> bool {
     let word = line.split([' ', '\t', '[']).next().unwrap_or_default();
     let mut letters = word.chars();
@@ -473,7 +473,7 @@ impl EmbeddedLists {
         Some(format!("item `{item}`, line {line} of `{element}`"))
     }
 
-    /// Whether a place is in one of these lists, where nothing is written.
+    /// Returns whether a place is in one of these lists, where nothing is written.
     pub(super) fn holds(&self, place: &Place) -> bool {
         self.words(place).is_some()
     }

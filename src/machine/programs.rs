@@ -33,7 +33,7 @@ pub struct ConfiguredPrograms {
 pub struct Keeps {
     /// The compensation of all axes.
     pub compensation: bool,
-    /// All positions.
+    /// Positions of all axes.
     pub positions: bool,
     /// P parameters and variables.
     pub parameters: bool,
@@ -59,7 +59,7 @@ impl ConfiguredPrograms {
         self.data_with_tool |= channel.data_with_tool();
     }
 
-    /// Whether a role has a program.
+    /// Returns whether a role has a program.
     pub(super) fn has(&self, role: &ProgramRole) -> bool {
         match role {
             ProgramRole::Start => self.start.is_some(),
@@ -77,7 +77,7 @@ impl ConfiguredPrograms {
         found.map(|(_, program)| program.as_str())
     }
 
-    /// Whether a program exists only on the machine.
+    /// Returns whether a program exists only on the machine.
     pub fn is_external(&self, name: &str) -> bool {
         any_matches(&self.external, name)
     }
@@ -104,7 +104,7 @@ pub(crate) fn canonical_word(word: &str) -> String {
     }
 }
 
-/// Whether one of the patterns matches a program's name, without its folders unless the pattern has any.
+/// Returns whether one of the patterns matches a program's name, without its folders unless the pattern has any.
 fn any_matches(patterns: &[String], name: &str) -> bool {
     let name = name.replace('\\', "/").to_lowercase();
     let last = name.rsplit('/').next().unwrap_or(&name);
@@ -115,8 +115,9 @@ fn any_matches(patterns: &[String], name: &str) -> bool {
     })
 }
 
-/// `*` matches any letters, `?` matches one. Both texts are scanned from the left; the match of the last `*` grows if
-/// the rest does not fit, so the work is bounded by the product of both lengths.
+/// Returns whether a name matches a pattern: `*` matches any letters, `?` matches one. Both texts are scanned from the
+/// left; the match of the last `*` grows if the rest does not fit, so the work is bounded by the product of both
+/// lengths.
 fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) =
         (pattern.chars().collect(), name.chars().collect());

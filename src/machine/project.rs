@@ -11,10 +11,10 @@ use crate::lists::{
 };
 use crate::text::{SourceFile, Span};
 
-/// More files between a project and an item than any project has.
+/// Limit on the files between a project and an item, beyond any project.
 const MAX_DEPTH: usize = 16;
 
-/// More files than any project refers to; further ones are not read.
+/// Limit on the files of a project, beyond any project; further ones are not read.
 const MAX_FILES: usize = 4096;
 
 /// Elements whose files hold no lists of the control; without them nothing is missing.
@@ -26,7 +26,7 @@ struct Files {
     project: Project,
     /// The files from the project to the one that is read.
     path: Vec<Arc<str>>,
-    /// All files that were read.
+    /// Names of the files that were read.
     read: Vec<Arc<str>>,
     missing: usize,
 }

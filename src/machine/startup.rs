@@ -11,7 +11,7 @@ use crate::lists::{
     Entries, Given, ListKind, NamedList, StartupList, is_axis_name,
 };
 
-/// More axes than any control has; further ones are not read.
+/// Limit on the axes, beyond any control; further ones are not read.
 pub(super) const MAX_AXES: usize = 1024;
 
 impl Loader<'_> {

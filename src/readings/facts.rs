@@ -8,11 +8,11 @@ crate::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Way {
-        /// By an NC program that writes the answer to a file on the control.
+        /// An NC program that writes the answer to a file on the control.
         Program = "program",
-        /// By a recording of a motion.
+        /// A recording of a motion.
         Recording = "recording",
-        /// By an operator's written observation.
+        /// A written observation of an operator.
         Note = "note",
     }
 }
@@ -49,7 +49,7 @@ impl QuestionFacts {
     }
 }
 
-/// In the order of [`Question::ALL`](super::Question::ALL).
+/// Facts on the questions, in the order of [`Question::ALL`](super::Question::ALL).
 pub(super) static FACTS: [QuestionFacts; 30] = [
     QuestionFacts {
         rule: "R1.8",

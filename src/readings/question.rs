@@ -12,65 +12,65 @@ use crate::comp::CncBuild;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Question {
-    /// Does a keyword in lower case work?
+    /// Effect of a keyword in lower case.
     LowerCase,
-    /// Does a command act before the motion of its block?
+    /// Order of a command and the motion of its block.
     WithMotion,
-    /// Does a syntax check report the refusal?
+    /// Report of a refusal by a syntax check.
     SyntaxCheck,
-    /// Is switching off an axis that is not configured refused?
+    /// Refusal to switch off an axis that is not configured.
     OffUnconfigured,
-    /// Is switching on without a value list refused?
+    /// Refusal to switch on without a value list.
     OnWithoutList,
-    /// Does a reset keep the state?
+    /// State after a reset.
     Reset,
-    /// Does a restart keep the state?
+    /// State after a restart.
     Restart,
-    /// Which of two opposite commands in a block wins?
+    /// Precedence of two opposite commands in a block.
     OrderInBlock,
-    /// Is a required compensation monitored while homing?
+    /// Monitoring of a required compensation while homing.
     Homing,
-    /// Is a kind with manual activation off at the start of the control?
+    /// State of a kind with manual activation at the start of the control.
     ManualActivation,
-    /// Does a command stop the path?
+    /// Stop of the path by a command.
     LookAhead,
-    /// What does `$CONTINUE` do in a `$SWITCH` outside a loop?
+    /// Effect of `$CONTINUE` in a `$SWITCH` outside a loop.
     ContinueInSwitch,
-    /// Does an axis keep its state through an axis exchange?
+    /// State of an axis after an axis exchange.
     AxisExchange,
-    /// When is a skip level read?
+    /// Moment at which a skip level is read.
     SkipLevel,
-    /// What state does a write to the machine data leave?
+    /// State after a write to the machine data.
     MachineData,
-    /// Does a block search execute commands?
+    /// Execution of commands in a block search.
     BlockSearch,
-    /// Does `#ERROR` without a remedy class end the program?
+    /// End of the program by `#ERROR` without a remedy class.
     RemedyClass,
-    /// Which whole number does a variable of an integer type keep of a fraction?
+    /// Whole number that a variable of an integer type keeps of a fraction.
     WholeNumber,
-    /// Does the control take variables that no `#VAR` declares?
+    /// Acceptance of variables that no `#VAR` declares.
     Undeclared,
-    /// Is a jump into a loop or a `$SWITCH` refused?
+    /// Refusal of a jump into a loop or a `$SWITCH`.
     JumpInto,
-    /// Are two implicit calls in a block refused?
+    /// Refusal of two implicit calls in a block.
     TwoCalls,
-    /// Is COMP within the description of a contour or stroke refused?
+    /// Refusal of COMP within the description of a contour or stroke.
     Described,
-    /// Is the reading of a `V.E.` variable refused where the channel must not be flushed?
+    /// Refusal to read a `V.E.` variable where the channel must not be flushed.
     ReadFlushes,
-    /// Are numbers equal that differ by the rounding of a computation?
+    /// Equality of numbers that differ by the rounding of a computation.
     NearlyEqual,
-    /// Is the program number `O1234` refused?
+    /// Refusal of the program number `O1234`.
     ProgramNumber,
-    /// How does the current decay before a reversal?
+    /// Decay of the current before a reversal.
     Decay,
-    /// After which starts does the current build up?
+    /// Starts after which the current builds up.
     Start,
-    /// What does `delay_cycles` postpone?
+    /// Quantity that `delay_cycles` postpones.
     Delay,
-    /// What is the current at standstill?
+    /// Current at standstill.
     Standstill,
-    /// What is the current below the first point?
+    /// Current below the first point.
     Below,
 }
 
@@ -186,7 +186,7 @@ pub struct Confirmation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Basis<'a> {
-    /// No control was asked.
+    /// Assumption: no control was asked.
     Assumed,
     /// The configuration selects it, without an answer of this build.
     Selected,
@@ -218,7 +218,7 @@ impl Readings {
         selected.or(question.facts().assumed)
     }
 
-    /// Whether the second reading of a question is in force.
+    /// Returns whether the second reading of a question is in force.
     pub fn takes_second(&self, question: Question) -> bool {
         self.of(question) == Some(Alternative::Second)
     }

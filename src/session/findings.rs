@@ -30,7 +30,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// The diagnostics, in the order of their places.
+    /// Returns the diagnostics, in the order of their places.
     pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics.values()
     }
@@ -111,10 +111,10 @@ impl Sink for Findings {
     }
 }
 
-/// The change of a program that silences a message of it: a comment in its block, or above a block
-/// of several lines or one that would have more than 4000 characters. `None` for what cannot be silenced, the numbers of the control, budgets,
-/// messages about such comments, about `%` lines, about files as a whole and about comments that hide what follows them,
-/// and for a message whose lines are not those of the file.
+/// Returns the change of a program that silences a message of it: a comment in its block, or above a block of several
+/// lines or one that would have more than 4000 characters. `None` for what cannot be silenced, the numbers of the
+/// control, budgets, messages about such comments, about `%` lines, about files as a whole and about comments that hide
+/// what follows them, and for a message whose lines are not those of the file.
 pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
     let is_comment = matches!(said.code, Code::Fc414 | Code::Fc490 | Code::Fc491);
     let is_of_file = matches!(said.code, Code::Fc103 | Code::Fc104 | Code::Fc105);
@@ -213,8 +213,8 @@ impl SafeFixes {
         }
     }
 
-    /// The changes of each file. A comment that silences nothing in one run may be needed in
-    /// another one that calls the same program: it goes only if no run needs it.
+    /// Returns the changes of each file. A comment that silences nothing in one run may be needed in another one that
+    /// calls the same program: it goes only if no run needs it.
     pub fn of_files(self) -> impl Iterator<Item = (Arc<str>, Vec<Fix>)> {
         let files = self.files.into_iter().map(|(name, file)| {
             let holds = |(code, runs): (Code, usize)| code != Code::Fc490 || runs == file.runs;
@@ -275,7 +275,7 @@ struct CauseKey {
 impl CauseKey {
     fn of(said: &Diagnostic) -> Self {
         if said.code == Code::Fc408 {
-            // That nothing describes an axis is one cause, whichever block switches it (R18.2).
+            // A missing description of an axis is one cause, whichever block switches it (R18.2).
             return Self {
                 file: Arc::default(),
                 first_line: 0,
@@ -349,7 +349,7 @@ impl Causes {
         at
     }
 
-    /// The messages, in the order in which they were said first.
+    /// Returns the messages, in the order in which they were said first.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.said
     }
@@ -358,14 +358,14 @@ impl Causes {
 /// Different messages of one code at one place; further ones count with the last.
 const MAX_AT_A_PLACE: usize = 16;
 
-/// Whether a message is written.
+/// Decision on a message: written or left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum DedupVerdict {
-    /// It is new.
+    /// Message that is new.
     Say,
-    /// It was reported at this place before.
+    /// Message that was reported at this place before.
     Repeated,
-    /// Its file has reached its limit; the message is only counted.
+    /// Message beyond the limit of its file, which is only counted.
     TooMany,
 }
 
@@ -376,7 +376,7 @@ struct Saying {
     /// A hash of its text.
     hash: u64,
     times: u64,
-    /// Its text, from the second time on.
+    /// Text, from the second time on.
     message: String,
 }
 
@@ -399,7 +399,7 @@ pub(super) struct MessageDedup {
 }
 
 impl MessageDedup {
-    /// No message yet, with a limit of messages for each file.
+    /// Creates an empty filter with a limit of messages for each file.
     pub(super) fn at_most(most: usize) -> Self {
         Self {
             most,
@@ -490,8 +490,8 @@ impl MessageDedup {
         repeated
     }
 
-    /// FC905 for each file with more messages; `unsaid` messages about the program's own file
-    /// were counted before they came here.
+    /// Returns FC905 for each file with more messages; `unsaid` messages about the program's own file were counted
+    /// before they came here.
     pub(super) fn rest(&mut self, unsaid: u64, seq: u64) -> Vec<EndNote> {
         let mut full: Vec<(&Arc<str>, &mut PerFile)> = self
             .files

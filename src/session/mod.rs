@@ -106,7 +106,7 @@ pub enum Program<'a> {
 }
 
 impl Program<'_> {
-    /// The beginning of the text that is available so far.
+    /// Returns the beginning of the text that is available so far.
     fn head(&mut self) -> &str {
         match self {
             Self::Lines(lines) => lines.ahead(),
@@ -159,7 +159,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// A session right after the start of the control.
+    /// Returns a session right after the start of the control.
     pub fn new(machine: Machine, options: SessionOptions) -> Self {
         let machine = Arc::new(machine);
         let compensation = machine.compensation();
@@ -254,7 +254,7 @@ impl Session {
         }
     }
 
-    /// The current state.
+    /// Returns the current state.
     pub fn state(&self) -> StateView<'_> {
         StateView {
             machine: &self.machine,
@@ -265,8 +265,9 @@ impl Session {
         }
     }
 
-    /// The values that the programs needed from the machine, or the words passed over: names with their places,
-    /// sorted, each once, 20 000 of them at most. Empty unless [`Options::notes`](crate::interpreter::Options::notes) asks for them.
+    /// Returns the values that the programs needed from the machine, or the words passed over: names with their places,
+    /// sorted, each once, 20 000 of them at most. Empty unless [`Options::notes`](crate::interpreter::Options::notes)
+    /// asks for them.
     pub fn notes(&self, kind: NoteKind) -> impl Iterator<Item = (&str, &Place)> {
         self.notes
             .notes
@@ -280,7 +281,7 @@ impl Session {
         self.notes.more
     }
 
-    /// The interpreter, for positions and modal state.
+    /// Returns the interpreter, for positions and modal state.
     pub fn interpreter(&self) -> &Interpreter {
         &self.interpreter
     }
@@ -355,19 +356,19 @@ impl Session {
         }
     }
 
-    /// A reset of the channel between two programs (R1.28).
+    /// Resets the channel between two programs (R1.28).
     pub fn reset(&mut self) {
         self.interpreter.reset();
         self.stopped = false;
     }
 
-    /// A restart of the control between two programs (R1.29).
+    /// Restarts the control between two programs (R1.29).
     pub fn restart(&mut self) {
         self.interpreter.here.restart();
         self.stopped = false;
     }
 
-    /// Whether an error stopped the session, so that no further program may run (R9.20).
+    /// Returns whether an error stopped the session, so that no further program may run (R9.20).
     pub fn is_stopped(&self) -> bool {
         self.stopped
     }
@@ -377,8 +378,8 @@ impl Session {
         &self.totals.counts
     }
 
-    /// The configured kinds of each axis that were not known at a program's end or where the axis
-    /// moved (R2.98), and friction compensation that a program switches on an axis that nothing describes (R18.2).
+    /// Returns the configured kinds of each axis that were not known at a program's end or where the axis moved
+    /// (R2.98), and friction compensation that a program switches on an axis that nothing describes (R18.2).
     pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
         let unknown = self.totals.unknown.iter();
         unknown.map(|(axis, kind)| (self.machine.axis(*axis).name.as_str(), *kind))
@@ -421,7 +422,7 @@ impl Session {
     pub fn save(&self) -> SavedState {
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         let mut carried = self.interpreter.carried();
-        // What the user gave is given again; what the programs wrote is not.
+        // Values from the user are given again; values written by programs are not.
         carried.variables.retain(|name, value| {
             let name = VariableName::read(name);
             let given = self.given.get(&name);

@@ -178,8 +178,8 @@ impl Recorder<'_> {
         }))
     }
 
-    /// Whether a block is quiet and moves as earlier ones did: it needs no message, nothing about it has to be remembered,
-    /// and no comment in it can allow anything.
+    /// Returns whether a block is quiet and moves as earlier ones did: it needs no message, nothing about it has to be
+    /// remembered, and no comment in it can allow anything.
     #[inline]
     fn is_quiet(&self, executed: &Executed<'_>) -> bool {
         executed.diagnostics.is_empty()
@@ -190,7 +190,7 @@ impl Recorder<'_> {
             && self.is_known(&executed.moves())
     }
 
-    /// Whether a block moves axes that have moved before in the state that was judged last, and has no comment.
+    /// Returns whether a block moves axes that have moved before in the state that was judged last, and has no comment.
     #[inline]
     fn is_known(&self, block: &BlockMove<'_>) -> bool {
         block.version == self.version
@@ -199,7 +199,7 @@ impl Recorder<'_> {
             && self.linter.knows(block.moves)
     }
 
-    /// The configured kinds of an axis that are unknown.
+    /// Returns the configured kinds of an axis that are unknown.
     fn unknown_of(&self, compensation: &Compensation, axis: AxisIndex) -> KindSet {
         let configured = self.machine.axis(axis).configured;
         compensation.unknown(axis).intersection(configured)
@@ -500,7 +500,7 @@ impl Recorder<'_> {
     }
 }
 
-/// FC490 for comments that silenced nothing.
+/// Returns FC490 for comments that silenced nothing.
 fn unused_allows(allows: &HashMap<(Arc<str>, u32, Code), Allow>) -> Vec<EndNote> {
     let unused = allows.iter().filter(|(_, allow)| !allow.used);
     let mut notes: Vec<EndNote> = unused
@@ -527,7 +527,7 @@ fn unused_allows(allows: &HashMap<(Arc<str>, u32, Code), Allow>) -> Vec<EndNote>
     notes
 }
 
-/// The diagnostic on a comment that silences nothing, with the change that removes it.
+/// Returns the diagnostic on a comment that silences nothing, with the change that removes it.
 fn without_comment(diagnostic: Diagnostic) -> Diagnostic {
     let mut place = diagnostic.place.clone();
     match allow::lone_comment(&place.text) {
@@ -539,7 +539,7 @@ fn without_comment(diagnostic: Diagnostic) -> Diagnostic {
     }
 }
 
-/// Whether a comment allows a diagnostic about the block that starts on a line.
+/// Returns whether a comment allows a diagnostic about the block that starts on a line.
 fn is_allowed(
     allows: &mut HashMap<(Arc<str>, u32, Code), Allow>,
     diagnostic: &Diagnostic,

@@ -17,23 +17,23 @@ use crate::machine::{Axis, AxisSet, Machine};
 /// The number of the format that is written.
 pub const STATE_SCHEMA: u32 = 4;
 
-/// Why a saved state cannot be used.
+/// Reason why a saved state cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum StateError {
-    /// It has another schema.
+    /// State with another schema.
     #[error("the state has schema {found}; this version reads schema 1 to {STATE_SCHEMA}")]
     Schema {
         /// The schema that it has.
         found: u32,
     },
-    /// It belongs to another machine.
+    /// State of another machine.
     #[error("the state belongs to another machine: {difference}")]
     OtherMachine {
         /// The difference.
         difference: String,
     },
-    /// It contradicts itself.
+    /// State that contradicts itself.
     #[error("it is damaged ({reason})")]
     Damaged {
         /// The fault, in words.
@@ -105,7 +105,7 @@ pub struct SavedAxis {
     /// The kinds that are not in its start-up state, with the block that made them so.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub away: Vec<SavedAway>,
-    /// Whether a program named it, where no configuration lists the axes.
+    /// Whether a program named the axis, where no configuration lists the axes.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub occurred: bool,
     /// The programmed position, where it is known.
@@ -123,14 +123,13 @@ pub struct SavedAway {
     /// The block that made it so, where that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by: Option<Maker>,
-    /// Whether the user silenced it (R9.24).
+    /// Whether the user silenced the message on it (R9.24).
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub allowed: bool,
 }
 
 impl SavedState {
-    /// Whether the state is one of a machine: each of its axes once, by name, and nothing that
-    /// contradicts that.
+    /// Checks that the state is one of a machine: each of its axes once, by name, and nothing that contradicts that.
     pub(super) fn check(&self, machine: &Machine) -> Result<(), StateError> {
         if !(1..=STATE_SCHEMA).contains(&self.schema) {
             return Err(StateError::Schema { found: self.schema });
@@ -171,8 +170,8 @@ impl SavedState {
         }
     }
 
-    /// Whether only an assumption about an axis is new: where no machine is described, the user
-    /// enables the axes that the programs of each run need.
+    /// Returns whether only an assumption about an axis is new: where no machine is described, the user enables the
+    /// axes that the programs of each run need.
     pub(super) fn is_assumed_anew(&self, axis: &Axis, machine: &Machine) -> bool {
         machine.axis_set == AxisSet::AsTheyOccur
             && axis.frict_comp_origin == Origin::Assumed

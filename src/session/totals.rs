@@ -31,7 +31,7 @@ pub(super) struct SessionTotals {
     pub(super) unknown: BTreeSet<(AxisIndex, Kind)>,
     /// Whether the machine has axes that nothing describes.
     pub(super) has_undescribed: bool,
-    /// Those of them that programs move or switch, with the program and place of the first message about it (R18.2).
+    /// Undescribed axes that programs move or switch, with the program and place of the first message on each (R18.2).
     pub(super) undescribed: BTreeMap<AxisIndex, Option<(u32, Place)>>,
 }
 
@@ -120,8 +120,8 @@ impl SessionTotals {
         }
     }
 
-    /// Whether a message only repeats that nothing describes an axis, which is said once in a session; an error of the
-    /// control says it, too, but is never left out.
+    /// Returns whether a message only repeats that nothing describes an axis, which is said once in a session; an error
+    /// of the control says it, too, but is never left out.
     pub(super) fn knows_undescribed(
         &mut self,
         machine: &Machine,
@@ -160,7 +160,7 @@ pub(super) struct FeedMoveCounter {
 }
 
 impl FeedMoveCounter {
-    /// No move yet, of a number of axes.
+    /// Creates a counter without moves for a number of axes.
     pub(super) fn new(axes: usize) -> Self {
         Self {
             counts: vec![FeedMoves::default(); axes],
@@ -170,12 +170,12 @@ impl FeedMoveCounter {
         }
     }
 
-    /// The moves of an axis.
+    /// Returns the moves of an axis.
     pub(super) fn of(&self, axis: AxisIndex) -> FeedMoves {
         self.counts[axis.get()]
     }
 
-    /// The axes that the last block moved at feed without friction compensation.
+    /// Returns the axes that the last block moved at feed without friction compensation.
     pub(super) fn moved(&self) -> &[AxisIndex] {
         &self.moved
     }
@@ -194,7 +194,8 @@ impl FeedMoveCounter {
         }
     }
 
-    /// The commands of a block act before its motion (R1.9), so its own motion counts, too.
+    /// Watches the motion of a block after its commands, which act before it (R1.9), so that its own motion counts,
+    /// too.
     #[inline(never)]
     fn watch(&mut self, compensation: &Compensation) {
         let before = std::mem::take(&mut self.watched);
@@ -243,8 +244,8 @@ impl FeedMoveCounter {
     }
 }
 
-/// The travel of an axis along the arc or helix of a block, forth and back (R11.31); its length does not
-/// depend on where the origin is.
+/// Returns the travel of an axis along the arc or helix of a block, forth and back (R11.31); its length does not depend
+/// on where the origin is.
 fn travel_on_arc(moves: &BlockMotion, axis: AxisIndex) -> Option<f64> {
     let way = moves.arcs()[0]?;
     let PathForm::Arc(arc) = &way.form else {

@@ -26,7 +26,7 @@ pub(crate) struct Allowance {
 pub(crate) struct AllowFault {
     /// The word, or the mark where a word is missing.
     pub(crate) span: Span,
-    /// One sentence.
+    /// The message in one sentence.
     pub(crate) message: String,
     /// Advice on it.
     pub(crate) help: Help,
@@ -35,7 +35,7 @@ pub(crate) struct AllowFault {
 /// Advice on the replacement of a word that is not understood.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Help {
-    /// This word.
+    /// Words of similar spelling.
     Near(Vec<&'static str>),
     /// The whole comment, in this form.
     How(&'static str),
@@ -101,7 +101,7 @@ pub(crate) fn allowed(text: &str) -> Allowance {
     allowance
 }
 
-/// The text from a place to the end of its comment.
+/// Returns the text from a place to the end of its comment.
 fn reason(text: &str, start: usize) -> &str {
     let rest = &text[start..];
     let opened = text[..start].rfind([';', '(']);
@@ -110,7 +110,7 @@ fn reason(text: &str, start: usize) -> &str {
     rest.split(ends).next().unwrap_or(rest).trim_end()
 }
 
-/// The comment of a text that is addressed to this tool, with the blanks before it, where it allows a single
+/// Returns the comment of a text that is addressed to this tool, with the blanks before it, where it allows a single
 /// code and nothing else of the text would go with it.
 pub(crate) fn lone_comment(text: &str) -> Option<Span> {
     let mark = text.find(MARK)?;
@@ -140,7 +140,7 @@ pub(crate) fn insertion(line: &str, code: Code) -> (usize, String) {
     }
 }
 
-/// The comment line above a block that allows a code.
+/// Returns the comment line above a block that allows a code.
 pub(crate) fn line_above(code: Code) -> String {
     format!("; {MARK} {ALLOW} {code}\n")
 }
@@ -158,7 +158,7 @@ pub(crate) fn lost(text: &str) -> Option<Fault> {
     Some(fault.with_help("write it in the block, or on the line directly above it"))
 }
 
-/// The words after a place, with their places.
+/// Returns the words after a place, with their places.
 fn words(text: &str, from: usize) -> impl Iterator<Item = AllowWord<'_>> {
     let separates = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ')');
     let mut rest = from;
@@ -172,7 +172,8 @@ fn words(text: &str, from: usize) -> impl Iterator<Item = AllowWord<'_>> {
     })
 }
 
-/// `FC499`, `fc4O1`, `P-ERR-1`: letters of a code and a digit after them.
+/// Returns whether a word resembles a code: letters of a code and a digit after them, as in `FC499`, `fc4O1`,
+/// `P-ERR-1`.
 fn looks_like_code(word: &str) -> bool {
     let upper = word.to_ascii_uppercase();
     let number = upper

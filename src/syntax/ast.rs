@@ -27,7 +27,7 @@ pub struct Block {
     pub words: Vec<Word>,
     /// Items after them, from left to right.
     pub items: Vec<Item>,
-    /// Whether a `$GOTO` is among them; an `$IF` in its block opens no control block.
+    /// Whether a `$GOTO` is among the items; an `$IF` in its block opens no control block.
     pub jumps: bool,
     /// The values after the numbers of words, `G163=50`, each with its word.
     pub second_values: Vec<(Span, Operand)>,
@@ -50,7 +50,7 @@ impl Block {
         }
     }
 
-    /// All its words, from left to right.
+    /// Returns all its words, from left to right.
     pub fn all_words(&self) -> impl Iterator<Item = &Word> {
         let later = self.items.iter().filter_map(|item| match item {
             Item::Word(word) => Some(word),
@@ -59,7 +59,7 @@ impl Block {
         self.words.iter().chain(later)
     }
 
-    /// The value after the number of a word, `G163=50`.
+    /// Returns the value after the number of a word, `G163=50`.
     pub(crate) fn second_value(&self, word: Span) -> Option<Operand> {
         let mut values = self.second_values.iter();
         values.find(|(of, _)| *of == word).map(|(_, value)| *value)
@@ -85,9 +85,9 @@ impl Block {
 pub struct BlockNumber {
     /// The number, often an expression.
     pub value: Operand,
-    /// Whether a colon makes it a jump label.
+    /// Whether a colon makes the number a jump label.
     pub label: bool,
-    /// From the N to the number's or the colon's end.
+    /// Span from the N to the end of the number or the colon.
     pub span: Span,
 }
 
@@ -133,7 +133,7 @@ pub enum Item {
         keyword: Span,
         /// The command that it opens.
         command: AxisCommand,
-        /// All words and values in the bracket.
+        /// Words and values in the bracket.
         arguments: BracketArguments,
         /// The words of a spindle that are followed.
         spindle: Vec<SpindleWord>,
@@ -176,7 +176,7 @@ pub enum SpindleWord {
 }
 
 impl Item {
-    /// The source of the item.
+    /// Returns the source of the item.
     pub fn span(&self) -> Span {
         match self {
             Self::Word(word) => word.span,
@@ -202,11 +202,11 @@ impl Item {
 /// Possible effect of text of unknown meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
-    /// Anything that a program could do: it may be a call.
+    /// Any effect that a program can have: the text may be a call.
     Everything,
     /// Some parameter: it assigns to an unknown place.
     Parameters,
-    /// Nothing that is followed here: it is a word of a spindle.
+    /// No effect that is followed here: a word of a spindle.
     Spindle,
 }
 
@@ -224,9 +224,9 @@ pub struct Assignment {
 /// A `#` command.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hash {
-    /// Its row in the table of the language, and its further words.
+    /// Row in the table of the language, and its further words.
     pub(crate) command: HashWords,
-    /// Its words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
+    /// Words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
     pub name: String,
     /// Text after the words.
     pub rest: Span,
@@ -238,26 +238,26 @@ pub struct Hash {
     pub declarations: Vec<Declaration>,
     /// The places that the command writes with values that only the machine knows.
     pub written: Vec<Target>,
-    /// What may share its block.
+    /// Content that may share its block.
     pub sharing: BlockSharing,
     /// Span of its whole text.
     pub span: Span,
 }
 
 impl Hash {
-    /// The open question on which its effect rests.
+    /// Returns the open question on which its effect rests.
     pub fn basis(&self) -> Option<Question> {
         self.command.basis
     }
 
-    /// Whether it names all variables that the program shares with the PLC, `V.E.` (PM/207988747).
+    /// Returns whether it names all variables that the program shares with the PLC, `V.E.` (PM/207988747).
     pub(crate) fn names_all_externals(&self, text: &str) -> bool {
         let code = self.code(text);
         code.split(',')
             .any(|name| name.trim().eq_ignore_ascii_case("V.E."))
     }
 
-    /// The text after its words as the parser sees it, without comments.
+    /// Returns the text after its words as the parser sees it, without comments.
     pub(crate) fn code<'a>(&self, text: &'a str) -> Cow<'a, str> {
         code_of_part(self.rest.of(text))
     }
@@ -296,12 +296,12 @@ pub struct Argument {
 }
 
 impl Argument {
-    /// The logical number of an axis, where it is one.
+    /// Returns the logical number of an axis, where it is one.
     pub(crate) fn logical_number(&self, text: &str) -> Option<u32> {
         self.span.of(text).parse().ok()
     }
 
-    /// The text of a value in quotes, without them.
+    /// Returns the text of a value in quotes, without them.
     pub(crate) fn quoted<'a>(&self, text: &'a str) -> Option<&'a str> {
         self.span.of(text).strip_prefix('"')?.strip_suffix('"')
     }
@@ -325,7 +325,7 @@ impl BracketArguments {
         self.0.chunk_by(|one, other| one.group == other.group)
     }
 
-    /// Whether a word is among them, in upper or lower case.
+    /// Returns whether a word is among them, in upper or lower case.
     pub(crate) fn has(&self, word: &str, text: &str) -> bool {
         let words = |it: &Argument| it.key.into_iter().chain([it.span]);
         let mut words = self.0.iter().flat_map(words);
@@ -367,7 +367,7 @@ impl BracketArguments {
         })
     }
 
-    /// Whether a word or value contains some letters, in upper or lower case.
+    /// Returns whether a word or value contains some letters, in upper or lower case.
     pub(crate) fn mention(&self, letters: &str, text: &str) -> bool {
         let mut words = self.words(text).map(str::to_ascii_lowercase);
         words.any(|word| word.contains(letters))
@@ -396,13 +396,13 @@ pub struct Call {
     pub scope: CallScope,
     /// Name of the program.
     pub name: CallName,
-    /// Whether it is a cycle.
+    /// Form of the call: that of a cycle or of a program.
     pub form: CallForm,
     /// Own parameters of the call, `@P1` …: number and value.
     pub arguments: Vec<(u32, Operand)>,
     /// Words of the call, `@X`, `@S` …: the letter in upper case and its value.
     pub words: Vec<(u8, Operand)>,
-    /// Whether it is repeated.
+    /// Repetition of the call.
     pub repetition: Repetition,
     /// Span of its whole text.
     pub span: Span,
@@ -413,7 +413,7 @@ pub struct Call {
 pub enum CallName {
     /// Written as is.
     Literal(Span),
-    /// In quotes, a macro's name or the program's; the span holds the quotes.
+    /// Name in quotes, a macro's or the program's; the span holds the quotes.
     Quoted(Span),
     /// A variable that holds the name.
     Variable(Expression),
@@ -428,7 +428,7 @@ pub enum CallScope {
     Global,
 }
 
-/// Whether a call is one of a cycle.
+/// Form of a call: that of a cycle or of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum CallForm {
     /// `L file.nc`, `LL NAME`.
@@ -441,7 +441,7 @@ pub enum CallForm {
 /// Form of the repetition of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Repetition {
-    /// Not at all.
+    /// No repetition.
     #[default]
     Once,
     /// `MODAL_MOVE`: after each block with motion.
@@ -483,7 +483,7 @@ pub struct SequenceCall {
 pub struct Return {
     /// Over how many programs.
     pub levels: ReturnLevels,
-    /// To which block, where that is not the next one.
+    /// Block to return to, where that is not the next one.
     pub target: Option<BlockReference>,
     /// Span of its whole text.
     pub span: Span,
@@ -492,11 +492,11 @@ pub struct Return {
 /// Number of levels that a subprogram returns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ReturnLevels {
-    /// To its caller.
+    /// Return to the caller.
     One,
-    /// To the main program.
+    /// Return to the main program.
     Main,
-    /// From so many programs.
+    /// Return from the given number of programs.
     Number(Operand),
 }
 
@@ -523,7 +523,7 @@ pub enum Flow {
     For {
         /// The counter.
         counter: Target,
-        /// Its first value.
+        /// First value.
         start: Operand,
         /// The value that ends the loop when it is passed.
         end: Operand,
@@ -568,7 +568,7 @@ pub enum BlockReference {
 pub enum Operand {
     /// A number, sign included.
     Number(f64),
-    /// Something to compute.
+    /// Expression to compute.
     Expression(Expression),
 }
 
@@ -577,7 +577,7 @@ pub enum Operand {
 pub struct Expression {
     /// The first node.
     pub start: u32,
-    /// One past the last node.
+    /// End of the range, one past the last node.
     pub end: u32,
 }
 
@@ -601,7 +601,7 @@ pub enum Node {
     Parameter {
         /// Owner of the parameter.
         owner: Owner,
-        /// Its number.
+        /// Number.
         index: u32,
     },
     /// `PP10`, `P100[3]`: the number and the subscripts are popped.
@@ -619,7 +619,7 @@ pub enum Node {
     /// A value, or a place to write, whose text is not known; the message about it is a fault of the
     /// block.
     Unread,
-    /// The sign is turned.
+    /// Change of sign.
     Negate,
     /// Two values become one.
     Binary(BinaryOperator),
@@ -737,13 +737,13 @@ pub enum Function {
     Inv,
     /// Logical inversion.
     Not,
-    /// Whether a parameter or variable exists.
+    /// `EXIST`: a parameter or variable exists.
     Exist,
     /// The number of elements of an array.
     Sizeof,
-    /// Whether a value is a text.
+    /// `IS_STRING`: a value is a text.
     IsString,
-    /// Whether a value is a number.
+    /// `IS_NUMBER`: a value is a number.
     IsNumber,
     /// The first characters of a text.
     Left,

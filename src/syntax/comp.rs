@@ -25,7 +25,7 @@ const KEYWORDS: [&str; 11] = [
 pub(super) struct CompWords<'a> {
     pub(super) text: &'a str,
     pub(super) axis: Span,
-    /// From the axis name to the closing bracket.
+    /// Span from the axis name to the closing bracket.
     pub(super) whole: Span,
     /// `COMP` and everything after it.
     pub(super) words: &'a [Span],
@@ -109,7 +109,7 @@ impl CompWords<'_> {
         })
     }
 
-    /// One remark per bracket, at its first word that is not in upper case (R1.8).
+    /// Remarks once per bracket on its first word that is not in upper case (R1.8).
     fn lint_case(&self, faults: &mut Vec<Fault>) {
         let known = |word: &str| {
             word.eq_ignore_ascii_case("COMP")
@@ -222,7 +222,7 @@ fn unknown_word(span: Span, word: &str) -> Fault {
     fault.with_near(span, &near)
 }
 
-/// `ON_ALL`: only `OFF_ALL` is about every kind (R1.3, R18.7).
+/// Returns `ON_ALL`: only `OFF_ALL` is about every kind (R1.3, R18.7).
 fn every_kind(span: Span, word: &str) -> Fault {
     let kinds = Kind::ALL.map(Kind::as_str).join(", ");
     let message = format!("`{word}` does not exist: `ON` takes each kind by its name");
@@ -231,8 +231,8 @@ fn every_kind(span: Span, word: &str) -> Fault {
     ))
 }
 
-/// The keywords that a word may mean. Of the selections only one whose own letter the word has, `F`
-/// or `N`: no slip of the pen turns a selection into its opposite (R1.60).
+/// Returns the keywords that a word may mean. Of the selections only one whose own letter the word has, `F` or `N`: no
+/// slip of the pen turns a selection into its opposite (R1.60).
 fn meant(word: &str) -> Vec<&'static str> {
     let near = nearest(word, KEYWORDS);
     let is_off = |word: &&str| word.starts_with("OFF");

@@ -1,5 +1,5 @@
-//! What a file holds: an NC program (R18.5), none, known by how it begins (R18.6), or one of another control, known by its words
-//! (R2.97).
+//! Content of a file: an NC program (R18.5), none, known by how it begins (R18.6), or one of another control, known by
+//! its words (R2.97).
 //!
 //! Only what no block can begin with counts as no program: text that is merely not understood is reported block by block. Plain
 //! DIN 66025 is the same on every control and shows nothing.
@@ -57,7 +57,7 @@ pub fn no_program(text: &str) -> Option<&'static str> {
     }
 }
 
-/// `<?xml`, `<!--`, `<svg`: no block begins with `<`.
+/// Returns `<?xml`, `<!--`, `<svg`: no block begins with `<`.
 fn markup(text: &str) -> Option<&'static str> {
     let begins = |begin: &str| {
         let head = text.get(..begin.len());
@@ -73,7 +73,8 @@ fn markup(text: &str) -> Option<&'static str> {
     }
 }
 
-/// `{"`, `{}`, `[{`, `["`, `[[1`: a block may begin with `[LABEL]`, settings with `[[table]]`.
+/// Returns whether a text begins like JSON: `{"`, `{}`, `[{`, `["`, `[[1`; a block may begin with `[LABEL]`, settings
+/// with `[[table]]`.
 fn is_json(text: &str) -> bool {
     let mut letters = text.chars().filter(|it| !it.is_whitespace());
     match (letters.next(), letters.next(), letters.next()) {
@@ -83,8 +84,8 @@ fn is_json(text: &str) -> bool {
     }
 }
 
-/// Whether there are control characters of several kinds that no text has. Tapes and serial lines leave NUL, DEL,
-/// STX, ETX, EOT, SUB and DC1 to DC4.
+/// Returns whether there are control characters of several kinds that no text has. Tapes and serial lines leave NUL,
+/// DEL, STX, ETX, EOT, SUB and DC1 to DC4.
 fn is_binary(head: &str) -> bool {
     let (mut count, mut kinds) = (0, 0_u32);
     let odd = head.bytes().filter(|byte| {
@@ -122,19 +123,20 @@ fn settings(head: &str) -> Option<&'static str> {
     Some(if is_all_toml { "TOML" } else { "an INI file" })
 }
 
-/// How surely a value is one of TOML.
+/// Certainty with which a value is one of TOML.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Told {
     Surely,
     Perhaps,
 }
 
-/// Whether a `#` begins a comment of TOML, not a command.
+/// Returns whether a `#` begins a comment of TOML, not a command.
 fn is_remark(after: &str) -> bool {
     after.is_empty() || after.starts_with([' ', '\t', '#', '-', '='])
 }
 
-/// `[machine]`, `[[axis]]`: with a letter in lower case, which jump labels rarely have.
+/// Returns whether a line is the head of a TOML table: `[machine]`, `[[axis]]`, with a letter in lower case, which jump
+/// labels rarely have.
 fn is_table(line: &str) -> bool {
     let line = line
         .split_once('#')
@@ -153,7 +155,7 @@ fn is_table(line: &str) -> bool {
     })
 }
 
-/// The value of `key = value`, whose key no axis, parameter or variable of a program has.
+/// Returns the value of `key = value`, whose key no axis, parameter or variable of a program has.
 fn value(line: &str) -> Option<&str> {
     let (key, value) = line.split_once('=')?;
     let (key, value) = (key.trim(), value.trim());
@@ -189,8 +191,8 @@ const MAX_BLOCKS: usize = 400;
 /// Number of blocks after which a text that hardly has any is given up.
 const FIRST_BLOCKS: usize = 24;
 
-/// Whether more than two thirds of the lines at the head of a text are blocks, and one of them is of a kind that only NC programs have: R2.97
-/// turned round.
+/// Returns whether more than two thirds of the lines at the head of a text are blocks, and one of them is of a kind
+/// that only NC programs have: R2.97 turned round.
 pub fn reads_as_program(text: &str) -> bool {
     if no_program(text).is_some() {
         return false;
@@ -217,7 +219,7 @@ pub fn reads_as_program(text: &str) -> bool {
     is_told && good * 3 > all * 2
 }
 
-/// Whether other texts hardly have such a block: a block number, a G or M function, a command, a statement.
+/// Returns whether other texts hardly have such a block: a block number, a G or M function, a command, a statement.
 fn tells(block: &Block) -> bool {
     let is_function = |address: &Address| matches!(address, Address::Letter(b'G' | b'M'));
     block.number.is_some()
@@ -385,11 +387,11 @@ pub(crate) fn foreign(text: &str) -> Option<Foreign> {
 enum DialectEvidence {
     Isg,
     Of(Dialect, String),
-    /// It is valid on every control, or its control is not known.
+    /// Block valid on every control, or of an unknown control.
     Any,
 }
 
-/// A line without comments and strings in upper case; the name of a program stays.
+/// Returns a line without comments and strings in upper case; the name of a program stays.
 fn code_of(line: &str) -> String {
     if line.trim_start().starts_with('%') {
         return line.to_ascii_uppercase();
@@ -435,7 +437,7 @@ fn meaning(code: &str) -> DialectEvidence {
     }
 }
 
-/// The length of the word that a text begins with; a block number before a word does not belong to it.
+/// Returns the length of the word that a text begins with; a block number before a word does not belong to it.
 fn word_length(text: &str) -> usize {
     let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     if !begins {

@@ -25,11 +25,11 @@ pub enum ControlBlock {
 /// Part of a statement in its control block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// It opens the block.
+    /// Start of the block.
     Opener,
-    /// It begins another branch of the block.
+    /// Start of another branch of the block.
     Branch,
-    /// It closes the block.
+    /// End of the block.
     Closer,
 }
 
@@ -65,7 +65,7 @@ impl ControlBlock {
     }
 }
 
-/// The control block that an item of a block belongs to, and its part in it. `$IF c $GOTO N10` opens none.
+/// Returns the control block that an item of a block belongs to, and its part in it. `$IF c $GOTO N10` opens none.
 pub fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> {
     use ControlBlock::{Do, For, If, RealTime, Repeat, Switch, While};
     use Part::{Branch, Closer, Opener};

@@ -65,7 +65,7 @@ pub(super) fn lower_text(text: &str, block: &mut Block) -> Option<Operand> {
     Some(lower(pair, 0, block))
 }
 
-/// An operand whose text could not be read; the caller says what is wrong with it.
+/// Returns an operand whose text could not be read; the caller says what is wrong with it.
 pub(super) fn unread(span: Span, block: &mut Block) -> Expression {
     let from = block.nodes.len();
     ExpressionLowering { base: 0, block }.push(Node::Unread, span);
@@ -134,7 +134,7 @@ fn range(from: usize, block: &Block) -> Expression {
     }
 }
 
-/// A plain number stays out of the nodes.
+/// Returns a plain number, which stays out of the nodes.
 fn operand(from: usize, block: &mut Block) -> Operand {
     match block.nodes[from..] {
         // A text that is not a number, or too large for one, is reported when it is evaluated.
@@ -178,7 +178,7 @@ impl ExpressionLowering<'_> {
         self.block.spans.push(span);
     }
 
-    /// Precedence over the flat list: operators wait until one that binds less tightly follows,
+    /// Adds an expression by precedence over the flat list: operators wait until one that binds less tightly follows,
     /// so nothing recurses but brackets.
     fn expression(&mut self, pair: Pair<'_, Rule>) {
         let mut stacks = Stacks::default();
@@ -265,7 +265,7 @@ impl ExpressionLowering<'_> {
         }
     }
 
-    /// Text that has the form of a value, but no known meaning.
+    /// Records text that has the form of a value, but no known meaning.
     fn unread(&mut self, text: &str, span: Span) {
         self.block
             .faults
@@ -317,7 +317,7 @@ impl ExpressionLowering<'_> {
         self.push(node, span);
     }
 
-    /// `PP10` reads P10 to know which parameter is meant.
+    /// Reads the parameter that gives the number of another one: `PP10` reads P10.
     fn inner_parameter(&mut self, pair: Pair<'_, Rule>) {
         let span = self.span(&pair);
         let owner = Owner::Program;
@@ -368,7 +368,7 @@ fn number(text: &str) -> f64 {
     text.parse().unwrap_or(f64::NAN)
 }
 
-/// `'16#FA1B'`, `'0x0ED2'`, `'H1869f'`, `'2#1011'`, `'B1011'`; anything else is not a number.
+/// Returns `'16#FA1B'`, `'0x0ED2'`, `'H1869f'`, `'2#1011'`, `'B1011'`; anything else is not a number.
 fn quoted(text: &str) -> f64 {
     let inner = text.trim_matches('\'');
     let (radix, digits) = if let Some((radix, digits)) = inner.split_once('#') {

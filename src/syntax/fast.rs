@@ -23,7 +23,7 @@ const ONES: u64 = 0x0101_0101_0101_0101;
 /// A line that is plain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plain {
-    /// Its bytes without the line end.
+    /// Bytes without the line end.
     pub(super) length: usize,
     pub(super) comments: Comments,
 }
@@ -108,8 +108,8 @@ fn words_in_a_row(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize
     }
 }
 
-/// The places of letters among the next 40 bytes, a bit each, the first one lowest: of the bytes of
-/// words only letters have their seventh bit set. None near the end of the text.
+/// Returns the places of letters among the next 40 bytes, a bit each, the first one lowest: of the bytes of words only
+/// letters have their seventh bit set. None near the end of the text.
 #[inline]
 fn letters(bytes: &[u8]) -> u64 {
     let Some(window) = bytes.first_chunk::<40>() else {
@@ -120,7 +120,7 @@ fn letters(bytes: &[u8]) -> u64 {
     bits.rev().fold(0, |letters, bits| letters << 8 | bits)
 }
 
-/// The seventh bit of each of eight bytes, the first one lowest.
+/// Returns the seventh bit of each of eight bytes, the first one lowest.
 #[inline]
 fn seventh_bits(eight: [u8; 8]) -> u64 {
     let bits = (u64::from_le_bytes(eight) >> 6) & ONES;
@@ -128,7 +128,7 @@ fn seventh_bits(eight: [u8; 8]) -> u64 {
     bits.wrapping_mul(0x0102_0408_1020_4080) >> 56
 }
 
-/// A span in a line, which has at most [`MAX_LINE`] bytes.
+/// Returns a span in a line, which has at most [`MAX_LINE`] bytes.
 #[inline]
 #[allow(clippy::cast_possible_truncation)]
 fn span(start: usize, end: usize) -> Span {
@@ -161,8 +161,8 @@ fn is_line_end(byte: u8) -> bool {
     byte == b'\n' || byte == b'\r'
 }
 
-/// Whether a letter begins a word that is plain: calls, parameters and block numbers do not, nor does E, which may look
-/// like an exponent.
+/// Returns whether a letter begins a word that is plain: calls, parameters and block numbers do not, nor does E, which
+/// may look like an exponent.
 #[inline]
 fn is_address(byte: u8) -> bool {
     ADDRESSES[usize::from(byte)]
@@ -183,8 +183,8 @@ fn is_blank(byte: u8) -> bool {
     byte == b' ' || byte == b'\t'
 }
 
-/// A number with an optional sign: its value and where it ends. At most 15 digits, which an `f64`
-/// holds exactly, so that the quotient is the nearest `f64` as in the grammar's path.
+/// Returns a number with an optional sign: its value and where it ends. At most 15 digits, which an `f64` holds
+/// exactly, so that the quotient is the nearest `f64` as in the grammar's path.
 #[inline]
 fn number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     let sign = *bytes.get(start)?;
@@ -196,7 +196,7 @@ fn number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     Some((value, first + digits.length))
 }
 
-/// The digits that begin at a place: at once where they are few, as most are.
+/// Returns the digits that begin at a place: at once where they are few, as most are.
 #[expect(
     clippy::inline_always,
     reason = "half the time of a plain block goes by in here"
@@ -209,8 +209,8 @@ fn digits(bytes: &[u8], start: usize) -> Option<Digits> {
     }
 }
 
-/// A whole number below 2^52, exactly. A conversion by `as` waits on some processors for the division
-/// of the number before.
+/// Returns a whole number below 2^52, exactly. A conversion by `as` waits on some processors for the division of the
+/// number before.
 #[inline]
 fn whole(number: u64) -> f64 {
     const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
@@ -220,7 +220,7 @@ fn whole(number: u64) -> f64 {
 /// The digits of a number, without its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Digits {
-    /// All of them as one whole number, below 10^15.
+    /// The digits as one whole number, below 10^15.
     mantissa: u64,
     /// Number of digits after the point.
     decimals: usize,
@@ -228,7 +228,7 @@ struct Digits {
     length: usize,
 }
 
-/// The eight bytes that begin at a place, the first one lowest; zeros after the end of the text.
+/// Returns the eight bytes that begin at a place, the first one lowest; zeros after the end of the text.
 #[inline]
 fn eight_bytes(bytes: &[u8], start: usize) -> Option<u64> {
     let rest = bytes.get(start..)?;
@@ -251,8 +251,8 @@ fn last_bytes(bytes: &[u8], rest: &[u8]) -> Option<u64> {
     Some(u64::from_le_bytes(eight))
 }
 
-/// The digits that eight bytes begin with, when another byte shows where they end. All bytes are
-/// taken at once: a branch for each digit is guessed wrong too often.
+/// Returns the digits that eight bytes begin with, when another byte shows where they end. All bytes are taken at once:
+/// a branch for each digit is guessed wrong too often.
 #[inline]
 fn short_digits(eight: u64) -> Option<Digits> {
     // Digits become 0 to 9, everything else something above.
@@ -286,7 +286,7 @@ fn short_digits(eight: u64) -> Option<Digits> {
     })
 }
 
-/// The number that eight digits make, the first one in the lowest byte.
+/// Returns the number that eight digits make, the first one in the lowest byte.
 #[inline]
 fn eight_digits(digits: u64) -> u64 {
     let pairs = (digits * 10 + (digits >> 8)) & 0x00ff_00ff_00ff_00ff;
@@ -294,7 +294,7 @@ fn eight_digits(digits: u64) -> u64 {
     (fours * 10_000 + (fours >> 32)) & 0xffff_ffff
 }
 
-/// The digits that bytes begin with, one after another; `None` where there are none or too many.
+/// Returns the digits that bytes begin with, one after another; `None` where there are none or too many.
 #[inline(never)]
 fn long_digits(bytes: &[u8]) -> Option<Digits> {
     let mut mantissa = 0_u64;

@@ -23,7 +23,7 @@ pub fn bound_reading() {
     pest::set_call_limit(Some(MAX_STEPS));
 }
 
-/// Whether the parser gave up, rather than finding no rule that fits.
+/// Returns whether the parser gave up, rather than finding no rule that fits.
 pub(super) fn gave_up(error: &Error<Rule>) -> bool {
     matches!(error.variant, ErrorVariant::CustomError { .. })
 }

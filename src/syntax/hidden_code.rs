@@ -11,19 +11,19 @@ use crate::text::{Span, changed_direction};
 /// The keyword whose commands are looked for.
 const COMP: &str = "COMP";
 
-/// The faults of lines, whatever is on them: FC102 for characters that change the order in which a line is shown
-/// (R9.94), FC414 for a comment that is not closed and takes in a COMP command (R18.7).
+/// Returns the faults of lines, whatever is on them: FC102 for characters that change the order in which a line is
+/// shown (R9.94), FC414 for a comment that is not closed and takes in a COMP command (R18.7).
 pub(super) fn faults_of_lines(text: &str) -> impl Iterator<Item = Fault> {
     reordered(text).into_iter().chain(open_comment(text))
 }
 
-/// FC102: characters that change the order in which a line is shown (R9.94).
+/// Returns FC102: characters that change the order in which a line is shown (R9.94).
 pub(super) fn reordered(text: &str) -> Option<Fault> {
     let (span, message) = changed_direction(text)?;
     Some(Fault::new(Code::Fc102, span, message).with_help("delete these characters"))
 }
 
-/// FC414: an unclosed `(` makes a comment of the rest of its line (R2.6).
+/// Returns FC414: an unclosed `(` makes a comment of the rest of its line (R2.6).
 fn open_comment(text: &str) -> Option<Fault> {
     if !text.contains('(') || comps(text).next().is_none() {
         return None;
@@ -46,7 +46,7 @@ fn open_comment(text: &str) -> Option<Fault> {
     None
 }
 
-/// FC414: a `#COMMENT BEGIN` without an end makes a comment of the rest of the file (R2.6).
+/// Returns FC414: a `#COMMENT BEGIN` without an end makes a comment of the rest of the file (R2.6).
 pub(super) fn open_region(opener: &str) -> Fault {
     let start = opener.len() - opener.trim_start_matches(is_blank).len();
     let message = "`#COMMENT BEGIN` has no `#COMMENT END`: everything from here to the end of the file is a comment \
@@ -55,7 +55,7 @@ pub(super) fn open_region(opener: &str) -> Fault {
         .with_help("write `#COMMENT END` in a separate block")
 }
 
-/// FC414: a COMP command after the name in a `%` line, of which the control reads nothing more (R2.10).
+/// Returns FC414: a COMP command after the name in a `%` line, of which the control reads nothing more (R2.10).
 pub(super) fn command_after_name(code: &str) -> Option<Fault> {
     let at = comps(code).next().filter(|_| holds_command(code))?;
     let message = "after the name of a program the control reads nothing in its line: this COMP command switches nothing";
@@ -63,7 +63,7 @@ pub(super) fn command_after_name(code: &str) -> Option<Fault> {
     Some(fault.with_help("write the command in a separate block"))
 }
 
-/// FC414 or FC211 for each axis word of a block that has no value (R18.7).
+/// Reports FC414 or FC211 for each axis word of a block that has no value (R18.7).
 pub(super) fn words_without_value(text: &str, block: &mut Block) {
     if !block.all_words().any(|word| word.value.is_none()) {
         return;
@@ -81,16 +81,16 @@ pub(super) fn words_without_value(text: &str, block: &mut Block) {
     block.faults.append(&mut faults);
 }
 
-/// Whether a word is a G function with which axes may be named without a value: homing, measuring, manual mode,
-/// weights, mirroring (PM/206138635, 206177803, 206633483, 206266379). With those of the groups, with G04 and G92
-/// an axis word is a number.
+/// Returns whether a word is a G function with which axes may be named without a value: homing, measuring, manual mode,
+/// weights, mirroring (PM/206138635, 206177803, 206633483, 206266379). With those of the groups, with G04 and G92 an
+/// axis word is a number.
 fn takes_names(word: &Word) -> bool {
     let is_g = word.address == Address::Letter(b'G');
     let takes_numbers = |number| GFunction::of_value(number).is_some_and(GFunction::takes_numbers);
     is_g && !matches!(word.value, Some(Operand::Number(number)) if takes_numbers(number))
 }
 
-/// FC211: the control has no documented meaning for the word.
+/// Returns FC211: the control has no documented meaning for the word.
 fn without_value(text: &str, word: &Word) -> Fault {
     let name = word.span.of(text).trim();
     let message = format!("`{name}` has no value; what the control does with it is not documented");
@@ -99,7 +99,7 @@ fn without_value(text: &str, word: &Word) -> Fault {
     ))
 }
 
-/// FC414: `X(COMP OFF FRICT)`, where a comment stands in place of a bracket.
+/// Returns FC414: `X(COMP OFF FRICT)`, where a comment stands in place of a bracket.
 fn command_in_comment(text: &str, word: &Word) -> Option<Fault> {
     let after = &text[word.span.end as usize..];
     let comment = after.trim_start_matches([' ', '\t']);
@@ -134,7 +134,7 @@ fn command_in_comment(text: &str, word: &Word) -> Option<Fault> {
     )
 }
 
-/// The places of the word `COMP`, in any case.
+/// Returns the places of the word `COMP`, in any case.
 fn comps(text: &str) -> impl Iterator<Item = usize> {
     let bytes = text.as_bytes();
     let is_name =
@@ -147,7 +147,7 @@ fn comps(text: &str) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Whether a text holds a COMP command: the word after the bracket of a name.
+/// Returns whether a text holds a COMP command: the word after the bracket of a name.
 fn holds_command(text: &str) -> bool {
     comps(text).any(|at| {
         let before = text[..at].trim_end_matches(is_blank).strip_suffix('[');

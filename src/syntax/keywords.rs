@@ -56,8 +56,8 @@ const LETTERS: &[u8] = b"DEFGHIJKMNRST";
 /// Words after `S.` (PM/208038923).
 const SPINDLE_WORDS: [&str; 2] = ["POS", "OFFSET"];
 
-/// Whether a keyword of a spindle's bracket opens a command that is passed over. A number, a
-/// parameter or a variable may follow it at once.
+/// Returns whether a keyword of a spindle's bracket opens a command that is passed over. A number, a parameter or a
+/// variable may follow it at once.
 pub(super) fn is_spindle_command(word: &str) -> bool {
     let upper = word.to_ascii_uppercase();
     let begins = |known: &str| {
@@ -71,8 +71,8 @@ pub(super) fn is_spindle_command(word: &str) -> bool {
         || SPINDLE_COMMANDS.iter().any(|known| begins(known))
 }
 
-/// Whether a block is a program number, `O1234`, and nothing else (R2.93): with other words an O is a
-/// typing mistake for a zero.
+/// Returns whether a block is a program number, `O1234`, and nothing else (R2.93): with other words an O is a typing
+/// mistake for a zero.
 pub(crate) fn is_program_number(block: &Block) -> bool {
     #[allow(clippy::float_cmp)] // whole numbers are exact
     let is_number = |value: f64| value >= 0.0 && value.fract() == 0.0;
@@ -86,19 +86,19 @@ pub(crate) fn is_program_number(block: &Block) -> bool {
     }
 }
 
-/// Whether a letter begins words that are known.
+/// Returns whether a letter begins words that are known.
 pub(crate) fn is_letter(letter: u8) -> bool {
     LETTERS.contains(&letter) || matches!(letter, b'A'..=b'C' | b'Q' | b'U'..=b'Z')
 }
 
-/// Whether `S.WORD` is known.
+/// Returns whether `S.WORD` is known.
 pub(super) fn is_spindle_word(word: &str) -> bool {
     SPINDLE_WORDS
         .iter()
         .any(|known| known.eq_ignore_ascii_case(word))
 }
 
-/// Whether a statement begins with a word of the language, and not with a misspelt one.
+/// Returns whether a statement begins with a word of the language, and not with a misspelt one.
 pub(crate) fn is_statement(text: &str) -> bool {
     let letters = text.get(1..).unwrap_or_default();
     let length = letters.find(|c: char| !c.is_ascii_alphabetic());
@@ -108,13 +108,13 @@ pub(crate) fn is_statement(text: &str) -> bool {
         .any(|known| known[1..].eq_ignore_ascii_case(word))
 }
 
-/// A letter with a number, `M3`.
+/// Returns whether a word is one of the letters with a number, `M3`.
 fn numbered(upper: &str, letters: &[char]) -> bool {
     let number = upper.strip_prefix(letters);
     number.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// FC210 for a text.
+/// Returns FC210 for a text that is not known.
 pub(crate) fn not_known(text: &str, span: Span) -> Fault {
     let shown: String = text.trim().chars().take(40).collect();
     Fault::new(
@@ -127,8 +127,8 @@ pub(crate) fn not_known(text: &str, span: Span) -> Fault {
     .with_help("if the control knows it, check yourself what it does to compensation")
 }
 
-/// Whether the parts of a name, `V` left out, make a variable: a sign begins only the name of a
-/// software limit, `V.A.+SWE.X`, an `@` only what a call gave, `V.G.@P[1].VALID`.
+/// Returns whether the parts of a name, `V` left out, make a variable: a sign begins only the name of a software limit,
+/// `V.A.+SWE.X`, an `@` only what a call gave, `V.G.@P[1].VALID`.
 pub(super) fn is_variable<'a>(mut parts: impl Iterator<Item = &'a str>) -> bool {
     let plain = |part: &str| !part.starts_with(['+', '-', '@']);
     let family = parts.next().unwrap_or_default();
@@ -151,7 +151,7 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
 
 /// The words that a `#` command begins with.
 pub(super) struct CommandName {
-    /// In upper case with one blank between them.
+    /// Name in upper case with one blank between the words.
     pub(super) name: String,
     /// Number of bytes that they take.
     pub(super) length: usize,
@@ -187,7 +187,7 @@ pub(super) fn command_name(code: &str) -> CommandName {
     }
 }
 
-/// Whether an unknown word follows the name of a command, `#HSC ON SOFTLY [1]`, rather than text that looks
+/// Returns whether an unknown word follows the name of a command, `#HSC ON SOFTLY [1]`, rather than text that looks
 /// like an axis.
 pub(super) fn goes_on(code: &str, name: &str) -> bool {
     let known = name.split(' ').count();
@@ -195,7 +195,7 @@ pub(super) fn goes_on(code: &str, name: &str) -> bool {
     next.is_some_and(|(word, _)| !word[1..].bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// The words after the `#`, and where each ends.
+/// Returns the words after the `#`, and where each ends.
 fn words(code: &str) -> impl Iterator<Item = (&str, usize)> {
     let mut from = 1;
     std::iter::from_fn(move || {
@@ -228,25 +228,25 @@ fn push_word(name: &mut String, word: &str) {
 
 /// A `#` command at the start of a block.
 pub(super) struct OpeningCommand<'a> {
-    /// Its words.
+    /// Words.
     pub(super) name: CommandName,
     /// The text after them.
     pub(super) rest: &'a str,
 }
 
 impl OpeningCommand<'_> {
-    /// Its action, where it is known.
+    /// Returns its action, where it is known.
     pub(super) fn action(&self) -> Option<HashAction> {
         self.name.command.map(|command| command.action)
     }
 
-    /// Whether nothing follows the words.
+    /// Returns whether nothing follows the words.
     pub(super) fn is_alone(&self) -> bool {
         self.rest.trim_matches(is_blank).is_empty()
     }
 }
 
-/// The `#` command at the start of a block, after its number.
+/// Returns the `#` command at the start of a block, after its number.
 pub(super) fn opening_command(code: &str) -> Option<OpeningCommand<'_>> {
     let start = code.trim_start_matches(is_blank);
     let start = match start.strip_prefix(['N', 'n']) {
@@ -260,9 +260,9 @@ pub(super) fn opening_command(code: &str) -> Option<OpeningCommand<'_>> {
     })
 }
 
-/// The change that writes words in upper case: the first, and those after it up to a place that may
-/// hold something that the parser does not see. A comment or a foreign character is at least two
-/// blanks in `code`, a continued line has a line end.
+/// Returns the change that writes words in upper case: the first, and those after it up to a place that may hold
+/// something that the parser does not see. A comment or a foreign character is at least two blanks in `code`, a
+/// continued line has a line end.
 pub(super) fn in_upper_case(code: &str, words: &[Span]) -> Option<Fix<Span>> {
     let (first, others) = words.split_first()?;
     let mut whole = *first;

@@ -24,15 +24,15 @@ const MAX_REGION: usize = 1 << 20;
 /// Faults of one block that are reported one by one (R2.85).
 const MAX_FAULTS: usize = 1000;
 
-/// Whether blocks are parsed by hand where that is possible, and executed without looking for more where they only move or
+/// Use of a parser by hand for blocks where that is possible, with a shorter execution of blocks that only move or
 /// compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum FastPath {
-    /// They are; the rest is parsed by the grammar and executed step by step.
+    /// Blocks are parsed by hand where possible; the rest is parsed by the grammar and executed step by step.
     #[default]
     On,
-    /// Every block is parsed by the grammar and executed step by step: the reference.
+    /// No fast path: every block is parsed by the grammar and executed step by step, as the reference.
     Off,
 }
 
@@ -56,7 +56,7 @@ pub struct BlockReader<S> {
 }
 
 impl<S: LineSource> BlockReader<S> {
-    /// A reader whose first line has the number `first_line`.
+    /// Returns a reader whose first line has the number `first_line`.
     pub fn new(source: S, first_line: u32, fast_path: FastPath) -> Self {
         Self {
             source,
@@ -71,12 +71,12 @@ impl<S: LineSource> BlockReader<S> {
         }
     }
 
-    /// The source of the lines, to ask it about errors.
+    /// Returns the source of the lines, to ask it about errors.
     pub fn source(&self) -> &S {
         &self.source
     }
 
-    /// The remarks so far that are not directly above a block.
+    /// Returns the remarks so far that are not directly above a block.
     pub fn lost_remarks(&self) -> &LostRemarks {
         self.remarks.lost()
     }
@@ -118,12 +118,12 @@ impl<S: LineSource> BlockReader<S> {
         }
     }
 
-    /// The number of the first line that was not read.
+    /// Returns the number of the first line that was not read.
     pub(crate) fn next_line(&self) -> u32 {
         self.line.saturating_add(1)
     }
 
-    /// The stretch read last.
+    /// Returns the stretch read last.
     pub(crate) fn last(&self) -> RawBlock<'_> {
         let remark = self.remarks.heard();
         if let Some(comments) = self.plain {
@@ -337,7 +337,7 @@ impl<S: LineSource> BlockReader<S> {
     }
 }
 
-/// A block that was parsed by hand.
+/// Returns a block that was parsed by hand.
 #[inline]
 fn plain_block<'a>(
     line: PhysicalLine<'a>,
@@ -356,12 +356,12 @@ fn plain_block<'a>(
     }
 }
 
-/// Whether a line begins with the command that ends a region.
+/// Returns whether a line begins with the command that ends a region.
 fn ends(code: &str, end: &str) -> bool {
     opening_command(code).is_some_and(|command| command.name.name == end)
 }
 
-/// FC101: a character that programs have only in comments and strings.
+/// Returns FC101: a character that programs have only in comments and strings.
 fn outside_ascii(span: Span, text: &str) -> Fault {
     let found = span.of(text);
     let blank = found.chars().find(|letter| letter.is_whitespace());
@@ -407,12 +407,12 @@ fn cap_faults(faults: &mut Vec<Fault>) {
     ));
 }
 
-/// A line without the blanks at its end.
+/// Returns a line without the blanks at its end.
 #[inline]
 fn trimmed(line: &str) -> &str {
     let line = line.trim_ascii_end();
     if line.ends_with(is_blank) {
-        // What editors leave is rare, so it is looked for only in lines that end in it.
+        // Characters left by editors are rare, so they are looked for only in lines that end in one.
         return line.trim_end_matches(is_blank);
     }
     line
@@ -422,8 +422,8 @@ fn too_long(line: &str) -> bool {
     line.len() > MAX_LINE && line.chars().count() > MAX_LINE
 }
 
-/// `%NAME`, `% NAME`, `%L NAME` (R2.10). In the code a letter outside ASCII is a blank, and
-/// `foreign` is the first: `%Läufer` is a main program.
+/// Returns `%NAME`, `% NAME`, `%L NAME` (R2.10). In the code a letter outside ASCII is a blank, and `foreign` is the
+/// first: `%Läufer` is a main program.
 fn program_line(code: &str, text: &str, after: &str, foreign: Option<Span>) -> Stretch {
     let separators = ['(', ';', '"', ']', ',', '#', '$'];
     let at = |part: &str| code.len() - part.len();

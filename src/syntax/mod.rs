@@ -1,4 +1,4 @@
-//! From text to blocks.
+//! Translation of text into blocks.
 //!
 //! Only this module uses pest. Parsing never fails: a block comes back with what was understood and
 //! with the faults of the rest. Nothing here depends on a machine.

@@ -15,13 +15,13 @@ pub(crate) const MAX_MACROS: usize = 16;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum AxisUse {
-    /// It moves the axis, or addresses it.
+    /// Motion or address of the axis.
     Named,
-    /// It switches friction compensation of the axis.
+    /// Switch of friction compensation of the axis.
     Switched,
 }
 
-/// The axes that the blocks of a program name, executed or not. Names have the form of R2.20.
+/// Returns the axes that the blocks of a program name, executed or not. Names have the form of R2.20.
 pub fn axis_uses(text: &str) -> BTreeMap<String, AxisUse> {
     let mut uses = BTreeMap::new();
     let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
@@ -92,7 +92,7 @@ pub(super) fn own_uses<'a>(
     words.chain(items)
 }
 
-/// Whether a name has the form of an axis name (R2.20).
+/// Returns whether a name has the form of an axis name (R2.20).
 pub(crate) fn is_axis_name(name: &str) -> bool {
     let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     name.len() <= 16
@@ -114,9 +114,9 @@ pub enum Named {
 /// Role of a name at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NameRole {
-    /// The named thing is defined here.
+    /// Definition of the name.
     Definition,
-    /// It is called, or jumped to.
+    /// Call of the name, or jump to it.
     Use,
 }
 
@@ -133,7 +133,7 @@ pub struct NameInBlock {
     pub span: Span,
 }
 
-/// The names of a block, from left to right. The contents of a variable have none.
+/// Returns the names of a block, from left to right. The contents of a variable have none.
 pub fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
     let mut names = NameSearch {
         text,
@@ -200,7 +200,7 @@ impl NameSearch<'_> {
         self.add(named, NameRole::Use, (span.of(self.text).to_owned(), span));
     }
 
-    /// The labels that a statement names, in their order.
+    /// Adds the labels that a statement names, in their order.
     fn targets(&mut self, targets: [Option<&BlockReference>; 2], statement: Span) {
         let mut from = statement.range().start;
         for target in targets.into_iter().flatten() {
@@ -226,7 +226,7 @@ fn numbered(value: f64) -> String {
     format!("N{value}")
 }
 
-/// The first `N` with its number in a part of a text.
+/// Returns the first `N` with its number in a part of a text.
 fn number_in(text: &str, part: std::ops::Range<usize>) -> Option<Span> {
     let bytes = &text.as_bytes()[part.clone()];
     let is_number = |at: &usize| {

@@ -71,7 +71,7 @@ pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     }
 }
 
-/// Whether the first bracket of a text begins with `COMP`, or nearly so.
+/// Returns whether the first bracket of a text begins with `COMP`, or nearly so.
 fn opens_comp(text: &str) -> bool {
     let Some((_, inside)) = text.split_once('[') else {
         return false;
@@ -88,8 +88,8 @@ pub fn parse_block(text: &str) -> Block {
     block
 }
 
-/// Whether a block is only an M word, `N90 M30 ; end`, `M 2`, `M=P1`, or only `#ERROR`, so that another block can be
-/// put before it (R1.59). A jump label is more: a jump to it would skip the other block.
+/// Returns whether a block is only an M word, `N90 M30 ; end`, `M 2`, `M=P1`, or only `#ERROR`, so that another block
+/// can be put before it (R1.59). A jump label is more: a jump to it would skip the other block.
 pub fn is_lone_end(text: &str) -> bool {
     let block = parse_block(text);
     let is_m = |word: &Word| word.address == Address::Letter(b'M');
@@ -119,7 +119,7 @@ pub struct Fault {
     pub code: Code,
     /// The bytes of the block's text that are meant.
     pub span: Span,
-    /// One sentence in lower case.
+    /// The message: one sentence in lower case.
     pub message: String,
     /// Advice on the fault.
     pub advice: Vec<Advice>,
@@ -128,7 +128,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// A fault without advice.
+    /// Returns a fault without advice.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
@@ -139,7 +139,7 @@ impl Fault {
         }
     }
 
-    /// An error of the control, with the advice of its row (R2.114).
+    /// Returns an error of the control, with the advice of its row (R2.114).
     #[allow(
         clippy::unnecessary_box_returns,
         reason = "it is the error of a result"
@@ -201,8 +201,8 @@ impl Fault {
     }
 }
 
-/// FC313: a second word where the control accepts one in a block (TF5200 Diagnosis, errors 20105, 20170, 20175, 20181,
-/// 20205, 20765).
+/// Returns FC313: a second word where the control accepts one in a block (TF5200 Diagnosis, errors 20105, 20170, 20175,
+/// 20181, 20205, 20765).
 pub(crate) fn repeated_word(text: &str, span: Span) -> Fault {
     let text = text.trim();
     let message =

@@ -31,7 +31,7 @@ pub(crate) struct Piece {
     pub(crate) range: Range<usize>,
 }
 
-/// The pieces of a line, one after another without gaps.
+/// Returns the pieces of a line, one after another without gaps.
 pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
     let bytes = line.as_bytes();
     let trailing = line.trim_end_matches(is_blank).len();
@@ -92,8 +92,8 @@ pub fn kind_at(line: &str, at: usize) -> PieceKind {
     found.map_or(PieceKind::Code, |piece| piece.kind)
 }
 
-/// The stretches of a line that are code, and the code of a macro that it defines; nothing of a line that
-/// names a program.
+/// Returns the stretches of a line that are code, and the code of a macro that it defines; nothing of a line that names
+/// a program.
 pub(crate) fn code_stretches(line: &str) -> impl Iterator<Item = &str> {
     let is_name = line.trim_start_matches(is_blank).starts_with('%');
     let line = if is_name { "" } else { line };
@@ -109,18 +109,18 @@ pub(crate) fn code_stretches(line: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The words of a line that may name variables and parameters.
+/// Returns the words of a line that may name variables and parameters.
 pub fn code_words(line: &str) -> impl Iterator<Item = &str> {
     let is_part = |it: char| it.is_ascii_alphanumeric() || "_.@".contains(it);
     code_stretches(line).flat_map(move |code| code.split(move |it| !is_part(it)))
 }
 
-/// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
+/// Returns whether a character is a blank, a tab, or the NUL and ETX that some editors leave (R2.1).
 pub(super) fn is_blank(c: char) -> bool {
     c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
 }
 
-/// A control character that editors leave at the end of a file; within a block it is not part
+/// Returns whether a byte is a control character that editors leave at the end of a file; within a block it is not part
 /// of the language (R2.1, R9.94).
 fn is_control(byte: u8) -> bool {
     matches!(byte, 0 | 3 | 0x1a)
@@ -132,12 +132,12 @@ fn code_length(bytes: &[u8]) -> usize {
     bytes.iter().position(ends).unwrap_or(bytes.len())
 }
 
-/// Whether a comment begins with a `(` that nothing closes (R2.6).
+/// Returns whether a comment begins with a `(` that nothing closes (R2.6).
 pub(super) fn is_open_comment(comment: &str) -> bool {
     comment.starts_with('(') && closing(comment.as_bytes(), 0).is_none()
 }
 
-/// One past the `)` that closes the comment at `start`; comments nest (R2.6).
+/// Returns one past the `)` that closes the comment at `start`; comments nest (R2.6).
 fn closing(bytes: &[u8], start: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (at, byte) in bytes.iter().enumerate().skip(start) {
@@ -169,8 +169,8 @@ impl<'a> Texts<'a> {
         }
     }
 
-    /// One past the quote that closes the text at `start`. A `\"` stands for a quote inside; where that
-    /// leaves the text open, it was the text's own last character.
+    /// Returns one past the quote that closes the text at `start`. A `\"` stands for a quote inside; where that leaves
+    /// the text open, it was the text's own last character.
     pub(super) fn end(&self, start: usize) -> Option<usize> {
         if !self.is_closed(start) {
             let rest = &self.bytes[start + 1..];
@@ -186,7 +186,7 @@ impl<'a> Texts<'a> {
         None
     }
 
-    /// Whether a quote after a place has no `\` before it.
+    /// Returns whether a quote after a place has no `\` before it.
     pub(super) fn is_closed(&self, start: usize) -> bool {
         let last = self.last.get_or_init(|| {
             let mut quotes = memchr::memrchr_iter(b'"', self.bytes);
@@ -203,7 +203,7 @@ impl<'a> Texts<'a> {
 /// Findings of the masking of a line.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Masked {
-    /// The code ends in a `\`.
+    /// Whether the code ends in a `\`.
     pub(super) continues: bool,
     /// The first character outside ASCII, or control character, in the code.
     pub(super) foreign: Option<Span>,
@@ -231,15 +231,15 @@ pub(super) fn mask(line: &str, code: &mut String) -> Masked {
     masked
 }
 
-/// A line as the parser sees it, byte for byte.
+/// Returns a line as the parser sees it, byte for byte.
 pub fn code_of(line: &str) -> String {
     let mut code = String::new();
     mask(line, &mut code);
     code
 }
 
-/// Part of a block as the parser sees it, byte for byte: its lines without comments, continuation signs and the
-/// block numbers of continued lines.
+/// Returns the part of a block as the parser sees it, byte for byte: its lines without comments, continuation signs and
+/// the block numbers of continued lines.
 pub(crate) fn code_of_part(text: &str) -> Cow<'_, str> {
     if !text.contains(['(', ';', '\\', '\n']) {
         return Cow::Borrowed(text);
@@ -258,7 +258,7 @@ pub(crate) fn code_of_part(text: &str) -> Cow<'_, str> {
     Cow::Owned(code)
 }
 
-/// Whether a line marks its block as continued on the next one.
+/// Returns whether a line marks its block as continued on the next one.
 pub(crate) fn goes_on(line: &str) -> bool {
     line.contains('\\') && mask(line, &mut String::new()).continues
 }
@@ -326,7 +326,7 @@ pub(super) fn brackets(code: &str) -> Result<Brackets<'_>, Fault> {
     })
 }
 
-/// The code with marks in place of some of its brackets.
+/// Returns the code with marks in place of some of its brackets.
 fn marked(code: &str, brackets: &[usize]) -> String {
     let mut marked = String::with_capacity(code.len());
     let mut from = 0;
@@ -385,7 +385,7 @@ fn unclosed(code: &str) -> Result<Vec<usize>, Fault> {
     Ok(open)
 }
 
-/// The `[` that are never closed where `'…'` holds none, as in expressions.
+/// Returns the `[` that are never closed where `'…'` holds none, as in expressions.
 fn unclosed_outside_quotes(code: &str) -> Vec<usize> {
     let bytes = code.as_bytes();
     let texts = Texts::new(bytes);

@@ -20,7 +20,7 @@ pub enum Stretch {
     Program {
         /// The name of the program.
         name: Span,
-        /// Whether it is a local subprogram, `%L NAME`.
+        /// Whether the program is a local subprogram, `%L NAME`.
         local: bool,
     },
 }
@@ -36,16 +36,16 @@ pub struct RawBlock<'a> {
     pub line: u32,
     /// Offset of that line in bytes from the start of the text.
     pub offset: usize,
-    /// Whether it has comments.
+    /// Comments of the block.
     pub comments: Comments,
-    /// Whether it was parsed by hand, so that it is made of words with plain numbers.
+    /// Whether the block was parsed by hand, so that it consists of words with plain numbers.
     pub plain: bool,
     /// The comment line directly above that is addressed to this tool (R9.24).
     pub remark: Option<&'a Remark>,
 }
 
 impl RawBlock<'_> {
-    /// A place in its lines.
+    /// Returns a place in its lines.
     pub(crate) fn place(&self, file: &Arc<str>, span: Span) -> Place {
         Place::in_block(file, self.text, self.line, span)
     }
@@ -72,7 +72,7 @@ pub struct Remark {
 }
 
 impl Remark {
-    /// The lines with their numbers.
+    /// Returns the lines with their numbers.
     pub fn lines(&self) -> impl Iterator<Item = (&str, u32)> {
         self.text.lines().zip(self.line..)
     }
@@ -96,24 +96,24 @@ pub struct LostRemarks {
 pub struct LineFault {
     /// The line without trailing blanks.
     pub text: String,
-    /// Its number, from 1.
+    /// Number, from 1.
     pub line: u32,
     /// The fault, whose span counts from the start of the line.
     pub fault: Fault,
 }
 
-/// Whether a text has comments.
+/// Presence of comments in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Comments {
-    /// It has none.
+    /// No comments.
     Absent,
-    /// It may have some.
+    /// Possibly some comments.
     Possible,
 }
 
 impl Comments {
-    /// Those of a whole block: one begins with `;`, `(` or `#COMMENT`.
+    /// Returns whether a whole block may have comments: one begins with `;`, `(` or `#COMMENT`.
     pub(super) fn of(block: &str) -> Self {
         match memchr::memchr3(b';', b'(', b'#', block.as_bytes()) {
             Some(_) => Self::Possible,
@@ -131,7 +131,7 @@ pub(super) struct LatestRemarks {
     remark: Remark,
     /// The number of its last line; 0 where there is none.
     last: u32,
-    /// Whether a block begins on the line after it.
+    /// Whether a block begins on the line after the last comment.
     is_heard: bool,
     lost: LostRemarks,
 }
@@ -183,7 +183,7 @@ impl LatestRemarks {
         (self.last > 0 && self.is_heard).then_some(&self.remark)
     }
 
-    /// No block follows any more.
+    /// Ends the text: a remark that no block has followed is lost.
     pub(super) fn end(&mut self) {
         if self.last > 0 && !self.is_heard {
             if self.lost.remarks.len() <= MAX_MESSAGES {

@@ -142,7 +142,7 @@ const LINES: usize = 16;
 
 const LINE_ENDS: [&str; 6] = ["\n", "\n", "\n", "\r\n", "\r", ""];
 
-/// A word whose number has any of the shapes that a number may have.
+/// Writes a word whose number has any of the shapes that a number may have.
 fn push_word(line: &mut String, rng: &mut Rng) {
     line.push(rng.char('A'..='Z'));
     line.push_str(["", "", "", "-", "+"][rng.usize(..5)]);
@@ -226,7 +226,7 @@ fn compare(program: &str) -> u64 {
     }
 }
 
-/// The tree of a block's code by the grammar, and by the grammar without its shortcuts.
+/// Compares the tree of a block's code by the grammar with that by the grammar without its shortcuts.
 fn compare_with_reference(code: &str) {
     let (mut tree, mut reference) = (Block::default(), Block::default());
     lower::block(code, &mut tree);

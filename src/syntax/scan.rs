@@ -16,7 +16,7 @@ const MAX_CONTINUED: usize = 64 * 1024;
 
 /// A question to a program.
 pub trait ScanQuestion {
-    /// The first place of a text, from one on, at which a line may matter.
+    /// Returns the first place of a text, from one on, at which a line may matter.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize>;
 
     /// Looks at a block that may matter.
@@ -35,7 +35,7 @@ pub struct Scan<Q> {
 }
 
 impl<Q: ScanQuestion> Scan<Q> {
-    /// A scan from the start of a program.
+    /// Returns a scan from the start of a program.
     pub fn new(question: Q) -> Self {
         Self {
             question,
@@ -113,7 +113,7 @@ impl<Q: ScanQuestion> Scan<Q> {
 pub struct SwitchedAxes(pub BTreeSet<String>);
 
 impl ScanQuestion for SwitchedAxes {
-    /// `COMP`. Of its letters the last one is the rarest in programs.
+    /// Returns `COMP`. Of its letters the last one is the rarest in programs.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize> {
         let mut places = memchr::memchr2_iter(b'P', b'p', &text[from..]);
         let is_word = |at: &usize| {
@@ -155,7 +155,7 @@ struct PendingLabel {
     next: Option<usize>,
 }
 
-/// Whether a call of a file was found.
+/// Calls found in a program.
 #[derive(Debug, Default)]
 struct Calls {
     is_found: bool,
@@ -175,17 +175,17 @@ impl NamedAxes {
         }
     }
 
-    /// The names that were found.
+    /// Returns the names that were found.
     pub fn into_names(self) -> BTreeSet<String> {
         self.found
     }
 
-    /// The axes whose state of compensation the program reads.
+    /// Returns the axes whose state of compensation the program reads.
     pub fn read(&self) -> &BTreeSet<String> {
         &self.read
     }
 
-    /// Whether the program may name further axes: it calls a file, or a block that may name one has a fault.
+    /// Returns whether the program may name further axes: it calls a file, or a block that may name one has a fault.
     pub fn may_name_more(&self) -> bool {
         self.calls.is_found || self.is_faulty
     }
@@ -227,7 +227,7 @@ impl ScanQuestion for NamedAxes {
     }
 }
 
-/// The axes whose state of compensation a block reads.
+/// Returns the axes whose state of compensation a block reads.
 fn axes_read(text: &str) -> Vec<String> {
     if !text.contains(STATE) {
         return Vec::new();
@@ -254,7 +254,7 @@ fn axis_place(text: &[u8], from: usize, name: &[u8]) -> Option<usize> {
     places.find(begins).map(|at| from + at)
 }
 
-/// Whether a text may call a file with `L`.
+/// Returns whether a text may call a file with `L`.
 pub(crate) fn may_call_file(text: &[u8]) -> bool {
     call_place(text, 0).is_some()
 }
@@ -311,12 +311,13 @@ impl FlowScan {
         self.found |= commands.any(|at| Self::opens_branch(&piece[at + 1..]));
     }
 
-    /// Whether the whole text is needed.
+    /// Returns whether the whole text is needed.
     pub fn needs_whole_text(&self) -> bool {
         self.found
     }
 
-    /// `L` alone with a separator after it, outside a comment; a piece that ends before that is taken as one.
+    /// Returns whether the text has `L` alone with a separator after it, outside a comment; a piece that ends before
+    /// that is taken as one.
     fn calls_program(before: &[u8], after: &[u8]) -> bool {
         let is_alone = before.last().is_none_or(|byte| !byte.is_ascii_alphabetic());
         let is_followed = after
@@ -325,7 +326,7 @@ impl FlowScan {
         is_alone && is_followed && !Self::ends_in_comment(before)
     }
 
-    /// Whether the last line is in a comment so far. A line that is longer than a block may be is not.
+    /// Returns whether the last line is in a comment so far. A line that is longer than a block may be is not.
     fn ends_in_comment(text: &[u8]) -> bool {
         let near = &text[text.len().saturating_sub(MAX_LINE)..];
         let line = match memchr::memrchr2(b'\n', b'\r', near) {
@@ -337,7 +338,7 @@ impl FlowScan {
         memchr::memchr(b';', line).is_some() || opened > memchr::memrchr(b')', line)
     }
 
-    /// `#IF`; a piece that ends before that is taken as one.
+    /// Returns whether the text is `#IF`; a piece that ends before that is taken as one.
     fn opens_branch(after: &[u8]) -> bool {
         let letters = after.iter().zip(b"IF");
         letters
@@ -345,7 +346,7 @@ impl FlowScan {
             .all(|(found, letter)| found.eq_ignore_ascii_case(letter))
     }
 
-    /// `%L` with a separator after it; a piece that ends before that is taken as one.
+    /// Returns whether the text is `%L` with a separator after it; a piece that ends before that is taken as one.
     fn opens_subprogram(after: &[u8]) -> bool {
         let mut rest = after.iter().skip_while(|byte| matches!(byte, b' ' | b'\t'));
         match (rest.next(), rest.next()) {

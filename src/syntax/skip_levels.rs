@@ -17,10 +17,10 @@ use std::str::FromStr;
 pub struct SkipLevels(u16);
 
 impl SkipLevels {
-    /// No level.
+    /// Set without levels.
     pub const NONE: Self = Self(0);
 
-    /// All levels.
+    /// Set of all levels.
     pub const ALL: Self = Self(((1 << Self::HIGHEST) - 1) << 1);
 
     /// The highest level.
@@ -33,7 +33,7 @@ impl SkipLevels {
             .then_some(Self(self.0 | 1 << level))
     }
 
-    /// Whether blocks of a level are skipped.
+    /// Returns whether blocks of a level are skipped.
     pub fn has(self, level: u8) -> bool {
         self.0 & (1 << level.min(15)) != 0
     }

@@ -28,7 +28,7 @@ pub(crate) enum VariableFamily {
     Axis,
     /// Any other variable of the control: `V.G.`.
     Control,
-    /// No variable.
+    /// Not a variable.
     Other,
 }
 
@@ -48,27 +48,27 @@ impl VariableFamily {
         }
     }
 
-    /// Whether a program start clears its variables.
+    /// Returns whether a program start clears its variables.
     pub(crate) fn is_of_run(self) -> bool {
         matches!(self, Self::Parameter | Self::Program | Self::Cycle)
     }
 
-    /// Whether programs write its variables.
+    /// Returns whether programs write its variables.
     pub(crate) fn is_written(self) -> bool {
         self.is_of_run() || matches!(self, Self::Shared | Self::Internal | Self::Local)
     }
 
-    /// Whether only programs write its variables: `V.P.`, `V.L.`, `V.S.`.
+    /// Returns whether only programs write its variables: `V.P.`, `V.L.`, `V.S.`.
     pub(crate) fn is_of_programs(self) -> bool {
         self.is_written() && !matches!(self, Self::Cycle | Self::Internal)
     }
 
-    /// Whether its variables end with the level of the program that creates them.
+    /// Returns whether its variables end with the level of the program that creates them.
     pub(crate) fn is_of_level(self) -> bool {
         matches!(self, Self::Local | Self::Cycle)
     }
 
-    /// Whether others than the program that writes its variables read them (R2.34, R2.36).
+    /// Returns whether others than the program that writes its variables read them (R2.34, R2.36).
     pub(crate) fn is_read_by_others(self) -> bool {
         matches!(
             self,
@@ -129,17 +129,17 @@ impl VariableName {
         )
     }
 
-    /// The name of a P parameter.
+    /// Returns the name of a P parameter.
     pub(crate) fn parameter(index: u32) -> Self {
         Self::whole(format!("P{index}"))
     }
 
-    /// The name of an own parameter of a call.
+    /// Returns the name of an own parameter of a call.
     pub(crate) fn own_parameter(index: u32) -> Self {
         Self::whole(format!("@P{index}"))
     }
 
-    /// A variable or a whole array.
+    /// Returns a variable or a whole array.
     pub(crate) fn whole(array: String) -> Self {
         Self {
             array,
@@ -147,7 +147,7 @@ impl VariableName {
         }
     }
 
-    /// An element of the array.
+    /// Returns an element of the array.
     pub(crate) fn at(&self, subscripts: Subscripts) -> Self {
         Self {
             array: self.array.clone(),
@@ -155,7 +155,7 @@ impl VariableName {
         }
     }
 
-    /// The variable, or the array that an element belongs to.
+    /// Returns the variable, or the array that an element belongs to.
     pub(crate) fn array(&self) -> &str {
         &self.array
     }
@@ -172,13 +172,13 @@ impl VariableName {
         VariableFamily::of(&self.array)
     }
 
-    /// The number of a P parameter.
+    /// Returns the number of a P parameter.
     pub(crate) fn parameter_index(&self) -> Option<u32> {
         let number = self.array.strip_prefix('P')?;
         number.parse().ok().filter(|_| !self.is_element())
     }
 
-    /// The variable of an axis and the axis: `LIFT.ACTIVE` and `X` of `V.A.LIFT.ACTIVE.X`.
+    /// Returns the variable of an axis and the axis: `LIFT.ACTIVE` and `X` of `V.A.LIFT.ACTIVE.X`.
     pub(crate) fn of_axis(&self) -> Option<(&str, AxisOfVariable<'_>)> {
         let variable = self.array.strip_prefix("V.A.")?;
         match self.subscripts.0.as_slice() {
@@ -194,12 +194,12 @@ impl VariableName {
         }
     }
 
-    /// Whether it is the array or structure of a name, or belongs to it.
+    /// Returns whether it is the array or structure of a name, or belongs to it.
     pub(crate) fn is_in(&self, whole: &Self) -> bool {
         self.is_any(|it| it == whole)
     }
 
-    /// Whether a name, or that of an array or structure that it belongs to, is one of some.
+    /// Returns whether a name, or that of an array or structure that it belongs to, is one of some.
     pub(crate) fn is_any(&self, is_it: impl Fn(&Self) -> bool) -> bool {
         let structures = self.array.match_indices('.');
         let structures = structures.map(|(end, _)| Self::whole(self.array[..end].to_owned()));
@@ -271,7 +271,7 @@ pub(crate) enum AxisOfVariable<'a> {
 }
 
 impl Subscripts {
-    /// The numbers that lead to an element; `None` where a step is a word or a field.
+    /// Returns the numbers that lead to an element; `None` where a step is a word or a field.
     pub(crate) fn numbers(&self) -> Option<Vec<i64>> {
         let number = |step: &Subscript| match step {
             Subscript::Number(number) => Some(*number),
@@ -284,12 +284,12 @@ impl Subscripts {
         &self.0
     }
 
-    /// Whether they lead to an element, or to a part of it.
+    /// Returns whether they lead to an element, or to a part of it.
     pub(crate) fn starts_with(&self, outer: &Self) -> bool {
         self.0.starts_with(&outer.0)
     }
 
-    /// Number of bytes that they hold beside the name.
+    /// Returns the number of bytes that they hold beside the name.
     pub(crate) fn len(&self) -> usize {
         let bytes = |step: &Subscript| match step {
             Subscript::Number(_) => size_of::<u32>(),

@@ -13,8 +13,8 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// A source under the name that diagnostics and records show. A byte order mark at the start
-    /// of the text is not part of it.
+    /// Returns a source under the name that diagnostics and records show. A byte order mark at the start of the text is
+    /// not part of it.
     pub fn new(name: impl Into<Arc<str>>, text: impl Into<String>) -> Self {
         let mut text = text.into();
         if text.starts_with(BYTE_ORDER_MARK) {
@@ -33,27 +33,27 @@ impl SourceFile {
         self
     }
 
-    /// The name that diagnostics and records show.
+    /// Returns the name that diagnostics and records show.
     pub fn name(&self) -> &Arc<str> {
         &self.name
     }
 
-    /// The whole text.
+    /// Returns the whole text.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The whole text, for callers that keep it separately from the file.
+    /// Returns the whole text, for callers that keep it separately from the file.
     pub(crate) fn shared_text(&self) -> Arc<String> {
         self.text.clone()
     }
 
-    /// The line index of the text.
+    /// Returns the line index of the text.
     pub fn lines(&self) -> &LineIndex {
         &self.lines
     }
 
-    /// The span of a place in this file; `None` where the file does not hold the lines of the place.
+    /// Returns the span of a place in this file; `None` where the file does not hold the lines of the place.
     pub fn find(&self, place: &Place) -> Option<Span> {
         let (mut start, mut end) = (None, None);
         // The line ends of the place may differ from those of the file.
@@ -93,7 +93,7 @@ impl SourceFile {
         None
     }
 
-    /// The place of a span in this file, showing the lines that it touches.
+    /// Returns the place of a span in this file, showing the lines that it touches.
     pub fn place(&self, span: Span) -> Place {
         let first_line = self.lines.line(span.start);
         let last_line = self.lines.line(span.end.max(span.start + 1) - 1);
@@ -144,10 +144,10 @@ pub trait LineSource {
     /// Goes to the next line; `false` at the end of the text.
     fn advance(&mut self) -> bool;
 
-    /// The line that [`advance`](Self::advance) went to.
+    /// Returns the line that [`advance`](Self::advance) went to.
     fn line(&self) -> PhysicalLine<'_>;
 
-    /// The following lines that are available, each whole and with its end; none at the end of the text.
+    /// Returns the following lines that are available, each whole and with its end; none at the end of the text.
     fn ahead(&mut self) -> &str;
 
     /// Goes to the first line of [`ahead`](Self::ahead), which has so many bytes without its end, and
@@ -195,13 +195,13 @@ pub struct TextLines<'a> {
 }
 
 impl<'a> TextLines<'a> {
-    /// The lines of `text`. A byte order mark at its start is skipped.
+    /// Returns the lines of `text`. A byte order mark at its start is skipped.
     pub fn new(text: &'a str) -> Self {
         let start = text.len() - text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).len();
         Self::starting_at(text, start)
     }
 
-    /// The lines of `text` from a byte offset on, which begins a line.
+    /// Returns the lines of `text` from a byte offset on, which begins a line.
     pub fn starting_at(text: &'a str, offset: usize) -> Self {
         Self {
             text,
@@ -281,14 +281,14 @@ impl LineIndex {
         Self { starts, first: 1 }
     }
 
-    /// The number of the line that holds a byte offset.
+    /// Returns the number of the line that holds a byte offset.
     pub fn line(&self, offset: u32) -> u32 {
         let before = self.starts.partition_point(|&start| start <= offset);
         let behind_first = u32::try_from(before.max(1) - 1).unwrap_or(u32::MAX);
         self.first.saturating_add(behind_first)
     }
 
-    /// The span in `text` of the line with a number, without its line end.
+    /// Returns the span in `text` of the line with a number, without its line end.
     pub fn line_span(&self, text: &str, line: u32) -> Span {
         let index = line.saturating_sub(self.first) as usize;
         let Some(&start) = self.starts.get(index) else {
@@ -303,9 +303,8 @@ impl LineIndex {
         Span::new(start as usize, start as usize + trimmed.len())
     }
 
-    /// The position of a byte offset of `text` as editors count it: the line from 0, the column from
-    /// 0 in units of UTF-16. An offset inside a character is that of its beginning, one past the end
-    /// of the line its end.
+    /// Returns the position of a byte offset of `text` as editors count it: the line from 0, the column from 0 in units
+    /// of UTF-16. An offset inside a character is that of its beginning, one past the end of the line its end.
     pub fn utf16_position(&self, text: &str, offset: u32) -> Utf16Position {
         let line = self.line(offset);
         let span = self.line_span(text, line);
@@ -320,9 +319,8 @@ impl LineIndex {
         }
     }
 
-    /// The byte offset in `text` of a position of an editor. A column inside a character is that of
-    /// its beginning, one past the end of the line its end; a line past the last is the end of the
-    /// text.
+    /// Returns the byte offset in `text` of a position of an editor. A column inside a character is that of its
+    /// beginning, one past the end of the line its end; a line past the last is the end of the text.
     pub fn utf16_offset(&self, text: &str, position: Utf16Position) -> u32 {
         let span = self.line_span(text, self.first.saturating_add(position.line));
         let mut left = position.column;
@@ -336,7 +334,7 @@ impl LineIndex {
         Span::new(span.start as usize + length, text.len()).start
     }
 
-    /// The number of the first line: 1, unless the text is the rest of a longer one.
+    /// Returns the number of the first line: 1, unless the text is the rest of a longer one.
     pub fn first(&self) -> u32 {
         self.first
     }

@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 
 use super::place::Span;
 
-/// Whether a character is a control character, changes how its neighbours are read, or is
-/// invisible: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
-/// characters without width, and code points that are not characters.
+/// Returns whether a character is a control character, changes how its neighbours are read, or is invisible: C0, DEL,
+/// C1, bidirectional controls, separators of lines and paragraphs, characters without width, and code points that are
+/// not characters.
 pub fn is_hidden(letter: char) -> bool {
     matches!(
         letter,

@@ -13,7 +13,7 @@ const USUAL_STEP: u64 = 10;
 struct LineNumber<'a> {
     /// Text before the digits: blanks and `N`.
     before: &'a str,
-    /// With leading zeros.
+    /// The digits, with leading zeros.
     digits: &'a str,
     value: u64,
 }
@@ -34,7 +34,7 @@ impl<'a> Numbering<'a> {
         }
     }
 
-    /// The lines of the program, without their ends.
+    /// Returns the lines of the program, without their ends.
     pub(crate) fn lines(&self) -> &[&'a str] {
         &self.lines
     }
@@ -115,7 +115,7 @@ impl<'a> Numbering<'a> {
     }
 }
 
-/// The block number at the start of a line.
+/// Returns the block number at the start of a line.
 fn number(line: &str) -> Option<LineNumber<'_>> {
     let blanks = line.len() - line.trim_start().len();
     let rest = line[blanks..].strip_prefix(['N', 'n'])?;

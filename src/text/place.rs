@@ -26,7 +26,7 @@ pub struct Place {
 pub(crate) const MAX_WHOLE: usize = 4096;
 
 impl Place {
-    /// The start of a file, of which no text is shown.
+    /// Returns the start of a file, of which no text is shown.
     pub(crate) fn head_of(file: &Arc<str>) -> Self {
         Self {
             file: Arc::clone(file),
@@ -36,7 +36,7 @@ impl Place {
         }
     }
 
-    /// A place in a block, which shows itself whole unless it is long.
+    /// Returns a place in a block, which shows itself whole unless it is long.
     pub(crate) fn in_block(
         file: &Arc<str>,
         text: impl AsRef<str> + Into<Arc<str>>,
@@ -71,12 +71,12 @@ impl Place {
         }
     }
 
-    /// The first character that is meant.
+    /// Returns the first character that is meant.
     pub fn start(&self) -> Position {
         self.position(self.span.start)
     }
 
-    /// One past the last character that is meant.
+    /// Returns the position after the last character of the place.
     pub fn end(&self) -> Position {
         self.position(self.span.end)
     }
@@ -90,7 +90,7 @@ impl Place {
         }
     }
 
-    /// Whether both places share the lines that they show.
+    /// Returns whether both places share the lines that they show.
     fn shows_lines_of(&self, other: &Self) -> bool {
         self.first_line == other.first_line && Arc::ptr_eq(&self.text, &other.text)
     }
@@ -125,8 +125,8 @@ impl StartsInOrder {
     }
 }
 
-/// The name of a file in messages and records: on every system with `/` between its parts, as git
-/// writes them, so that a report or an agreed result does not depend on where it was made.
+/// Returns the name of a file in messages and records: on every system with `/` between its parts, as git writes them,
+/// so that a report or an agreed result does not depend on where it was made.
 pub fn shown_path(path: &Path) -> String {
     let written = path.to_string_lossy();
     if cfg!(windows) {
@@ -136,8 +136,8 @@ pub fn shown_path(path: &Path) -> String {
     }
 }
 
-/// A path of Windows with `/` between its parts and without `\\?\`, which lifts limits of the system and
-/// was not written by the user.
+/// Returns a path of Windows with `/` between its parts and without `\\?\`, which lifts limits of the system and was
+/// not written by the user.
 fn slashed(path: &str) -> String {
     let plain = match path.strip_prefix(r"\\?\UNC\") {
         Some(share) => format!("//{share}"),
@@ -157,7 +157,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// A span from byte offsets. Offsets beyond 4 GiB are clamped, no text of that size is kept.
+    /// Returns a span from byte offsets. Offsets beyond 4 GiB are clamped, no text of that size is kept.
     #[inline]
     pub fn new(start: usize, end: usize) -> Self {
         let clamp = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
@@ -167,17 +167,17 @@ impl Span {
         }
     }
 
-    /// The part of `text` that the span covers, empty when it lies outside.
+    /// Returns the part of `text` that the span covers, empty when it lies outside.
     pub fn of(self, text: &str) -> &str {
         text.get(self.range()).unwrap_or_default()
     }
 
-    /// The span as a range of indices.
+    /// Returns the span as a range of indices.
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }
 
-    /// The smallest span that covers both.
+    /// Returns the smallest span that covers both.
     pub fn to(self, other: Self) -> Self {
         Self {
             start: self.start.min(other.start),
@@ -185,7 +185,7 @@ impl Span {
         }
     }
 
-    /// The span moved towards the end of the text by `offset` bytes.
+    /// Returns the span moved towards the end of the text by `offset` bytes.
     pub fn shifted(self, offset: u32) -> Self {
         Self {
             start: self.start.saturating_add(offset),

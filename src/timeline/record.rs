@@ -32,7 +32,7 @@ pub struct StateView<'a> {
     pub possible: &'a [PossibleStates],
     /// The listed axes, by position: all of a configured machine; of an unconfigured one those that occurred so far.
     pub listed: &'a [bool],
-    /// Increases whenever a state or the axis list changes, so that a writer may reuse its output.
+    /// Number that increases whenever a state or the axis list changes, so that a writer may reuse its output.
     pub version: u64,
 }
 
@@ -140,7 +140,7 @@ pub struct Repeat {
     pub times: u64,
     /// Position of the remark.
     pub start: Position,
-    /// Its message.
+    /// Message.
     pub message: String,
 }
 
@@ -178,8 +178,8 @@ pub struct AxisSummary {
     pub end: State,
     /// Friction compensation at the start of the control (R1.22).
     pub start_up: State,
-    /// Whether a message reported that it is left away from its start-up state (FC401, FC407), or the user silenced
-    /// that message.
+    /// Whether the axis is reported as left away from its start-up state (FC401, FC407), or the user silenced that
+    /// message.
     pub told: bool,
     /// The blocks that changed it: file, line and block number of at most the first hundred.
     pub changed_by: Vec<ChangedBy>,
@@ -187,8 +187,8 @@ pub struct AxisSummary {
     pub changes: u64,
     /// The feed moves of the axis while it was not active.
     pub feed_moves: FeedMoves,
-    /// Whether programs move or switch it though nothing says if it has friction compensation: its states are then only
-    /// assumed (R18.2).
+    /// Whether programs move or switch the axis though no source describes its friction compensation: its states are
+    /// then only assumed (R18.2).
     pub is_undescribed: bool,
     /// Whether a program wrote a parameter of its friction compensation into the machine data: a command does then not
     /// make its state known (R2.92).
@@ -196,7 +196,7 @@ pub struct AxisSummary {
 }
 
 impl AxisSummary {
-    /// Whether friction compensation, or another kind, is certainly left away from its start-up state.
+    /// Returns whether friction compensation, or another kind, is certainly left away from its start-up state.
     pub fn is_left_away(&self) -> bool {
         let is_away = self.end != self.start_up && self.end != State::Unknown;
         is_away || !self.others_away.is_empty()
@@ -374,8 +374,8 @@ pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
 
-    /// Asked before the record of a quiet block, as most are: it switches nothing, nothing is said on it, and its axes have
-    /// moved before. Returns whether the record is to follow.
+    /// Returns whether the record of a quiet block is to follow. Most blocks are quiet: they switch nothing, nothing is
+    /// said on them, and their axes have moved before.
     fn takes_quiet(&mut self) -> bool {
         true
     }
@@ -413,7 +413,7 @@ impl FeedMoves {
         self.off + self.ineffective
     }
 
-    /// Whether there are no such moves.
+    /// Returns whether there are no such moves.
     pub fn is_empty(&self) -> bool {
         self.without() == 0 && self.unknown == 0
     }
@@ -427,7 +427,7 @@ impl FeedMoves {
         self.see(other.longest);
     }
 
-    /// Whether a length is zero once it is rounded to a nanometre.
+    /// Returns whether a length is zero once it is rounded to a nanometre.
     pub(crate) fn is_standstill(length: f64) -> bool {
         length * 1e6 < 0.5
     }

@@ -405,7 +405,7 @@ impl<'a> Possible<'a> {
         self.state.possible.iter().filter(is_shown)
     }
 
-    /// Whether there are none.
+    /// Returns whether there are none.
     pub fn is_empty(&self) -> bool {
         self.iter().next().is_none()
     }

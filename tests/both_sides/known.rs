@@ -46,7 +46,7 @@ impl Sum for Tally {
 /// The first line of the file.
 const HEAD: &str = "programs           known     sets supersets  unknown\n";
 
-/// The file is written by one test at a time.
+/// Lock of the file, which one test writes at a time.
 static FILE: Mutex<()> = Mutex::new(());
 
 impl Tally {

@@ -30,7 +30,7 @@ use known::Tally;
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
-/// The axes, one that is not configured, and programs of words.
+/// Returns the axes, one that is not configured, and programs of words.
 fn machine() -> Machine {
     let words = "M06 = \"m6.nc\"\nT = \"t.nc\"\nG80 = \"g80.nc\"\nG81 = \"g81.nc\"";
     let mut text = format!("[machine.programs]\n{words}\n");
@@ -41,7 +41,7 @@ fn machine() -> Machine {
     Machine::from_toml(&text).expect("a machine")
 }
 
-/// The files that programs call.
+/// Returns the files that programs call.
 fn called(name: &str) -> Option<SourceFile> {
     let text = match name {
         "m6.nc" => "X[COMP OFF FRICT]\nP2=P2+1\nM17\n",
@@ -73,9 +73,9 @@ type Possible = BTreeSet<&'static str>;
 /// The states of each axis that a run shows.
 #[derive(Default)]
 struct Shown {
-    /// After each line of the main file.
+    /// States after each line of the main file.
     lines: BTreeMap<u32, [Possible; AXES.len()]>,
-    /// At the end, which an error may be; `None` if the program does not end.
+    /// States at the end, which an error may be; `None` if the program does not end.
     end: Option<[Possible; AXES.len()]>,
     /// The lines and axes of which no state is known, nor a set of them.
     unknown: BTreeSet<(u32, usize)>,
@@ -144,7 +144,7 @@ impl Shown {
     }
 }
 
-/// How a program is handed over.
+/// Way in which a program is handed over.
 #[derive(Clone, Copy, PartialEq)]
 enum Handed {
     Whole,
@@ -241,7 +241,7 @@ fn enumerated(program: &NcProgram, text: &str) -> Shown {
 enum Sort {
     /// Conditions that are asked once and are plain.
     Exact,
-    /// Anything.
+    /// Any content.
     Any,
 }
 

@@ -12,14 +12,14 @@ use frictcomp_testing::generator::{
 
 use crate::{AXES, count, ran};
 
-/// What the walker knows of a variable.
+/// Knowledge of the walker about a variable.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Known {
     /// The program set it, or waited for it, and the PLC has not acted since.
     Set(usize),
-    /// Only the machine knows it.
+    /// Value known only to the machine.
     Open,
-    /// A condition tells its value on this way; without that it is open, or set.
+    /// Value that a condition determines on this way; without that it is open, or set.
     Told(usize, Option<usize>),
 }
 
@@ -32,7 +32,7 @@ struct Walk {
     changed: bool,
 }
 
-/// The ways on which a variable has a value and those on which it has another.
+/// Returns the ways on which a variable has a value and those on which it has another.
 fn ask(walk: &Walk, variable: usize, value: usize) -> Vec<(Walk, bool)> {
     match walk.known[variable] {
         Known::Open => {
@@ -87,7 +87,7 @@ fn meet(walks: BTreeSet<Walk>) -> BTreeSet<Walk> {
     walks.into_iter().map(forget).collect()
 }
 
-/// The variable of the machine and the value that a condition compares it with.
+/// Returns the variable of the machine and the value that a condition compares it with.
 fn compared(condition: &Condition) -> (usize, usize) {
     match condition {
         Condition::Compare(Variable::Machine(variable), _, Operand::Number(value)) => {
@@ -97,7 +97,7 @@ fn compared(condition: &Condition) -> (usize, usize) {
     }
 }
 
-/// The ways on which a condition holds through some statements, the others through some more.
+/// Returns the ways on which a condition holds through some statements, the others through some more.
 fn both(way: &Walk, asked: (usize, usize), [yes, no]: [&[Statement]; 2]) -> BTreeSet<Walk> {
     let sides = ask(way, asked.0, asked.1).into_iter();
     let sides =
@@ -149,7 +149,7 @@ fn walk(statements: &[Statement], walks: BTreeSet<Walk>) -> BTreeSet<Walk> {
     })
 }
 
-/// The states of each axis at the end that a run says are possible, and whether each needs a change.
+/// Returns the states of each axis at the end that a run says are possible, and whether each needs a change.
 fn possible(text: &str) -> Vec<BTreeMap<&'static str, bool>> {
     let run = ran(Machine::enabled(AXES), text);
     let of = |axis: usize| {
@@ -216,7 +216,7 @@ fn names_too_much(seed: u64) -> bool {
     })
 }
 
-/// Whether a program has more than one condition.
+/// Returns whether a program has more than one condition.
 fn asks_twice(program: &[Statement]) -> bool {
     fn asks(program: &[Statement]) -> usize {
         let of = |statement: &Statement| match &statement.form {

@@ -126,13 +126,13 @@ fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
     (0..count).map(|number| line(number) + "\n").collect()
 }
 
-/// A program of control blocks inside each other.
+/// Returns a program of control blocks inside each other.
 fn nest(count: usize, open: impl Fn(usize) -> String, inner: &str, close: &str) -> String {
     let opened = lines(count, open);
     format!("{opened}{inner}\n{}M30", format!("{close}\n").repeat(count))
 }
 
-/// A program of local subprograms, each of which calls the next one.
+/// Returns a program of local subprograms, each of which calls the next one.
 fn calls(count: usize, call: impl Fn(usize) -> String) -> String {
     let programs = lines(count, |n| format!("%L S{n}\n{}\nM17", call(n)));
     format!("{programs}%L S{count}\nX[COMP OFF FRICT]\nM17\n%MAIN\nLL S0\nM30")
@@ -147,7 +147,7 @@ fn many_ways() -> Vec<(&'static str, String)> {
     [nested_ways(), called_ways(), jumping_ways()].concat()
 }
 
-/// Nested loops.
+/// Returns programs of nested loops.
 fn nested_ways() -> Vec<(&'static str, String)> {
     vec![
         ("ten loops", nest(10, while_q, "X1", "$ENDWHILE")),

@@ -141,9 +141,9 @@ const ENOUGH: usize = 8;
 /// The thoroughness of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look {
-    /// Only at an eighth of the size, where the onset of budgets shows, too.
+    /// Search at an eighth of the size only, where the onset of budgets shows, too.
     Short,
-    /// At the whole size as well.
+    /// Search at the whole size as well.
     Long,
 }
 
@@ -162,7 +162,7 @@ impl Look {
 struct Search {
     look: Look,
     ways: &'static [Repeated],
-    /// One out of this many combinations is tried.
+    /// Number of combinations of which one is tried.
     step: usize,
     /// The number of combinations tried.
     looked: usize,
@@ -250,7 +250,7 @@ impl Search {
     }
 }
 
-/// Whether a combination is the one to try among its rotations, which repeat the same text.
+/// Returns whether a combination is the one to try among its rotations, which repeat the same text.
 fn is_first_rotation(combination: &[usize]) -> bool {
     let length = combination.len();
     (1..length).all(|by| {

@@ -61,7 +61,7 @@ const MADE: &[&str] = &[
     "_",
 ];
 
-/// One of each kind, for long combinations.
+/// Tokens of each kind, for long combinations.
 const KINDS: &[&str] = &[
     "$IF", "$FOR", "$ENDIF", "#TIME 1", "#IF", "X1", "P1", "P1=", "V.P.A", "AB", "1", "+", "*",
     "=", ",", "[", "]", "X[", "ABS[", "\"", "\"M\"", "(", ";", "L", "N", ":", "/", "\\", "?",

@@ -1,4 +1,4 @@
-//! What hosts see of COMP: the reader of a command, and its state across resets.
+//! COMP as hosts see it: the reader of a command, and its state across resets.
 
 use frictcomp::comp::{CompCommand, Kind, KindSet, Selection, State};
 use frictcomp::machine::Machine;

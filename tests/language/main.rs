@@ -1,4 +1,5 @@
-//! What only code can show of the language and of lists: budgets, bytes, hosts, networks, any text, saved runs.
+//! Properties of the language and of lists that only code can show: budgets, bytes, hosts, networks, any text, saved
+//! runs.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 

@@ -168,7 +168,7 @@ fn streamed(text: &str, stop: StopPolicy) -> Vec<String> {
     })
 }
 
-/// Whether the text prevents the program from running at all, which a stream detects late.
+/// Returns whether the text prevents the program from running at all, which a stream detects late.
 fn is_refused(whole: &[String]) -> bool {
     whole
         .iter()
@@ -349,7 +349,8 @@ fn a_message_on_the_motion_of_a_block_is_not_missed() {
     );
 }
 
-/// A sink that does not take quiet blocks gets every other record, and the same counts. Returns the number of quiet blocks.
+/// Checks that a sink that does not take quiet blocks gets every other record, and the same counts. Returns the number
+/// of quiet blocks.
 fn quiet_blocks_are_left_out(text: &str) -> Result<usize, TestCaseError> {
     let mut found = 0;
     for stop in POLICIES {

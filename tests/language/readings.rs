@@ -7,7 +7,7 @@ use frictcomp::session::Session;
 
 use crate::support::{Bench, MACHINE};
 
-/// The state of X after a program that switches it off, something between, and an empty program.
+/// Returns the state of X after a program that switches it off, something between, and an empty program.
 fn state_after(reading: &str, between: fn(&mut Session)) -> State {
     let bench = Bench::on(&format!("{MACHINE}[reading]\n{reading}\n"));
     let mut session = bench.session();

@@ -64,7 +64,7 @@ G90 X5
 P9=1/0
 N50 M30
 ";
-/// Both sides of skip levels, conditions, cases and a loop, on the way to a searched block.
+/// Program with both sides of skip levels, conditions, cases and a loop, on the way to a searched block.
 const SIDES: &str = "/1 X[COMP OFF FRICT]\n$IF V.E.A==1\nY[COMP ON FRICT]\n$ENDIF\n$SWITCH V.E.B\n$CASE 1\n\
                  Y[COMP OFF FRICT]\n$CASE 2\nX[COMP ON FRICT]\n$DEFAULT\nB[COMP ON FRICT]\n$ENDSWITCH\n$WHILE V.E.C\nX[COMP ON FRICT]\n\
                  $IF V.E.D>2\nY[COMP OFF FRICT]\n$ENDIF\n$ENDWHILE\n$IF V.E.A==2\nY[COMP ON FRICT]\n\

@@ -11,7 +11,7 @@ use frictcomp::timeline::Record;
 
 use crate::support::{Bench, SourceMode};
 
-/// X is described, of Y nothing is known but its name, Z has no friction compensation.
+/// Machine on which X is described, of Y nothing is known but its name, and Z has no friction compensation.
 const PARTLY_DESCRIBED: &str = "[[axis]]\nname = \"X\"\nenable = true\n[[axis]]\nname = \"Y\"\n\
     [[axis]]\nname = \"Z\"\nfrict_comp = false\n";
 

@@ -355,7 +355,7 @@ fn only_syntax_knows_the_parser() {
 
 #[test]
 fn commands_are_named_by_their_tables() {
-    // What a `#` command is stands in its row; elsewhere it is named only by messages, and by names in the state.
+    // The meaning of a `#` command is in its row; elsewhere it is named only by messages, and by names in the state.
     let mut files: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     let sources = sources();
     for file in sources.iter().filter(|file| file.package == ".") {

@@ -8,7 +8,7 @@ use crate::{root, rust_files};
 
 /// A package that others may use.
 struct Package {
-    /// Its folder.
+    /// Folder.
     folder: &'static str,
     /// The prefix of its rooms in the list.
     prefix: &'static str,
@@ -28,7 +28,7 @@ const fn package(folder: &'static str, prefix: &'static str) -> Package {
 }
 
 impl Package {
-    /// The file that says what a room makes public; the package itself is the room without a name.
+    /// Returns the file that says what a room makes public; the package itself is the room without a name.
     fn face(&self, room: &str) -> PathBuf {
         let source = root().join(self.folder).join("src");
         match room {
@@ -37,7 +37,7 @@ impl Package {
         }
     }
 
-    /// Whether a room re-exports an item of another one, which is the same item.
+    /// Returns whether a room re-exports an item of another one, which is the same item.
     fn shows(&self, room: &str, name: &str) -> bool {
         let room = room.strip_prefix(self.prefix).unwrap_or(room);
         let room = room.trim_start_matches("::").replace("::", "/");
@@ -52,7 +52,7 @@ impl Package {
         shown.any(is_word)
     }
 
-    /// Every public name with its room and the feature that it needs, sorted.
+    /// Returns every public name with its room and the feature that it needs, sorted.
     fn items(&self) -> Vec<String> {
         let mut items = Vec::new();
         self.gather("", "", &mut items);
@@ -84,7 +84,7 @@ impl Package {
     }
 }
 
-/// The text of a source file without comments.
+/// Returns the text of a source file without comments.
 fn code(path: &Path) -> String {
     let text = fs::read_to_string(path).expect("a source file");
     let lines = text
@@ -221,8 +221,8 @@ const FILLED_IN: &[&str] = &[
     "host::replay::ReplayChannels",
 ];
 
-/// Whether the definition of a type in a text allows it to grow without breaking its readers; `None` if
-/// the text does not define it, or if nothing of it is public.
+/// Returns whether the definition of a type in a text allows it to grow without breaking its readers; `None` if the
+/// text does not define it, or if nothing of it is public.
 fn can_grow(text: &str, name: &str) -> Option<bool> {
     let lines: Vec<&str> = text.lines().collect();
     let start = ["struct", "enum"].map(|kind| format!("pub {kind} {name}"));

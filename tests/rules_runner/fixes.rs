@@ -1,4 +1,4 @@
-//! What fixes change.
+//! Results of fixes.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};

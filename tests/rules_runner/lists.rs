@@ -1,4 +1,4 @@
-//! What lists and `frictcomp.toml` show.
+//! Results of lists and `frictcomp.toml`.
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What a case shows.
+//! Results of a case.
 
 pub(crate) mod fixes;
 pub(crate) mod lists;

@@ -1,4 +1,4 @@
-//! What programs show.
+//! Results of programs.
 
 use std::fmt::Write as _;
 use std::ops::{ControlFlow, Range};
@@ -9,13 +9,13 @@ use frictcomp::timeline::{Record, Sink, StateView};
 
 use crate::support::{Bench, SourceMode};
 
-/// What a run shows: changes and messages by line, and the state that each program leaves.
+/// Result of a run: changes and messages by line, and the state that each program leaves.
 pub(crate) struct Shown {
     text: String,
     start_up: Compensation,
-    /// Every executed block is shown.
+    /// Whether every executed block is shown.
     with_blocks: bool,
-    /// Advice and labels are shown.
+    /// Whether advice and labels are shown.
     with_help: bool,
     is_one_of_several: bool,
     /// The lines that count; of others only messages are shown.
@@ -52,7 +52,7 @@ impl Shown {
         }
     }
 
-    /// The kinds of axes away from the start of the control, with the ways that lead there.
+    /// Returns the kinds of axes away from the start of the control, with the ways that lead there.
     fn left(&self, view: StateView<'_>) -> String {
         let mut left = Vec::new();
         for (axis, name) in view.axes() {
@@ -106,12 +106,12 @@ pub(crate) fn advice(said: &Diagnostic) -> Vec<String> {
     help.chain(labels).collect()
 }
 
-/// Whether it is one of the programs that are run, not one that they call.
+/// Returns whether it is one of the programs that are run, not one that they call.
 pub(crate) fn is_main(file: &str) -> bool {
     matches!(file.as_bytes(), [b'a'..=b'z', b'.', b'n', b'c'])
 }
 
-/// An axis, with the kind of compensation where it is not friction.
+/// Returns an axis, with the kind of compensation where it is not friction.
 fn of_kind(axis: &str, kind: Kind) -> String {
     match kind {
         Kind::Frict => axis.to_owned(),

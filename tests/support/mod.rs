@@ -50,7 +50,7 @@ pub(crate) struct Bench {
     after_error: AfterStop,
 }
 
-/// What follows a program that an error ends.
+/// Action after a program that an error ends.
 pub(crate) enum AfterStop {
     Nothing,
     /// A reset of the channel, and the next program.
@@ -66,7 +66,7 @@ impl Bench {
         Self::configured(toml, BTreeMap::new())
     }
 
-    /// On the machine of a configuration and the lists that it names.
+    /// Runs on the machine of a configuration and the lists that it names.
     pub(crate) fn configured(toml: &str, files: BTreeMap<String, String>) -> Self {
         let file = SourceFile::new("frictcomp.toml", toml);
         let found = Configuration::from_toml(file, &mut Lists(&files)).expect("a machine");
@@ -83,7 +83,7 @@ impl Bench {
         }
     }
 
-    /// On a machine that nobody described.
+    /// Runs on a machine without a description.
     pub(crate) fn undescribed() -> Self {
         Self {
             machine: Machine::unconfigured(),

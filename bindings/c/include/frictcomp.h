@@ -18,9 +18,9 @@
 #define FRICTCOMP_VERSION_PATCH 0
 #define FRICTCOMP_VERSION "0.1.0"
 
-// Whether a call succeeded.
+// Result of a call.
 typedef enum {
-    // It did.
+    // Success.
     FRICTCOMP_STATUS_OK = 0,
     // The control refuses the command with its own error; nothing is changed.
     FRICTCOMP_STATUS_REFUSED = 1,
@@ -40,13 +40,13 @@ typedef enum {
 typedef enum {
     // The axis parameters do not configure it.
     FRICTCOMP_STATE_UNCONFIGURED = 0,
-    // It is switched off.
+    // Switched off.
     FRICTCOMP_STATE_INACTIVE = 1,
-    // It is switched on and works.
+    // Switched on and working.
     FRICTCOMP_STATE_ACTIVE = 2,
-    // It is switched on and changes nothing, because its value list was not accepted.
+    // Switched on without effect, because its value list was not accepted.
     FRICTCOMP_STATE_INEFFECTIVE = 3,
-    // Only the machine knows.
+    // Known only to the machine.
     FRICTCOMP_STATE_UNKNOWN = 4,
 } FrictcompState;
 
@@ -68,13 +68,13 @@ typedef enum {
     FRICTCOMP_KIND_CROSSTALK = 6,
 } FrictcompKind;
 
-// Whether an axis takes part in a coupling, in which the control refuses COMP.
+// Membership of an axis in a coupling, in which the control refuses COMP.
 typedef enum {
-    // It does not.
+    // Not a member of a coupling.
     FRICTCOMP_COUPLING_NONE = 0,
-    // It does.
+    // Member of a coupling.
     FRICTCOMP_COUPLING_ACTIVE = 1,
-    // Only the machine knows: what COMP leaves is unknown.
+    // Possible member, known only to the machine: the state after COMP is unknown.
     FRICTCOMP_COUPLING_PERHAPS = 2,
 } FrictcompCoupling;
 
@@ -103,7 +103,7 @@ extern "C" {
 // The version of frictcomp, as `0.1.0`. The text is always valid.
 const char *frictcomp_version(void);
 
-// Why a call of this thread failed, the last one that did, in one sentence; NULL if none has failed yet. A
+// Returns why the last failing call of this thread failed, in one sentence; NULL if none has failed yet. A
 // call that succeeds changes nothing here: read it after a call that reports a failure. The text is valid
 // until the next call of this thread that fails.
 const char *frictcomp_last_error(void);
@@ -128,7 +128,7 @@ FrictcompMachine *frictcomp_machine_unconfigured(void);
 FrictcompStatus frictcomp_machine_enable(FrictcompMachine *machine,
                                          const char *axis);
 
-// How many axes the machine has; 0 for NULL.
+// Returns the number of axes of the machine; 0 for NULL.
 size_t frictcomp_machine_axis_count(const FrictcompMachine *machine);
 
 // The name of an axis by its position; NULL if there is none. The text is valid until the machine
@@ -140,10 +140,10 @@ FrictcompStatus frictcomp_machine_find(const FrictcompMachine *machine,
                                        const char *name,
                                        size_t *axis);
 
-// How many messages there are about the lists of the machine; 0 for NULL.
+// Returns the number of messages about the lists of the machine; 0 for NULL.
 size_t frictcomp_machine_message_count(const FrictcompMachine *machine);
 
-// How many of the messages are errors: where there is one, the control would not start with these
+// Returns the number of errors among the messages: where there is one, the control would not start with these
 // lists, or would reject one of them. `SIZE_MAX` for NULL.
 size_t frictcomp_machine_error_count(const FrictcompMachine *machine);
 
@@ -204,7 +204,7 @@ const char *frictcomp_possible_states(const FrictcompCompensation *compensation,
                                       size_t axis,
                                       uint32_t kind);
 
-// How many states the last call with this handle changed; 0 for NULL.
+// Returns the number of states that the last call with this handle changed; 0 for NULL.
 size_t frictcomp_change_count(const FrictcompCompensation *compensation);
 
 // Writes a change of the last call with this handle to `change`.

@@ -38,25 +38,25 @@ pub enum FrictcompKind {
 pub enum FrictcompState {
     /// The axis parameters do not configure it.
     Unconfigured = 0,
-    /// It is switched off.
+    /// Switched off.
     Inactive = 1,
-    /// It is switched on and works.
+    /// Switched on and working.
     Active = 2,
-    /// It is switched on and changes nothing, because its value list was not accepted.
+    /// Switched on without effect, because its value list was not accepted.
     Ineffective = 3,
-    /// Only the machine knows.
+    /// Known only to the machine.
     Unknown = 4,
 }
 
-/// Whether an axis takes part in a coupling, in which the control refuses COMP.
+/// Membership of an axis in a coupling, in which the control refuses COMP.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrictcompCoupling {
-    /// It does not.
+    /// Not a member of a coupling.
     None = 0,
-    /// It does.
+    /// Member of a coupling.
     Active = 1,
-    /// Only the machine knows: what COMP leaves is unknown.
+    /// Possible member, known only to the machine: the state after COMP is unknown.
     Perhaps = 2,
 }
 
@@ -129,7 +129,7 @@ impl FrictcompCompensation {
     pub(crate) fn apply(&mut self, command: &str) -> Result<(), Failure> {
         let command = parse_comp(command)?.ok_or(Failure::NotComp)?;
         let changes = self.states.apply(&command)?;
-        // What a command leaves on an axis that may be coupled is unknown for another reason.
+        // After a command, an axis that may be coupled has an unknown state for another reason.
         let (axis, kinds) = (
             self.states.resolve(&command.axis)?,
             command.selection.kinds(),

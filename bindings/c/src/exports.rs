@@ -25,7 +25,7 @@ pub extern "C" fn frictcomp_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
-/// Why a call of this thread failed, the last one that did, in one sentence; NULL if none has failed yet. A
+/// Returns why the last failing call of this thread failed, in one sentence; NULL if none has failed yet. A
 /// call that succeeds changes nothing here: read it after a call that reports a failure. The text is valid
 /// until the next call of this thread that fails.
 #[unsafe(no_mangle)]
@@ -79,7 +79,7 @@ pub unsafe extern "C" fn frictcomp_machine_enable(
     })
 }
 
-/// How many axes the machine has; 0 for NULL.
+/// Returns the number of axes of the machine; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_axis_count(machine: *const FrictcompMachine) -> usize {
     call(
@@ -119,7 +119,7 @@ pub unsafe extern "C" fn frictcomp_machine_find(
     })
 }
 
-/// How many messages there are about the lists of the machine; 0 for NULL.
+/// Returns the number of messages about the lists of the machine; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_message_count(
     machine: *const FrictcompMachine,
@@ -130,7 +130,7 @@ pub unsafe extern "C" fn frictcomp_machine_message_count(
     )
 }
 
-/// How many of the messages are errors: where there is one, the control would not start with these
+/// Returns the number of errors among the messages: where there is one, the control would not start with these
 /// lists, or would reject one of them. `SIZE_MAX` for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_error_count(machine: *const FrictcompMachine) -> usize {
@@ -304,7 +304,7 @@ pub unsafe extern "C" fn frictcomp_possible_states(
     )
 }
 
-/// How many states the last call with this handle changed; 0 for NULL.
+/// Returns the number of states that the last call with this handle changed; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_change_count(
     compensation: *const FrictcompCompensation,

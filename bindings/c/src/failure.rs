@@ -12,11 +12,11 @@ use frictcomp::syntax::Fault;
 use frictcomp_host::HostError;
 use thiserror::Error;
 
-/// Whether a call succeeded.
+/// Result of a call.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrictcompStatus {
-    /// It did.
+    /// Success.
     Ok = 0,
     /// The control refuses the command with its own error; nothing is changed.
     Refused = 1,
@@ -32,7 +32,7 @@ pub enum FrictcompStatus {
     Internal = 6,
 }
 
-/// Why a call failed.
+/// Reason why a call failed.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
     #[error(transparent)]

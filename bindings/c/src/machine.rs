@@ -93,14 +93,14 @@ impl FrictcompMachine {
         &self.messages
     }
 
-    /// How many of the messages are errors.
+    /// Returns the number of errors among the messages.
     pub(crate) fn errors(&self) -> usize {
         self.errors
     }
 }
 
-/// Whether a program can name an axis so where no list does (R2.20): in capital letters, not by `Q` alone, which is an
-/// axis only where a list says so, and not by a word of the COMP command.
+/// Returns whether a program can name an axis so where no list does (R2.20): in capital letters, not by `Q` alone, which
+/// is an axis only where a list says so, and not by a word of the COMP command.
 fn may_be_axis(name: &str) -> bool {
     let is_word = matches!(name, "Q" | "COMP" | "ALL") || name.parse::<Kind>().is_ok();
     let is_capital = !name.contains(|letter: char| letter.is_ascii_lowercase());

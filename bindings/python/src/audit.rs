@@ -86,7 +86,7 @@ fn audited(job: AuditJob, stop: &Stop) -> Result<Audited, Failure> {
     })
 }
 
-/// What is audited, independent of Python.
+/// Programs to audit, independent of Python.
 pub(crate) struct AuditJob {
     pub(crate) programs: GivenPrograms,
     pub(crate) machine: MachineOptions,
@@ -118,7 +118,7 @@ pub(crate) fn said(auditor: &ArchiveAuditor) -> GivenMessages {
     }
 }
 
-/// What a program does to an axis.
+/// Effect of a program on an axis.
 struct AxisEffectRow<'a> {
     machine: &'a MachineAudit,
     program: &'a ProgramAudit,

@@ -50,7 +50,7 @@ pub(crate) fn check(
     Ok(PyMessages::new(said))
 }
 
-/// Everything that a check needs, independent of Python.
+/// Input of a check, independent of Python.
 struct CheckJob {
     programs: GivenPrograms,
     machine: MachineOptions,

@@ -45,7 +45,7 @@ pub(crate) struct PyContour {
     messages: Py<PyMessages>,
 }
 
-/// What is driven, independent of Python.
+/// Input of a contour, independent of Python.
 struct ContourJob {
     programs: GivenPrograms,
     machine: MachineOptions,
@@ -232,7 +232,7 @@ impl PyContour {
         self.remarks.clone()
     }
 
-    /// What stopped the program or the trace, and what the trace simplifies.
+    /// Causes that stopped the program or the trace, and simplifications of the trace.
     #[getter]
     fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
         self.messages.clone_ref(py)

@@ -1,4 +1,4 @@
-//! Why something could not be done, as an exception of Python.
+//! Failures as exceptions of Python.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 use crate::exceptions::error;
 use crate::messages::PyMessage;
 
-/// Why something could not be done.
+/// Reason why something could not be done.
 #[derive(Debug)]
 pub(crate) struct Failure {
     message: String,

@@ -224,7 +224,7 @@ impl AxisRecordings {
     }
 }
 
-/// What is requested.
+/// Returns the options for a requested list.
 fn options(request: ListRequest) -> PyResult<IdentifyOptions> {
     request.options().map_err(|error| match error {
         ListRequestError::MaxError(_) => refused(format!(

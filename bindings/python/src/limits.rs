@@ -1,4 +1,4 @@
-//! What limits a dry run.
+//! Limits of a dry run.
 
 use frictcomp::interpreter::{Limits, Options};
 use frictcomp::syntax::SkipLevels;
@@ -11,7 +11,7 @@ use crate::several::Several;
 /// The deepest nesting of macros that can be allowed.
 const MACROS: u32 = 64;
 
-/// What a dry run skips and where it ends; the defaults are those of the command line.
+/// Limits of a dry run; the defaults are those of the command line.
 ///
 /// ``blocks`` bounds the executed blocks, ``work`` what macros, strings and unknown conditions cost
 /// beyond them, ``values`` the values that a program keeps; ``calls``, ``nesting`` and ``macros``
@@ -105,12 +105,12 @@ fn levels(on: SkipLevels) -> Vec<u32> {
     levels.filter(is_on).collect()
 }
 
-/// How programs run within limits.
+/// Returns the options of programs within limits.
 pub(crate) fn options(limits: Option<&Bound<'_, PyLimits>>) -> Options {
     limits.map_or_else(Options::default, |limits| limits.get().0)
 }
 
-/// How programs run while a user waits: unless limits are given, loops and calls end soon (R9.91).
+/// Returns the options of programs while a user waits: unless limits are given, loops and calls end soon (R9.91).
 pub(crate) fn brief(limits: Option<&Bound<'_, PyLimits>>) -> Options {
     let given = limits.map(|limits| limits.get().0);
     given.unwrap_or_else(|| Options::default().with_limits(Limits::brief()))

@@ -52,7 +52,7 @@ pub(crate) struct PyFix {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub(crate) struct PyEnd {
     file: String,
-    /// From 1.
+    /// Line of the block, from 1.
     line: u32,
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct PyMessage {
     code: PickledWord,
     severity: PickledWord,
     file: String,
-    /// From 1.
+    /// Line of the block, from 1.
     line: u32,
     /// From 1, in characters.
     column: u32,
@@ -78,7 +78,7 @@ pub(crate) struct PyMessage {
     /// The axis that it refers to.
     axis: Option<String>,
     message: String,
-    /// What to do.
+    /// Advice.
     help: Vec<String>,
     /// The ends of the program that a message about program end refers to.
     ends: Vec<PyEnd>,
@@ -86,7 +86,7 @@ pub(crate) struct PyMessage {
     fixes: Vec<PyFix>,
     /// The main programs that reach the place of the message in a called program, at most 20.
     reached_from: Vec<String>,
-    /// How many main programs reach it.
+    /// Number of main programs that reach it.
     reached_from_count: usize,
 }
 
@@ -97,7 +97,7 @@ pub(crate) struct GivenMessages {
     pub(crate) messages: Vec<PyMessage>,
     /// The remark above everything else: that no machine is described (R1.37).
     pub(crate) remark: Option<String>,
-    /// How many more messages there are, by severity (R2.85).
+    /// Number of further messages, by severity (R2.85).
     pub(crate) left_out: BTreeMap<PickledWord, u64>,
 }
 
@@ -120,14 +120,14 @@ impl GivenMessages {
         }
     }
 
-    /// How many more messages of a program are not listed.
+    /// Counts the messages of a program that are not listed.
     pub(crate) fn leave_out(&mut self, unsaid: &BTreeMap<Severity, u64>) {
         for (severity, more) in unsaid.iter().filter(|(_, more)| **more > 0) {
             *self.left_out.entry(severity.as_str().into()).or_default() += more;
         }
     }
 
-    /// How many messages there are, listed or not.
+    /// Counts the messages, listed or not.
     pub(crate) fn count_all(&mut self, counts: &BTreeMap<Severity, u64>) {
         for (severity, all) in counts {
             let word = severity.as_str();
@@ -252,7 +252,7 @@ impl PyMessage {
         }
     }
 
-    /// Whether it is an error.
+    /// Returns whether it is an error.
     pub(crate) fn is_error(&self) -> bool {
         self.severity == "error"
     }
@@ -298,7 +298,7 @@ impl PyMessages {
         Self(said)
     }
 
-    /// How many of a severity there are, listed or not.
+    /// Returns the number of messages of a severity, listed or not.
     fn count_of(&self, severity: &str) -> u64 {
         let messages = self.0.messages.iter();
         let listed = messages.filter(|it| it.severity == severity).count() as u64;

@@ -69,7 +69,7 @@ fn escaped(py: Python<'_>, text: &str) -> PyResult<String> {
 /// Returns a picture with identifiers of its own: a notebook holds several, also those of earlier processes.
 fn with_own_ids(picture: &str) -> String {
     let own = format!("fc-{:016x}", RandomState::new().hash_one(picture));
-    // Those of the picture itself, and of the one inside that of a contour.
+    // The identifiers of the picture itself, and of the one inside the picture of a contour.
     let names = ["picture-title", "picture-desc", "below-title", "below-desc"];
     names.iter().fold(picture.to_owned(), |picture, name| {
         picture.replace(&format!("\"{name}\""), &format!("\"{own}-{name}\""))

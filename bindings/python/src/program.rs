@@ -177,7 +177,7 @@ fn input(given: &Bound<'_, PyAny>) -> PyResult<Input> {
     Ok(Input::File(path))
 }
 
-/// Whether a path that leads nowhere may have been meant as a text.
+/// Returns whether a path that leads nowhere may have been meant as a text.
 fn looks_like_a_text(path: &str) -> bool {
     path.contains(['[', '%', ';']) || path.contains("M30")
 }

@@ -68,7 +68,7 @@ pub(crate) fn replay(
     interruptible(programs.py(), move |stop| job.done(stop))
 }
 
-/// What is compared, independent of Python.
+/// Input of a comparison with a recording, independent of Python.
 struct ReplayJob {
     recording: PathBuf,
     programs: GivenPrograms,

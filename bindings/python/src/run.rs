@@ -56,7 +56,7 @@ pub(crate) fn run(
     PyTimeline::new(program.py(), recorded)
 }
 
-/// Everything that a run needs, independent of Python.
+/// Input of a run, independent of Python.
 struct RunJob {
     programs: GivenPrograms,
     machine: MachineOptions,
@@ -66,7 +66,7 @@ struct RunJob {
 }
 
 impl RunJob {
-    /// What was recorded.
+    /// Does the run, and returns what was recorded.
     fn done(self, stop: &Stop) -> Result<(RecordedSession, ArrowTable, GivenMessages), Failure> {
         let inputs = &self.programs.inputs;
         self.programs.probe()?;

@@ -136,7 +136,7 @@ pub(crate) fn circle(
     }
 }
 
-/// What is simulated.
+/// Input of a simulation.
 struct Simulated {
     circle: Circle,
     plant: String,

@@ -18,7 +18,7 @@ use crate::failure::Failure;
 pub(crate) struct PyState(Arc<SavedState>);
 
 impl PyState {
-    /// What a session saves.
+    /// Wraps the saved state of a session.
     pub(crate) fn new(saved: SavedState) -> Self {
         Self(Arc::new(saved))
     }
@@ -96,14 +96,14 @@ impl PyState {
 pub(crate) enum StartState {
     /// The start of the control.
     Fresh,
-    /// What another run left.
+    /// State that another run left.
     Left(Arc<SavedState>),
     /// The content of a file, to which the result of the run is also written.
     File(PathBuf),
 }
 
 impl StartState {
-    /// Nothing, a `State`, or the path of a state file.
+    /// Reads the start of a session: nothing, a `State`, or the path of a state file.
     pub(crate) fn of(given: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let Some(given) = given else {
             return Ok(Self::Fresh);

@@ -12,13 +12,13 @@ use pyo3::prelude::*;
 
 use crate::failure::Failure;
 
-/// How long an interrupt waits at most before it is seen.
+/// Longest time before an interrupt is noticed.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// The stack size of the thread: as large as that of a program's main thread elsewhere.
 const STACK: usize = 8 << 20;
 
-/// Whether the work was cancelled.
+/// Flag that the work was cancelled.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stop(Arc<AtomicBool>);
 
@@ -65,7 +65,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     };
     let of_worker = stop.clone();
     let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
-        // No one waits for it after an interrupt.
+        // After an interrupt, the result is not awaited any more.
         let _ = sender.send(work(&of_worker));
     });
     let worker = worker.map_err(|error| {

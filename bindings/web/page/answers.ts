@@ -133,7 +133,7 @@ export interface Audit {
   words: [word: string, meaning: string][];
 }
 
-/** How programs run. */
+/** Settings of a run. */
 export interface Settings {
   enable: string[];
   keepGoing: boolean;

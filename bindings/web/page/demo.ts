@@ -13,7 +13,7 @@ import configuration from "../../../programs/demo/frictcomp.toml";
 import friction from "../../../programs/demo/friction.nc";
 import next from "../../../programs/demo/next.nc";
 
-/** Where the axes are before the plate. */
+/** Positions of the axes before the plate. */
 export const DEMO_START = "X0, Y0, Z10";
 
 export const DEMO: readonly [path: string, text: string][] = [

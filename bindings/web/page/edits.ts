@@ -35,12 +35,12 @@ export class Edits {
     this.unsaved.delete(path);
   }
 
-  /** Whether a program differs here from its file. */
+  /** Returns whether a program differs here from its file. */
   isEdited(path: string | null): boolean {
     return path !== null && this.originals.has(path);
   }
 
-  /** Whether something would be lost with the page. */
+  /** Whether unsaved changes would be lost with the page. */
   get isUnsaved(): boolean {
     return this.unsaved.size > 0;
   }

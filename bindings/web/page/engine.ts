@@ -10,7 +10,7 @@ interface Border {
   answer_length(): number;
 }
 
-/** Why a question has no answer. */
+/** Reason why a question has no answer. */
 export interface Refusal {
   message: string;
   help: string | null;

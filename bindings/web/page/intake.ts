@@ -4,11 +4,11 @@
 export interface Incoming {
   path: string;
   file: Blob;
-  /** Whether the user picked it individually, and not with its folder. */
+  /** Whether the user picked the file individually, and not with its folder. */
   named: boolean;
 }
 
-/** What came in, and what was left out. */
+/** Files that came in, and files that were left out. */
 export interface Intake {
   incoming: Incoming[];
   leftOut: number;
@@ -28,7 +28,7 @@ const TEXT = /\.(nc|cnc|mpf|spf|sub|cyc|iso|ngc|tap|lis|toml|csv|tsv)$/i;
 /** Folders that contain no programs. */
 const SKIPPED = /^(\.|node_modules$|target$)/;
 
-/** Whether a file of a folder is worth reading. */
+/** Returns whether a file of a folder is worth reading. */
 export function isTaken(path: string, size: number): boolean {
   const parts = path.split("/");
   const name = parts.pop() ?? "";

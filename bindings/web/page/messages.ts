@@ -84,7 +84,7 @@ function about(code: string, explain: Explain): HTMLElement {
   return box;
 }
 
-/** What a fix does, in a line. */
+/** Describes a fix in a line. */
 export function inWords(fix: Fix): string {
   const isInsertion = fix.line === fix.end_line && fix.column === fix.end_column;
   const text = fix.text.trim();

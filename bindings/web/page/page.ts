@@ -45,7 +45,7 @@ let program: string | null = null;
 let shownRecording: string | null = null;
 let overview: Overview | null = null;
 let kinds: [path: string, kind: FileKind][] = [];
-/** How many pieces of work are pending. */
+/** Number of pieces of work that are pending. */
 let underWay = 0;
 /** The run that the last answer belongs to: later runs make earlier answers worthless. */
 let ticket = 0;
@@ -174,7 +174,7 @@ function pathsOf(wanted: FileKind): string[] {
   return kinds.flatMap(([path, kind]) => (kind === wanted ? [path] : []));
 }
 
-/** What files are that nothing is done with. */
+/** Names for files that the page has no use for. */
 const OTHERS = {
   picture: "picture",
   foreign: "foreign program",
@@ -282,7 +282,7 @@ async function run(): Promise<void> {
   await result(found);
 }
 
-/** What a run rests on in addition to the files. */
+/** Returns the basis of a run in addition to the files. */
 function given(): Given {
   return {
     startups: pathsOf("startup").length,

@@ -30,14 +30,14 @@ export function lead({ headline }: Pick<Report, "headline">): HTMLElement {
     ...withCode(sentence(headline.text)));
 }
 
-/** Why there is no report. */
+/** Creates a notice with the reason why there is no report. */
 export function refused({ message, help, said }: Refusal): HTMLElement {
   return h("div", { class: "notice error", role: "alert" },
     h("p", {}, ...withCode(sentence(message))), help !== null && h("p", {}, ...withCode(sentence(help))),
     ...said.map((one) => h("p", {}, ...withCode(`${one.file}:${one.line}: ${one.message}`))));
 }
 
-/** What follows the verdict of a report. */
+/** Creates the part of a report after its verdict. */
 export function figures({ blocks }: Report): HTMLElement {
   return h("div", { class: "figures" }, ...blocks.map((block) =>
     "line" in block ? h("p", {}, ...withCode(block.line.trim())) : table(block.table)));

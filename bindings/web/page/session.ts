@@ -6,7 +6,7 @@ import type { Order, Report } from "./worker";
 /** A file that was dropped. */
 export interface DroppedFile {
   content: Uint8Array;
-  /** Whether the user picked it individually. */
+  /** Whether the user picked the file individually. */
   named: boolean;
 }
 
@@ -68,7 +68,7 @@ export class Session {
     return JSON.parse(decoder.decode(await this.ask(question))) as T;
   }
 
-  /** Whether an answer is on its way. */
+  /** Whether an answer is pending. */
   get isBusy(): boolean {
     return this.waiting.size > 0;
   }

@@ -11,7 +11,7 @@ import { sentence } from "./verdict";
 /** The maximum number of feeds that are tuned for at once. */
 const MOST_FEEDS = 8;
 
-/** What is wrong with a field; it is said next to it until the field changes. */
+/** Fault of a field, shown next to it until the field changes. */
 export class FieldError extends Error {
   constructor(readonly field: string, message: string) {
     super(message);
@@ -35,7 +35,7 @@ function value(id: string): string {
   return (part(id) as HTMLInputElement | HTMLSelectElement).value;
 }
 
-/** What a field holds; `null` where it is empty. */
+/** Returns the content of a field; `null` where it is empty. */
 export function optional(id: string): string | null {
   return value(id).trim() || null;
 }

@@ -3,7 +3,7 @@
 import type { Axis, State } from "./answers";
 import { h } from "./dom";
 
-/** What each state means, in the order of the legend. */
+/** Meanings of the states, in the order of the legend. */
 export const MEANINGS: readonly [state: State | "away", meaning: string][] = [
   ["active", "switched on, and a value list was accepted: it works"],
   ["away", "not as after a start of the control: the next program finds it so"],
@@ -13,7 +13,7 @@ export const MEANINGS: readonly [state: State | "away", meaning: string][] = [
   ["unknown", "only the machine knows: frictcomp does not guess"],
 ];
 
-/** Whether a state of an axis differs from the one after a start of the control. */
+/** Returns whether a state of an axis differs from the one after a start of the control. */
 export function isAway(state: State | "changing", axis: Axis): boolean {
   return state !== axis.startUp && state !== "changing" && state !== "unknown";
 }

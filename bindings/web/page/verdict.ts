@@ -11,9 +11,9 @@ export interface Sentence {
   text: string;
 }
 
-/** What a run rests on in addition to the files. */
+/** Basis of a run in addition to the files. */
 export interface Given {
-  /** How many start-up lists were dropped. */
+  /** Number of dropped start-up lists. */
   startups: number;
 }
 
@@ -33,7 +33,7 @@ function quoted(message: string): string {
   return /`([^`]+)`/.exec(message)?.[1] ?? message;
 }
 
-/** Whether a run asked for a file of this path. */
+/** Returns whether a run asked for a file of this path. */
 export function isMissing(overview: Overview, path: string): boolean {
   const last = (name: string): string => name.split(/[/\\]/).pop()?.toLowerCase() ?? "";
   return missing(overview).some((name) => last(name) === last(path));
@@ -55,13 +55,13 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   return notes;
 }
 
-/** Whether a run on a described machine came to its end, and nothing was said of it. */
+/** Returns whether a run on a described machine came to its end without messages. */
 function isQuiet({ errors, warnings, infos, endedBy, machine }: Overview): boolean {
   const isWhole = endedBy !== null && !["error", "budget"].includes(endedBy);
   return isWhole && machine.isDescribed && errors + warnings + infos === 0;
 }
 
-/** What a verdict does not say of the run and of the dropped files. */
+/** Yields what a verdict does not say of the run and of the dropped files. */
 function* doubts(overview: Overview, given: Given): Generator<Sentence> {
   if (overview.blocks === 0) {
     yield { weight: "warning", text: "There is no block in this program: nothing was run." };

@@ -1,24 +1,24 @@
 // Which lines of a long list are on the screen. Browsers bound the height of an element, so the height
 // of a list beyond that stands for more than its own pixels.
 
-/** All browsers support elements of this height in px. */
+/** Height in px up to which all browsers support elements. */
 export const TALLEST = 8_000_000;
 
 export interface Window {
   /** The height of a line in px. */
   line: number;
-  /** How many lines there are. */
+  /** Number of lines. */
   total: number;
   /** The height of the visible part of the list in px. */
   seen: number;
 }
 
-/** How high the list is in px. */
+/** Returns the height of the list in px. */
 export function height({ line, total }: Window): number {
   return Math.min(line * total, TALLEST);
 }
 
-/** Whether a line has fewer pixels than it needs. */
+/** Returns whether a line has fewer pixels than it needs. */
 export function isSquashed(window: Window): boolean {
   return window.line * window.total > TALLEST;
 }

@@ -103,7 +103,7 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
     Audited { report, failures }
 }
 
-/// The findings and the table of programs and axes.
+/// Returns the findings and the table of programs and axes.
 pub(crate) fn answer(dropped: &mut Dropped, enable: &[String]) -> Vec<u8> {
     let Audited { report, failures } = audit(dropped, enable);
     let mut headline = report.headline();
@@ -120,7 +120,7 @@ pub(crate) fn answer(dropped: &mut Dropped, enable: &[String]) -> Vec<u8> {
     })
 }
 
-/// The report as a page, the same as that of `frictcomp audit --html`.
+/// Returns the report as a page, the same as that of `frictcomp audit --html`.
 pub(crate) fn report(dropped: &mut Dropped, enable: &[String]) -> Result<Vec<u8>, Refusal> {
     let Audited { report, failures } = audit(dropped, enable);
     // A report that leaves programs out would look like an all-clear.

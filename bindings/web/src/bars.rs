@@ -13,7 +13,7 @@ const CHANGING: &str = "changing";
 /// A stretch of blocks, from 1, both included, and its state.
 pub(crate) type BarSpan = (usize, usize, &'static str);
 
-/// The bar of an axis.
+/// Returns the bar of an axis.
 pub(crate) fn bar(rows: &ExecutedRows, axis: usize) -> Vec<BarSpan> {
     let total = rows.kept.len();
     let columns = total.min(COLUMNS);

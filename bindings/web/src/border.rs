@@ -62,13 +62,13 @@ extern "C" fn ask() -> u32 {
     })
 }
 
-/// The address of the answer.
+/// Returns the address of the answer.
 #[unsafe(no_mangle)]
 extern "C" fn answer() -> *const u8 {
     BORDER.with_borrow(|border| border.answer.as_ptr())
 }
 
-/// The length of the answer in bytes.
+/// Returns the length of the answer in bytes.
 #[unsafe(no_mangle)]
 extern "C" fn answer_length() -> usize {
     BORDER.with_borrow(|border| border.answer.len())

@@ -16,7 +16,7 @@ use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::json;
 
-/// What is driven.
+/// Settings of a circular test.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct CircleSettings {
@@ -32,11 +32,11 @@ pub(crate) struct CircleSettings {
 struct CircleAnswer<'a> {
     #[serde(flatten)]
     drawn: DrawnReport<'a>,
-    /// Where the value lists come from.
+    /// Origin of the value lists.
     lists: String,
 }
 
-/// The drives of a name: `stiff`, `mid`, `soft`.
+/// Returns the drives of a name: `stiff`, `mid`, `soft`.
 pub(crate) fn preset(name: &str) -> Result<Preset, Refusal> {
     name.parse()
         .map_err(|error: <Preset as FromStr>::Err| Refusal::new(error.to_string()))
@@ -82,7 +82,7 @@ fn simulate(
     Ok((CircleReport::simulated(test, comparison, origin), told))
 }
 
-/// The value lists of X and Y, if any of them was accepted.
+/// Returns the value lists of X and Y, if any of them was accepted.
 fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
     let list = |name: &str| {
         let axis = machine.axes.iter().find(|axis| axis.name == name)?;
@@ -99,7 +99,7 @@ fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
     lists.iter().any(Option::is_some).then_some((lists, names))
 }
 
-/// The picture and the figures.
+/// Returns the picture and the figures.
 pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
     let (report, lists) = simulate(dropped, settings)?;
     Ok(json(&CircleAnswer {
@@ -108,7 +108,7 @@ pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result
     }))
 }
 
-/// The report as a page.
+/// Returns the report as a page.
 pub(crate) fn report(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
     let (report, _) = simulate(dropped, settings)?;
     let mut written = Vec::new();

@@ -23,10 +23,10 @@ use crate::run::{RunSettings, Texts, json};
 use crate::watched::Page;
 use crate::wording::page;
 
-/// More cycles than that take minutes.
+/// Limit on the cycles; more would take minutes.
 const MOST_CYCLES: u64 = 20_000_000;
 
-/// What is driven.
+/// Settings of a contour.
 #[derive(Debug, Deserialize)]
 pub(crate) struct ContourSettings {
     program: String,
@@ -43,7 +43,7 @@ pub(crate) struct ContourSettings {
 struct ContourAnswer<'a> {
     #[serde(flatten)]
     drawn: DrawnReport<'a>,
-    /// What stopped the program or the trace, and what the trace simplifies.
+    /// Causes that stopped the program or the trace, and simplifications of the trace.
     notes: Vec<String>,
 }
 
@@ -105,7 +105,7 @@ fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
     recorder.drawing(ContourPicture::new(plane))
 }
 
-/// The picture and the figures.
+/// Returns the picture and the figures.
 pub(crate) fn answer(
     dropped: &mut Dropped,
     settings: &ContourSettings,
@@ -139,7 +139,7 @@ fn notes(contour: &ContourReport) -> Vec<String> {
     notes
 }
 
-/// The report as a page, the same as that of `frictcomp contour --html`.
+/// Returns the report as a page, the same as that of `frictcomp contour --html`.
 pub(crate) fn report(
     dropped: &mut Dropped,
     settings: &ContourSettings,

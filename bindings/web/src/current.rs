@@ -25,13 +25,13 @@ use crate::wording::page;
 /// Cycles between two progress reports.
 const STEP: u64 = 1 << 16;
 
-/// More cycles than that take minutes.
+/// Limit on the cycles; more would take minutes.
 const MOST_CYCLES: u64 = 20_000_000;
 
 #[derive(Serialize)]
 struct CurrentAnswer {
     svg: Option<String>,
-    /// What the picture rests on and what is missing in it.
+    /// Basis of the picture, and what is missing in it.
     notes: Vec<String>,
 }
 
@@ -78,7 +78,7 @@ impl CurrentSink for Drawing {
     }
 }
 
-/// The picture of the current of every axis that has a value list.
+/// Returns the picture of the current of every axis that has a value list.
 pub(crate) fn answer(
     dropped: &mut Dropped,
     program: &str,
@@ -127,7 +127,7 @@ pub(crate) fn answer(
     Ok(json(&CurrentAnswer { svg, notes }))
 }
 
-/// What the picture rests on and what is missing in it.
+/// Returns the basis of the picture, and what is missing in it.
 fn notes(
     machine: &Machine,
     followed: &[AxisIndex],

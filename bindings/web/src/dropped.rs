@@ -33,7 +33,7 @@ pub(crate) enum Kind {
     Picture,
     /// A program for another control.
     Foreign,
-    /// It was in a folder, and its extension is not that of a program.
+    /// File of a folder whose extension is not that of a program.
     Other,
 }
 
@@ -44,7 +44,7 @@ struct DroppedFile {
     kind: Kind,
 }
 
-/// All dropped files.
+/// The dropped files.
 #[derive(Debug, Default)]
 pub(crate) struct Dropped {
     files: BTreeMap<PathBuf, DroppedFile>,
@@ -74,7 +74,7 @@ impl Dropped {
         *self = Self::default();
     }
 
-    /// The files with their roles; the extensions of a configuration count.
+    /// Returns the files with their roles; the extensions of a configuration count.
     pub(crate) fn files(&mut self) -> Vec<(String, Kind)> {
         let disk = self.disk();
         let mut machines =
@@ -106,14 +106,14 @@ impl Dropped {
         disk.clone()
     }
 
-    /// A file that is not taken as a program.
+    /// Returns a file that is not taken as a program.
     pub(crate) fn left_out(&self, path: &str) -> Option<LeftOutFile> {
         let path = Path::new(path);
         let file = self.files.get(path)?;
         Some(LeftOutFile::in_memory(path.to_owned(), &file.text))
     }
 
-    /// A program by its path.
+    /// Returns a program by its path.
     pub(crate) fn program(&self, path: &str) -> Result<Input, Refusal> {
         let path = Path::new(path);
         let file = self.files.get(path).ok_or_else(|| {
@@ -126,8 +126,8 @@ impl Dropped {
         }))
     }
 
-    /// How the machine of programs is found: from the nearest `frictcomp.toml` as on the command line, or,
-    /// where none was dropped, from the only start-up list.
+    /// Returns the options for finding the machine of programs: from the nearest `frictcomp.toml` as on the command
+    /// line, or, where none was dropped, from the only start-up list.
     pub(crate) fn options(&mut self, folder: &Path, enable: &[String]) -> MachineOptions {
         let disk = self.disk();
         let mut options = MachineOptions {
@@ -140,7 +140,7 @@ impl Dropped {
         options
     }
 
-    /// The start-up list, if there is exactly one.
+    /// Returns the start-up list, if there is exactly one.
     fn only_startup(&self) -> Option<PathBuf> {
         let files = self.files.iter();
         let has_cnc = |path: &Path| match &self.disk {
@@ -152,7 +152,7 @@ impl Dropped {
         startups.next().is_none().then(|| path.clone())
     }
 
-    /// The machine of a program.
+    /// Returns the machine of a program.
     pub(crate) fn machine(
         &mut self,
         input: &Input,
@@ -206,7 +206,7 @@ fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
 /// Extensions of files that hold samples, or are known to hide them.
 const RECORDINGS: [&str; 7] = ["csv", "tsv", "svdx", "svd", "svb", "tdms", "tcscopex"];
 
-/// Whether a text has columns of samples.
+/// Returns whether a text has columns of samples.
 fn is_table(text: &str) -> bool {
     let mut is_table = false;
     let mut reader = TraceReader::new(1, |_| {
@@ -240,7 +240,7 @@ fn is_picture(path: &Path, content: &[u8]) -> bool {
             .any(|it| content.starts_with(it) && is_bitmap(it))
 }
 
-/// Whether a text begins as a program for Heidenhain in its own language, with `BEGIN PGM` in its first line.
+/// Returns whether a text begins as a program for Heidenhain in its own language, with `BEGIN PGM` in its first line.
 fn is_for_another_control(text: &str) -> bool {
     let first = text.lines().find(|line| !line.trim().is_empty());
     let words = first.unwrap_or_default().split_whitespace();

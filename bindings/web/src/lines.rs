@@ -27,7 +27,7 @@ impl IndexedText {
         }
     }
 
-    /// A number of lines from one on, counted from 1, joined by a blank.
+    /// Returns a number of lines from one on, counted from 1, joined by a blank.
     pub(crate) fn shown(&self, line: u32, count: u8) -> String {
         let first = usize::try_from(line.max(1)).unwrap_or(usize::MAX) - 1;
         let last = first.saturating_add(usize::from(count.max(1)));

@@ -35,7 +35,7 @@ impl ParameterTable {
     }
 }
 
-/// The effective parameters of a program, with their origins, and the curves.
+/// Returns the effective parameters of a program, with their origins, and the curves.
 pub(crate) fn answer(
     dropped: &mut Dropped,
     program: &str,

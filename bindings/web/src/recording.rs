@@ -47,13 +47,13 @@ struct RecordingAnswer<'a> {
     channels: DrawnReport<'a>,
     /// The names of the channels.
     names: Vec<&'a str>,
-    /// Where two axes circle.
+    /// Report on the circle of two axes, if they move on one.
     circle: Option<DrawnReport<'a>>,
-    /// Why positions of two axes are no circle.
+    /// Reason why positions of two axes are no circle.
     no_circle: Option<String>,
 }
 
-/// The channels of a recording, and its circle.
+/// Returns the channels of a recording, and its circle.
 pub(crate) fn answer(
     dropped: &mut Dropped,
     settings: &RecordingSettings,
@@ -103,7 +103,7 @@ pub(crate) fn answer(
     }))
 }
 
-/// The fit of a value list to a recording.
+/// Returns the fit of a value list to a recording.
 pub(crate) fn verify(dropped: &mut Dropped, settings: &VerifySettings) -> Result<Vec<u8>, Refusal> {
     let disk = dropped.disk();
     let list = read_value_list(Path::new(&settings.list), &FileRegistry::default(), &disk)?.list;

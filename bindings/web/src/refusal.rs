@@ -1,10 +1,10 @@
-//! Why a question has no answer.
+//! Refusals of a question.
 
 use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp_host::HostError;
 use serde::Serialize;
 
-/// Why a question has no answer: a sentence, what to do, and the messages about a configuration.
+/// Reason why a question has no answer: a sentence, what to do, and the messages about a configuration.
 #[derive(Debug, Serialize)]
 pub(crate) struct Refusal {
     pub(crate) message: String,
@@ -28,7 +28,7 @@ impl Refusal {
         }
     }
 
-    /// A name that does not exist.
+    /// Returns a name that does not exist.
     pub(crate) fn unknown(message: impl Into<String>, unknown: &UnknownName) -> Self {
         Self {
             help: unknown.help("its axes are"),

@@ -16,7 +16,7 @@ pub(crate) struct KeptRow {
     pub(crate) line: u32,
     pub(crate) states: u32,
     pub(crate) file: u16,
-    /// How many lines it has.
+    /// Number of lines of the block.
     pub(crate) lines: u8,
     /// The depth of calls, 0 in the main program.
     pub(crate) level: u8,
@@ -41,7 +41,7 @@ impl FrictionStates {
         }
     }
 
-    /// The possible states of axes, by their positions, in words as seen from a file.
+    /// Returns the possible states of axes, by their positions, in words as seen from a file.
     pub(crate) fn possible(&self, file: &str) -> Vec<(usize, String)> {
         let possible = self.possible.iter();
         possible
@@ -97,12 +97,12 @@ impl ExecutedRows {
         });
     }
 
-    /// The states after a row; without a number, those before the first row.
+    /// Returns the states after a row; without a number, those before the first row.
     pub(crate) fn states(&self, row: Option<usize>) -> &[State] {
         self.moment(row).map_or(&[], |moment| &moment.states)
     }
 
-    /// The moment after a row; without a number, the one before the first row.
+    /// Returns the moment after a row; without a number, the one before the first row.
     pub(crate) fn moment(&self, row: Option<usize>) -> Option<&FrictionStates> {
         self.numbered(row.map_or(0, |row| self.kept[row].states))
     }
@@ -112,7 +112,7 @@ impl ExecutedRows {
         self.moments.get(moment).map(AsRef::as_ref)
     }
 
-    /// The axes whose state a row changes.
+    /// Returns the axes whose state a row changes.
     pub(crate) fn changes(&self, row: usize) -> Vec<usize> {
         let row = u32::try_from(row).unwrap_or(u32::MAX);
         let from = self.switched.partition_point(|(at, _)| *at < row);
@@ -136,7 +136,7 @@ impl ExecutedRows {
         u16::try_from(at).unwrap_or(u16::MAX)
     }
 
-    /// The states of the moment: after the end, those that the program leaves.
+    /// Returns the states of the moment: after the end, those that the program leaves.
     pub(crate) fn current(&self) -> Option<&FrictionStates> {
         self.numbered(self.current)
     }

@@ -22,7 +22,7 @@ use crate::rows::{FrictionStates, MOST_ROWS};
 use crate::timeline::Timeline;
 use crate::wording::page;
 
-/// How programs run.
+/// Settings of a run.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub(crate) struct RunSettings {
@@ -34,12 +34,12 @@ pub(crate) struct RunSettings {
     pub(crate) max_blocks: Option<u64>,
 }
 
-/// Which blocks are shown.
+/// Blocks that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ShownBlocks {
     All,
-    /// Those with a change or a message.
+    /// Blocks with a change or a message.
     Notable,
 }
 
@@ -77,7 +77,7 @@ pub(crate) struct Overview<'a> {
     /// The verdict; none where nothing is known to be as it should be or not.
     headline: Option<&'a Headline>,
     machine: MachineOverview<'a>,
-    /// How many items each view of the timeline has.
+    /// Number of items of each view of the timeline.
     items: usize,
     notable_items: usize,
 }
@@ -156,7 +156,7 @@ pub(crate) enum TimelineItem<'a> {
         changes: Vec<usize>,
     },
     Message {
-        /// Its position among the messages.
+        /// Position among the messages.
         at: usize,
     },
     End {
@@ -165,7 +165,7 @@ pub(crate) enum TimelineItem<'a> {
     },
 }
 
-/// How a program runs as on the command line, with advice in the words of a host.
+/// Returns a program run as on the command line, with advice in the words of a host.
 fn alone(loaded: &LoadedMachine, settings: &RunSettings, wording: Wording) -> SingleRun {
     let stop = if settings.keep_going {
         StopPolicy::KeepGoing
@@ -220,12 +220,12 @@ fn kept(timeline: &Timeline) -> u32 {
     u32::try_from(timeline.rows.kept.len().min(MOST_ROWS)).unwrap_or(u32::MAX)
 }
 
-/// An answer in JSON.
+/// Returns an answer in JSON.
 pub(crate) fn json(answer: &impl Serialize) -> Vec<u8> {
     serde_json::to_vec(answer).expect("keys are texts and numbers finite")
 }
 
-/// The records of a program, the same bytes as those of `frictcomp run --format ndjson`.
+/// Returns the records of a program, the same bytes as those of `frictcomp run --format ndjson`.
 pub(crate) fn records(
     dropped: &mut Dropped,
     program: &str,
@@ -243,7 +243,7 @@ pub(crate) fn records(
     Ok(written.take())
 }
 
-/// The report of a run as a page, the same as that of `frictcomp run --html` except for the wording of advice.
+/// Returns the report of a run as a page, the same as that of `frictcomp run --html` except for the wording of advice.
 pub(crate) fn report(
     dropped: &mut Dropped,
     program: &str,
@@ -282,7 +282,7 @@ impl Sources for Texts {
 }
 
 impl LineStates {
-    /// The possible states of a moment, as seen from a file.
+    /// Returns the possible states of a moment, as seen from a file.
     fn seen(moment: Option<&FrictionStates>, file: &str) -> Self {
         moment.map_or_else(Self::default, |moment| Self {
             states: moment.states.iter().map(|state| state.as_str()).collect(),
@@ -369,7 +369,7 @@ impl ShownRun {
         .collect()
     }
 
-    /// The items of a view: the start, blocks and messages, the end.
+    /// Returns the items of a view: the start, blocks and messages, the end.
     fn total(&self, view: ShownBlocks) -> usize {
         2 + self.shown_rows(view) + self.timeline.said.len()
     }
@@ -381,7 +381,7 @@ impl ShownRun {
         }
     }
 
-    /// The number of shown blocks among the first so many.
+    /// Returns the number of shown blocks among the first so many.
     fn rank(&self, view: ShownBlocks, blocks: u64) -> usize {
         let blocks = usize::try_from(blocks).unwrap_or(usize::MAX);
         match view {
@@ -392,19 +392,19 @@ impl ShownRun {
         }
     }
 
-    /// The position of the message.
+    /// Returns the position of the message.
     fn place_of_message(&self, view: ShownBlocks, at: usize) -> usize {
         1 + self.rank(view, self.timeline.said[at].after) + at
     }
 
-    /// The position of a block, the start for 0; if it is not shown, that of the one before it.
+    /// Returns the position of a block, the start for 0; if it is not shown, that of the one before it.
     pub(crate) fn place(&self, view: ShownBlocks, block: u64) -> usize {
         let before = &self.timeline.said;
         let messages = before.partition_point(|said| said.after < block);
         self.rank(view, block) + if block == 0 { 0 } else { messages }
     }
 
-    /// The next block with a change or a message after a block, or the one before it.
+    /// Returns the next block with a change or a message after a block, or the one before it.
     pub(crate) fn notable(&self, block: u64, forward: bool) -> Option<u64> {
         let numbers = self.notable.iter().map(|row| u64::from(*row) + 1);
         if forward {
@@ -415,7 +415,7 @@ impl ShownRun {
         }
     }
 
-    /// The block that first executes a line of the program.
+    /// Returns the block that first executes a line of the program.
     pub(crate) fn block_of_line(&self, line: u32) -> Option<usize> {
         let rows = self.timeline.rows.kept.iter();
         let mut rows = rows.enumerate().filter(|(_, row)| row.level == 0);
@@ -426,7 +426,7 @@ impl ShownRun {
         Some(at + 1)
     }
 
-    /// A number of items of a view from one on.
+    /// Returns a number of items of a view from one on.
     pub(crate) fn items(&mut self, view: ShownBlocks, from: usize, count: usize) -> Vec<u8> {
         let end = self.total(view).min(from.saturating_add(count));
         let wanted: Vec<Option<usize>> = (from..end).map(|at| self.row_at(view, at)).collect();
@@ -441,7 +441,7 @@ impl ShownRun {
         json(&items)
     }
 
-    /// The row of an item; `None` for the others.
+    /// Returns the row of an item; `None` for the others.
     fn row_at(&self, view: ShownBlocks, at: usize) -> Option<usize> {
         let messages = self.messages_before(view, at);
         let is_message =

@@ -44,7 +44,7 @@ pub(crate) struct Timeline {
     pub(crate) remark: Option<String>,
     pub(crate) name: Option<String>,
     pub(crate) rows: ExecutedRows,
-    /// By the blocks that they follow.
+    /// Messages by the blocks that they follow.
     pub(crate) said: Vec<PlacedMessage>,
     pub(crate) left_out: u64,
     pub(crate) ended_by: Option<EndedBy>,

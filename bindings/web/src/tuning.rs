@@ -20,7 +20,7 @@ use crate::watched::Page;
 /// The maximum number of circles that are tuned at once.
 const MOST_CIRCLES: usize = 8;
 
-/// What is tuned for.
+/// Settings of a tuning.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct TuneSettings {
@@ -38,7 +38,7 @@ struct TuningAnswer<'a> {
     list: String,
 }
 
-/// The list, its figures and the glitch over the feed.
+/// Returns the list, its figures and the glitch over the feed.
 pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let report = tuned(settings)?;
     // Both drives of an example are equal, and so are their lists.

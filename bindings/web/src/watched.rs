@@ -9,24 +9,24 @@ unsafe extern "C" {
     /// Reports the progress of a run to the page: executed blocks, and the line of the main program.
     safe fn progress(blocks: f64, line: u32);
 
-    /// Whether it is time to report the progress of other work: 1, at most a few times a second.
+    /// Returns 1 if it is time to report the progress of other work, at most a few times a second.
     safe fn due() -> u32;
 
     /// Reports progress to the page, in so many bytes of text at an address.
     safe fn told(at: *const u8, length: usize);
 }
 
-/// There is no watcher.
+/// Reports no progress: there is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn progress(_: f64, _: u32) {}
 
-/// There is no watcher.
+/// Returns 0: there is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn due() -> u32 {
     0
 }
 
-/// There is no watcher.
+/// Reports nothing: there is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn told(_: *const u8, _: usize) {}
 

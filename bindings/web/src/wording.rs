@@ -2,7 +2,7 @@
 
 use frictcomp::diagnostic::Advice;
 
-/// The page's words; `None` where the general ones will do.
+/// Returns the page's words; `None` where the general ones will do.
 pub(crate) fn page(advice: &Advice) -> Option<String> {
     Some(match advice {
         Advice::DescribeMachine(switched) => {

@@ -1,7 +1,6 @@
-//! What an archive costs: 20 000 programs, of which 400 are called, three levels deep. The time and the
-//! memory of `check`, `audit`, `show calls`, and of `check --changed` after a change of one subprogram, which
-//! costs what its callers cost and a look over the texts (R17.4); and of calls of a missing program, which
-//! are looked for in every folder.
+//! Cost of an archive: 20 000 programs, of which 400 are called, three levels deep. The time and the memory of `check`,
+//! `audit`, `show calls`, and of `check --changed` after a change of one subprogram, which costs what its callers cost
+//! and a look over the texts (R17.4); and of calls of a missing program, which are looked for in every folder.
 //!
 //! `FRICTCOMP_BENCH_PROGRAMS` sets how many programs the archive has; a fiftieth of them are called.
 
@@ -65,7 +64,8 @@ fn commit(folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What one changed program costs that so many others reach; it is as before afterwards.
+/// Measures the cost of a change to one program that the given number of programs reach, and restores the file
+/// afterwards.
 fn measure_change(name: &str, callers: u32, folder: &Path) -> Result<(), Box<dyn Error>> {
     let path = folder.join(name);
     let before = std::fs::read_to_string(&path)?;
@@ -88,8 +88,8 @@ fn call_missing(folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Main programs that call one of the upper subprograms, which calls a middle one, which calls a lower
-/// one. Gives how many programs reach the first of the lower ones.
+/// Returns the main programs that call one of the upper subprograms, which calls a middle one, which calls a lower one.
+/// Gives how many programs reach the first of the lower ones.
 fn write_archive(folder: &Path, programs: u32) -> Result<u32, Box<dyn Error>> {
     std::fs::write(folder.join("frictcomp.toml"), MACHINE)?;
     let level = (programs / 150).max(1);
@@ -146,7 +146,7 @@ fn measure(command: &[&str], folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The most memory that a process had so far, where the system reports it.
+/// Returns the most memory that a process had so far, where the system reports it.
 fn peak_kb(process: u32) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -1,5 +1,5 @@
-//! How much longer an audit takes than `check` over the same archive: the ratio of paired runs, the
-//! speed, and the goal (R10.4).
+//! Time of an audit relative to `check` over the same archive: the ratio of paired runs, the speed, and the goal
+//! (R10.4).
 //!
 //! `FRICTCOMP_BENCH_PROGRAMS` sets how many programs the archive has, 2 000 unless it is given;
 //! `FRICTCOMP_BENCH_RUNS` how often each pair runs, 5 times; the median counts.

@@ -1,4 +1,4 @@
-//! How long a circle and a tuning take: the time, the ratio to as many exponentials, and the goal.
+//! Time of a circle and of a tuning, its ratio to as many exponentials, and the goal.
 //!
 //! `cargo bench --bench circle`. The exponential is what the friction cannot do without: a step of
 //! one axis needs two.
@@ -16,7 +16,7 @@ use frictcomp_testing::measure::Bench;
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
 
-/// So many exponentials, one after the other.
+/// Computes a number of exponentials, one after the other.
 fn exponentials(count: u32) {
     let mut sum = 0.0;
     for number in 0..count {

@@ -1,5 +1,5 @@
-//! How long a contour takes: 30 s of machine time in one run, an hour in three runs (R11.7), and
-//! 300 000 lines of 0.1 mm that a contour mode joins (R11.28), each on two axes, with the goals.
+//! Time of a contour: 30 s of machine time in one run, an hour in three runs (R11.7), and 300 000 lines of 0.1 mm that
+//! a contour mode joins (R11.28), each on two axes, with the goals.
 //!
 //! `FRICTCOMP_BENCH_RUNS` sets how often each runs, 3 times unless it is given; the median counts.
 //! `FRICTCOMP_BENCH_SECONDS` sets the machine time of the long program, 3600 unless it is given.
@@ -14,13 +14,13 @@ use std::time::{Duration, Instant};
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
 
-/// What 30 s of machine time may take in one run, in s.
+/// Permitted time for 30 s of machine time in one run, in s.
 const SHORT_GOAL: f64 = 0.08;
 
-/// What an hour of machine time may take in three runs, in s.
+/// Permitted time for an hour of machine time in three runs, in s.
 const LONG_GOAL: f64 = 30.0;
 
-/// What 300 000 short lines may take in three runs, in s.
+/// Permitted time for 300 000 short lines in three runs, in s.
 const LINES_GOAL: f64 = 10.0;
 
 const MACHINE: &str = "\
@@ -34,7 +34,7 @@ frict_comp = true
 max_jerk = 1000.0
 ";
 
-/// A circle of 25 mm at 3000 mm/min takes so many s.
+/// Time of a circle of 25 mm at 3000 mm/min, in s.
 const TURN_S: f64 = std::f64::consts::TAU * 25.0 / 50.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -85,7 +85,7 @@ fn turns(seconds: u32) -> String {
     text + "M30\n"
 }
 
-/// Short lines on arcs of 200 mm, to the left and to the right by turns.
+/// Writes short lines on arcs of 200 mm, to the left and to the right by turns.
 fn lines() -> String {
     let mut text = String::from("G261\nG01 X25 Y0 F6000\n");
     let (mut x, mut y, mut angle) = (25.0, 0.0, 0.0_f64);
@@ -99,7 +99,7 @@ fn lines() -> String {
     text + "M30\n"
 }
 
-/// The median time of the contour of a program.
+/// Returns the median time of the contour of a program.
 fn median(folder: &Path, (text, runs): (&str, u32)) -> Result<Duration, Box<dyn Error>> {
     std::fs::write(folder.join("part.nc"), text)?;
     let mut times = Vec::new();

@@ -1,4 +1,4 @@
-//! How soon an editor gets messages on what was typed (R12.7): `cargo bench --bench lsp`.
+//! Delay of the messages in an editor after typing (R12.7): `cargo bench --bench lsp`.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measures")]
 
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 const URI: &str = "untitled:bench";
 
-/// How often each is measured; the median is shown.
+/// Number of measurements of each kind; the median is shown.
 const ROUNDS: i32 = 15;
 
 struct Client(Connection);
@@ -33,7 +33,7 @@ impl Client {
         self.0.receiver.recv_timeout(patience).expect("a message")
     }
 
-    /// Until messages about the text come.
+    /// Measures the time until messages about the text come.
     fn messages(&self, since: Instant) -> Duration {
         let is_it = |method: &str| method == "textDocument/publishDiagnostics";
         while !matches!(self.next(), Message::Notification(it) if is_it(&it.method)) {}
@@ -54,12 +54,12 @@ impl Client {
     }
 }
 
-/// Where the command stands that is changed: in the part of a program that is checked.
+/// Returns where the command stands that is changed: in the part of a program that is checked.
 fn changed_line(blocks: u64) -> u64 {
     blocks.min(100_000) / 2
 }
 
-/// A milling program of so many blocks, with a COMP command among them.
+/// Returns a milling program of so many blocks, with a COMP command among them.
 fn program(blocks: u64) -> String {
     let mut text = String::new();
     for block in 0..blocks {

@@ -1,4 +1,4 @@
-//! How fast programs go through, as ratios to a line splitter over the same file in the same run.
+//! Throughput of programs, as ratios to a line splitter over the same file in the same run.
 //!
 //! `cargo bench --bench speed` prints one line a job: the ratio, megabytes (or blocks) a second,
 //! the peak memory of the process where `/usr/bin/time` can tell, the goal, and whether it is met.
@@ -41,7 +41,7 @@ const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
-/// A command line of the tool and what it may take.
+/// A command line of the tool and its permitted time.
 struct Job {
     name: &'static str,
     arguments: &'static [&'static str],
@@ -118,7 +118,7 @@ fn write(shape: Shape, blocks: u32, path: &Path) -> Outcome<()> {
     Ok(out.flush()?)
 }
 
-/// The line splitter: reads a file and counts its lines.
+/// Splits a file into lines as the yardstick: reads it and counts its lines.
 fn split_lines(path: &Path) -> Outcome<()> {
     let bytes = std::fs::read(path)?;
     let lines = memchr::memchr_iter(b'\n', &bytes).filter(|at| black_box(*at) < bytes.len());
@@ -217,7 +217,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// The peak memory for a program ten times as long.
+    /// Measures the peak memory for a program ten times as long.
     fn memory(&self) -> Outcome<()> {
         let file = self.file(Shape::ThreeAxes, self.blocks.saturating_mul(10))?;
         for job in &JOBS {
@@ -252,7 +252,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// Two thousand programs of 20 KB: one processor's time to that of two.
+    /// Compares one processor's time with that of two for two thousand programs of 20 KB.
     fn many_files(&self) -> Outcome<()> {
         let folder = self.folder.path().join("many");
         std::fs::create_dir(&folder)?;
@@ -281,7 +281,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// The demo project with 50 MB of other elements in it (R3.42).
+    /// Measures the demo project with 50 MB of other elements in it (R3.42).
     fn project(&self) -> Outcome<()> {
         let demo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../programs/demo/twincat");
         let text = std::fs::read_to_string(demo.join("Machine.tsproj"))?;
@@ -344,7 +344,7 @@ struct Line {
 }
 
 impl Line {
-    /// The line with the peak memory in MiB, where it is known.
+    /// Returns the line with the peak memory in MiB, where it is known.
     fn with_peak(mut self, peak: Option<f64>) -> Self {
         self.peak = peak;
         let separator = if self.goal.is_empty() { "" } else { ", " };
@@ -385,7 +385,7 @@ fn parse(path: &Path, fast_path: FastPath) -> Outcome<()> {
     Ok(())
 }
 
-/// This program as one of the yardsticks.
+/// Returns a command that starts this program as one of the yardsticks.
 fn yardstick(word: &str, file: &Path) -> Command {
     let mut command = Command::new(std::env::current_exe().unwrap_or_default());
     command.arg(word).arg(file);
@@ -401,7 +401,7 @@ fn command(job: &Job, file: &Path) -> Command {
     command
 }
 
-/// How long a command takes; what it prints is of no interest, nor what it thinks of the program.
+/// Measures the time of a command; its output is discarded, and its verdict on the program is ignored.
 fn spawn(command: &mut Command) -> Outcome<Duration> {
     let start = Instant::now();
     let status = command
@@ -414,7 +414,7 @@ fn spawn(command: &mut Command) -> Outcome<Duration> {
     }
 }
 
-/// The peak memory of a job in MiB, where `/usr/bin/time` can tell.
+/// Returns the peak memory of a job in MiB, where `/usr/bin/time` can tell.
 fn peak(job: &Job, file: &Path) -> Option<f64> {
     let inner = command(job, file);
     let output = Command::new("/usr/bin/time")

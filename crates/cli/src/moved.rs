@@ -97,7 +97,7 @@ mod tests {
         present
     }
 
-    /// Whether an argument takes each of the earlier values, separated by `|`, and has the earlier default.
+    /// Returns whether an argument takes each of the earlier values, separated by `|`, and has the earlier default.
     fn keeps(argument: &Arg, values: &str, default: &str) -> bool {
         let possible = argument.get_possible_values();
         let is_there = |value: &str| possible.iter().any(|it| it.matches(value, false));

@@ -15,7 +15,7 @@ use client::{Client, uri};
 use rustix::time::{ClockId, clock_gettime};
 use serde_json::json;
 
-/// The processor time of all threads.
+/// Returns the processor time of all threads.
 fn of_process() -> Duration {
     let now = clock_gettime(ClockId::ProcessCPUTime);
     let seconds = u64::try_from(now.tv_sec).expect("a time since the start");
@@ -23,19 +23,19 @@ fn of_process() -> Duration {
     Duration::new(seconds, nanoseconds)
 }
 
-/// The processor time of the work.
+/// Returns the processor time of the work.
 fn taken(work: impl FnOnce()) -> Duration {
     let before = of_process();
     work();
     of_process().saturating_sub(before)
 }
 
-/// A program of five lines. Every other one is on the disk, the others were never saved.
+/// Returns a program of five lines. Every other one is on the disk, the others were never saved.
 fn program(number: usize) -> String {
     format!("%P{number}\nN10 G1 X1 F100\nN20 X[COMP OFF FRICT]\nN30 X{number}\nN40 M30\n")
 }
 
-/// The cost of opening so many programs, and of typing in one of them and asking about it.
+/// Returns the cost of opening so many programs, and of typing in one of them and asking about it.
 fn many(folder: &Path, count: usize) -> [Duration; 2] {
     let uris: Vec<String> = (0..count)
         .map(|number| {

@@ -1,5 +1,5 @@
-//! Nothing is lost, whatever happens: full disks, closed pipes, killed runs, damaged files, old
-//! encodings. `docs/reliability.md` lists the promises.
+//! Robustness against full disks, closed pipes, killed runs, damaged files and old encodings: nothing is lost.
+//! `docs/reliability.md` lists the promises.
 //!
 //! Tests that take minutes are ignored: `cargo test --release --test unbreakable -- --ignored`.
 

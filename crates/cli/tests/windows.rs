@@ -113,7 +113,7 @@ fn texts_of_notepad_and_powershell_are_read() {
     }
 }
 
-/// The message about a refused program on standard input.
+/// Returns the message about a refused program on standard input.
 fn piped(bench: &Bench, text: &[u8]) -> String {
     use std::io::Write;
     let mut command = bench.command(&["check", "-"]);
@@ -180,7 +180,7 @@ mod only {
 
     use super::*;
 
-    /// The code page of the console in which the test runs; 0 without one.
+    /// Returns the code page of the console in which the test runs; 0 without one.
     fn code_page() -> u32 {
         let said = std::process::Command::new("cmd")
             .args(["/c", "chcp"])

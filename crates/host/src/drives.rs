@@ -20,7 +20,7 @@ const OF_DRIVES: [u16; 8] = [
     0x6040, 0x6041, 0x6064, 0x606C, 0x6071, 0x6077, 0x607A, 0x60FF,
 ];
 
-/// Why a description of a network or of devices cannot be read.
+/// Reason why a description of a network or of devices cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}:{line}: {reason}")]
 #[non_exhaustive]
@@ -29,7 +29,7 @@ pub struct XmlError {
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,
-    /// What is wrong, in words.
+    /// Fault in words.
     pub reason: String,
 }
 
@@ -204,7 +204,7 @@ impl Pdo {
     }
 }
 
-/// What a device maps.
+/// Values that a device maps.
 struct Mapping {
     name: String,
     vendor: Option<u32>,
@@ -254,7 +254,7 @@ impl Mapping {
         }
     }
 
-    /// Whether the file says which objects are exchanged.
+    /// Returns whether the file says which objects are exchanged.
     fn assigns(&self) -> bool {
         !self.assigned.is_empty() || self.pdos.iter().any(|pdo| pdo.has_sync_manager)
     }

@@ -1,4 +1,4 @@
-//! Why work with files failed.
+//! Failures of work with files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp::text::shown_path;
 use frictcomp_physics::simulation::{Preset, UnknownPreset};
 
-/// Why work with files failed: one sentence in lower case.
+/// A failure of work with files: one sentence in lower case.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum HostError {
@@ -90,7 +90,7 @@ pub enum HostError {
     NoProgram {
         /// The file as it was named.
         path: PathBuf,
-        /// What it is, in words.
+        /// The nature of the file in words.
         what: &'static str,
     },
     /// A folder where a list is expected.
@@ -186,7 +186,7 @@ pub enum HostError {
     /// Two outputs in one file.
     #[error("`{one}` and `{other}` are the same file")]
     SameFile {
-        /// One output.
+        /// Path of the first output.
         one: String,
         /// The other one.
         other: String,
@@ -230,7 +230,7 @@ pub enum HostError {
     State {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong, in words.
+        /// Fault in words.
         reason: String,
     },
     /// A baseline that is damaged, or is none.

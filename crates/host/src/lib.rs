@@ -1,5 +1,5 @@
-//! Everything that needs files or threads but not the command line: for the command line, an editor,
-//! Python, and other hosts that run programs from a disk.
+//! Work that needs files or threads but not the command line: for the command line, an editor, Python, and other hosts
+//! that run programs from a disk.
 //!
 //! [`Machines`] finds the machine of a program from `frictcomp.toml` or the control's lists;
 //! [`find_programs`] walks folders, an [`Input`] is one program, [`run_alone`] and [`run_program`]

@@ -62,7 +62,7 @@ pub fn learn(
 /// The simulations of a tuning, which continues until nothing improves.
 struct Tuning<'a> {
     runs: SimulationRuns<'a>,
-    /// Those made in earlier steps.
+    /// Simulations made in earlier steps.
     done: AtomicUsize,
     /// The approximate total.
     all: usize,
@@ -87,7 +87,7 @@ impl SimulationRuns<'_> {
         self.after(pieces, (0, pieces.len()), work)
     }
 
-    /// Does pieces of work after `before` others, of `all`, and returns their results.
+    /// Executes pieces of work after `before` others, of `all`, and returns their results.
     fn after<T: Sync, R: Send>(
         &self,
         pieces: &[T],

@@ -15,13 +15,13 @@ const STEP: u64 = 1 << 14;
 
 /// Watcher of long work.
 pub trait Watcher: fmt::Debug + Send + Sync {
-    /// Whether a progress report is due. Called often, and by several threads.
+    /// Returns whether a progress report is due. Called often, and by several threads.
     fn is_due(&self) -> bool;
 
     /// Receives the progress of the work.
     fn show(&self, progress: &Progress);
 
-    /// Whether the work is to stop. It then ends early, and its result is not usable.
+    /// Returns whether the work is to stop. It then ends early, and its result is not usable.
     fn is_stopped(&self) -> bool {
         false
     }
@@ -121,7 +121,7 @@ impl fmt::Display for Progress {
     }
 }
 
-/// `[#####...............] 25 %`
+/// Returns a bar such as `[#####...............] 25 %`.
 fn bar(done: usize, all: usize) -> String {
     const WIDTH: usize = 20;
     let part = |whole: usize| done.saturating_mul(whole) / all.max(1);
@@ -164,12 +164,12 @@ impl Watch {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Whether there is a watcher.
+    /// Returns whether there is a watcher.
     pub fn is_on(&self) -> bool {
         self.watcher.is_some()
     }
 
-    /// Whether the watcher stops the work.
+    /// Returns whether the watcher stops the work.
     pub fn is_stopped(&self) -> bool {
         self.watcher.as_ref().is_some_and(|it| it.is_stopped())
     }
@@ -212,18 +212,18 @@ impl Watch {
 pub struct Reached<'a> {
     /// The name of the program.
     pub file: &'a str,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
 }
 
-/// How often control flow passes through a program.
+/// Number of passes of control flow through a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Passes {
-    /// Once, from its first line to its last.
+    /// One pass, from the first line to the last.
     #[default]
     Once,
-    /// It jumps back: the number of passes is unknown.
+    /// Unknown number of passes: the program jumps back.
     Repeated,
 }
 

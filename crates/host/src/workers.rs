@@ -19,8 +19,8 @@ pub fn processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// Does each piece of work once, on all processors. The result does not depend on which of them does
-/// it. `done` is called with the number of results so far.
+/// Executes each piece of work once, on all processors. The result does not depend on which of them does it. `done` is
+/// called with the number of results so far.
 pub(super) fn map<T: Sync, R: Send>(
     pieces: &[T],
     work: impl Fn(&T) -> R + Sync,
@@ -111,11 +111,11 @@ fn next<T, R>(queue: &Mutex<Receiver<WorkItem<T, R>>>) -> Option<WorkItem<T, R>>
 /// Memory of a circular test in addition to the program itself, with room to spare.
 const SIMULATION: usize = 24 << 20;
 
-/// What a thread needs: address space for its stack and for its own heap, 128 MiB with glibc.
-/// Without the heap each of its allocations takes a page.
+/// Memory of a thread: address space for its stack and for its own heap, 128 MiB with glibc. Without the heap each of
+/// its allocations takes a page.
 const THREAD: usize = 136 << 20;
 
-/// Whether there is memory for one more thread.
+/// Returns whether there is memory for one more thread.
 fn is_there_for_a_thread() -> bool {
     available(THREAD).is_ok()
 }

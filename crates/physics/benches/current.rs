@@ -57,7 +57,7 @@ struct Jobs {
 }
 
 impl Jobs {
-    /// The median time of a piece of work, which returns its number of cycles.
+    /// Returns the median time of a piece of work, which returns its number of cycles.
     fn median(&self, mut work: impl FnMut() -> u64) -> (u64, Duration) {
         let mut cycles = 0;
         let times = self.bench.times(|| cycles = black_box(work()));
@@ -151,14 +151,14 @@ fn list() -> FrictionList {
     }
 }
 
-/// Full circles of 20 mm at 2 m/min.
+/// Returns full circles of 20 mm at 2 m/min.
 fn circles(turns: u32) -> String {
     let mut program = String::from("G01 X0 Y0 F2000\nX20\n");
     (0..turns).for_each(|_| program.push_str("G03 I-20\n"));
     program
 }
 
-/// A line in blocks of 0.2 mm with small kinks.
+/// Returns a line in blocks of 0.2 mm with small kinks.
 fn polyline(blocks: u32) -> String {
     let block = |block: u32| {
         format!(

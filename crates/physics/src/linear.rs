@@ -8,7 +8,7 @@ pub(crate) struct Normal<const N: usize> {
     right: [f64; N],
 }
 
-/// A pivot smaller than this part of its row's diagonal leaves an unknown undetermined.
+/// Least pivot as a part of its row's diagonal; a smaller one leaves an unknown undetermined.
 const LEAST_PIVOT: f64 = 1e-12;
 
 impl<const N: usize> Normal<N> {
@@ -41,7 +41,7 @@ impl<const N: usize> Normal<N> {
         }
     }
 
-    /// The unknowns of the same equations with other values, given as their sums with each row.
+    /// Returns the unknowns of the same equations with other values, given as their sums with each row.
     pub(crate) fn solve_for(&self, right: [f64; N]) -> Option<[f64; N]> {
         let matrix = self.matrix;
         Self { matrix, right }.solve()
@@ -59,12 +59,12 @@ impl<const N: usize> Normal<N> {
         }
     }
 
-    /// The square root of the diagonal at an unknown: its effect on all values.
+    /// Returns the square root of the diagonal at an unknown: its effect on all values.
     pub(crate) fn scale(&self, unknown: usize) -> f64 {
         self.matrix[unknown][unknown].sqrt()
     }
 
-    /// The variances of the unknowns for values of the variance 1, one independent of the other.
+    /// Returns the variances of the unknowns for values of the variance 1, one independent of the other.
     pub(crate) fn spreads(&self) -> Option<[f64; N]> {
         let mut spreads = [0.0; N];
         for (at, spread) in spreads.iter_mut().enumerate() {
@@ -75,8 +75,8 @@ impl<const N: usize> Normal<N> {
         Some(spreads)
     }
 
-    /// The unknowns, by elimination; `None` if the equations do not determine them. The matrix
-    /// is positive, so that its diagonal gives the pivots.
+    /// Returns the unknowns, by elimination; `None` if the equations do not determine them. The matrix is positive, so
+    /// that its diagonal gives the pivots.
     pub(crate) fn solve(mut self) -> Option<[f64; N]> {
         let diagonal: [f64; N] = std::array::from_fn(|at| self.matrix[at][at]);
         for (at, whole) in diagonal.into_iter().enumerate() {
@@ -111,7 +111,7 @@ pub fn solve_linear(rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     Some(solved.into_iter().map(|row| row[0]).collect())
 }
 
-/// The inverse of a square matrix, if it has one.
+/// Returns the inverse of a square matrix, if it has one.
 pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let unit = |at: usize| (0..matrix.len()).map(move |it| if it == at { 1.0 } else { 0.0 });
     let rows = matrix.iter().enumerate();

@@ -16,7 +16,7 @@ const PIECE: usize = 1 << 18;
 /// The goal in s.
 const GOAL_S: f64 = 2.0;
 
-/// An export of Scope with a column of times for each channel, decimal commas and long numbers.
+/// Returns an export of Scope with a column of times for each channel, decimal commas and long numbers.
 fn export() -> String {
     let names = ["SetVelo", "ActTorque", "SetPos"];
     let mut text = String::with_capacity(170 << 20);

@@ -20,7 +20,7 @@ pub struct StateRecording {
 pub struct RecordedGap {
     /// The time of the last sample before it, in seconds.
     pub at_s: f64,
-    /// Its length in seconds.
+    /// Length in seconds.
     pub length_s: f64,
 }
 
@@ -28,13 +28,13 @@ pub struct RecordedGap {
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedAxis {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Whether friction compensation was active at the first sample.
     pub start: bool,
     /// The time of the first sample in seconds.
     pub start_s: f64,
-    /// Its changes in their order.
+    /// Changes in their order.
     pub changes: Vec<RecordedChange>,
     /// The time of the last sample in seconds.
     pub end_s: f64,
@@ -124,7 +124,7 @@ pub struct Disagreement {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ReplayedAxis {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The changes on which both agree, before the first disagreement if there is one.
     pub changes: Vec<MatchedChange>,
@@ -142,7 +142,7 @@ pub struct TriedCondition {
     pub line: u32,
     /// The condition as written, or `skip level 1 is off`.
     pub condition: String,
-    /// Whether it is true.
+    /// Whether the condition holds.
     pub holds: bool,
 }
 
@@ -157,9 +157,9 @@ pub struct Replayed {
     /// Number of combinations of answers to the conditions of the programs that were tried, and of
     /// those that agree with the recording.
     pub ways: [usize; 2],
-    /// Why the dry run does not reach the end of the programs.
+    /// Reason why the dry run does not reach the end of the programs.
     pub stopped: Option<String>,
-    /// Why no answers were tried although there are conditions.
+    /// Reason why no answers were tried although there are conditions.
     pub untried: Option<String>,
     /// The axes that the programs switch and whose states were not recorded.
     pub unrecorded: Vec<String>,
@@ -168,12 +168,12 @@ pub struct Replayed {
 }
 
 impl Replayed {
-    /// Whether the recording and the dry run agree on every axis and to the end.
+    /// Returns whether the recording and the dry run agree on every axis and to the end.
     pub fn agrees(&self) -> bool {
         self.stopped.is_none() && self.axes.iter().all(|it| it.disagreement.is_none())
     }
 
-    /// Whether they agree only with some answers to the conditions of the programs.
+    /// Returns whether they agree only with some answers to the conditions of the programs.
     pub fn is_conditional(&self) -> bool {
         let [tried, fitting] = self.ways;
         self.agrees() && fitting < tried

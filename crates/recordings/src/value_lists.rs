@@ -51,8 +51,8 @@ pub fn tuned_range(tuned: &Tuned) -> String {
     )
 }
 
-/// The tuned value list of an axis of a plant, written for a build; nothing if it has none. The head
-/// gives the number and the name of the axis.
+/// Returns the tuned value list of an axis of a plant, written for a build; nothing if it has none. The head gives the
+/// number and the name of the axis.
 pub fn render_tuned(made: TunedFor<'_>, build: Option<CncBuild>, head: &ListHead<'_>) -> String {
     let Some(list) = made.axis.list() else {
         return String::new();
@@ -89,7 +89,8 @@ pub struct IdentifiedFrom<'a> {
     pub faults: &'a [String],
 }
 
-/// An identified value list, written for a build; outputs in another unit than the drive's have decimals, to be converted.
+/// Returns an identified value list, written for a build; outputs in another unit than the drive's have decimals, to be
+/// converted.
 pub fn render_identified(
     list: &FrictionList,
     made: IdentifiedFrom<'_>,
@@ -132,7 +133,7 @@ pub struct LearnedFrom<'a> {
     pub predicted_um: f64,
 }
 
-/// A learned value list, written for a build.
+/// Returns a learned value list, written for a build.
 pub fn render_learned(
     list: &FrictionList,
     made: LearnedFrom<'_>,
@@ -157,7 +158,7 @@ pub fn render_learned(
 /// The remark in the head of a list that names the plant on which it was tuned.
 const TUNED_ON: &str = "SHA-256 of what the plant was fitted to: ";
 
-/// The key of the fitted plant on which a list was tuned, as the text of the list names it.
+/// Returns the key of the fitted plant on which a list was tuned, as the text of the list names it.
 pub fn tuned_on(text: &str) -> Option<&str> {
     let (_, key) = text.split_once(TUNED_ON)?;
     key.split_whitespace().next()
@@ -176,7 +177,7 @@ pub struct TunedFrom<'a> {
     pub held_out: &'a [f64],
 }
 
-/// A value list that was tuned on a fitted plant, written for a build.
+/// Returns a value list that was tuned on a fitted plant, written for a build.
 pub fn render_tuned_on_plant(
     list: &FrictionList,
     made: TunedFrom<'_>,

@@ -21,7 +21,7 @@ use frictcomp_testing::{Machine, Program, Random, Run, ValueList};
 
 const AXES: [&str; 2] = ["X", "Y"];
 
-/// Where the measuring programs begin, in mm.
+/// Start position of the measuring programs, in mm.
 const START: [f64; 2] = [10.0, 10.0];
 
 /// Milliseconds between two rows of constant speeds, and of circles.
@@ -72,7 +72,7 @@ fn main() {
     }
 }
 
-/// A program with six speeds of X, back and forth, of which a test bench has time each month.
+/// Returns a program with six speeds of X, back and forth, of which a test bench has time each month.
 fn short_speeds() -> String {
     let mut text = String::from("G4 X0.2\n");
     for mm_per_min in [60.0, 150.0, 400.0, 1000.0, 2400.0, 5000.0] {
@@ -114,7 +114,7 @@ fn circles(machine: &Machine, round: &Path, lists: &[ValueList; 2]) {
     }
 }
 
-/// The rows of constant speeds of X: s, µm/s, drive units.
+/// Returns the rows of constant speeds of X: s, µm/s, drive units.
 fn constant_speeds(run: &Run, seed: u64) -> String {
     let mut random = Random::new(seed);
     let mut rows = String::from("t,v,torque\n");

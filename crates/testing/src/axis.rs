@@ -54,7 +54,7 @@ pub struct Coupling {
     pub damping: f64,
 }
 
-/// What an axis did in each cycle of the control.
+/// Record of the motion of an axis in each cycle of the control.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Followed {
     /// Place of the load in mm at the beginning of each cycle.
@@ -136,12 +136,12 @@ impl Axis {
         found
     }
 
-    /// A steady friction in drive units at a speed in mm/s.
+    /// Returns a steady friction in drive units at a speed in mm/s.
     pub fn friction_units(&self, mm_per_s: f64) -> f64 {
         self.guide.steady_n(mm_per_s) / self.unit_n
     }
 
-    /// Friction that has changed by a part, as with the temperature.
+    /// Returns friction that has changed by a part, as with the temperature.
     #[must_use]
     pub fn with_friction(mut self, factor: f64) -> Self {
         self.guide.sliding_n *= factor;
@@ -160,7 +160,7 @@ impl Axis {
         self
     }
 
-    /// The axis of another machine of the same kind: every value differs by up to a part.
+    /// Returns the axis of another machine of the same kind: every value differs by up to a part.
     #[must_use]
     pub fn varied(mut self, part: f64, random: &mut Random) -> Self {
         let mut factor = || random.between(1.0 - part, 1.0 + part);

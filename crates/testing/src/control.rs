@@ -54,7 +54,7 @@ impl Piece {
         }
     }
 
-    /// The place and the direction after a distance.
+    /// Returns the place and the direction after a distance.
     fn at(&self, way: f64) -> ([f64; 2], [f64; 2]) {
         match *self {
             Self::Line(from, to) => {
@@ -80,7 +80,7 @@ impl Piece {
 }
 
 impl Control {
-    /// The commanded values of a program that begins at a place in mm.
+    /// Returns the commanded values of a program that begins at a place in mm.
     pub fn run(&self, program: &Program, start: [f64; 2]) -> Commanded {
         let mut found = Commanded::default();
         let mut place = start;
@@ -171,7 +171,7 @@ impl Control {
 }
 
 impl Path {
-    /// Whether an arc goes on with a path of arcs.
+    /// Returns whether an arc goes on with a path of arcs.
     fn continues(&self, angle: f64, feed: f64) -> bool {
         let is_same = |it: &Piece| matches!(it, Piece::Arc { angle: own, .. } if own * angle > 0.0);
         (self.feed - feed).abs() < 1e-9 && self.pieces.iter().all(is_same)

@@ -7,12 +7,12 @@ use super::machine::Run;
 /// The largest glitches in µm, each a mean over 8 ms: of X and of Y, counter-clockwise and clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TrueGlitches {
-    /// Of X and Y, each counter-clockwise and clockwise.
+    /// Glitches of X and Y, each counter-clockwise and clockwise.
     pub um: [[f64; 2]; 2],
 }
 
 impl TrueGlitches {
-    /// The larger of each with those of another run.
+    /// Returns the larger of each with those of another run.
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self {
@@ -22,20 +22,20 @@ impl TrueGlitches {
         }
     }
 
-    /// The largest of an axis.
+    /// Returns the largest of an axis.
     pub fn of_axis(&self, axis: usize) -> f64 {
         self.um[axis][0].max(self.um[axis][1])
     }
 
-    /// The largest of all.
+    /// Returns the largest glitch of both axes.
     pub fn largest(&self) -> f64 {
         self.of_axis(0).max(self.of_axis(1))
     }
 }
 
-/// The glitches of all crossings that are at least 40° from the ends of each arc: from the least to the largest
-/// radial deviation from 8° before the crossing to 8° and 0.3 s after it, less the straight line through 12° before
-/// and as much after that window.
+/// Returns the glitches of all crossings that are at least 40° from the ends of each arc: from the least to the largest
+/// radial deviation from 8° before the crossing to 8° and 0.3 s after it, less the straight line through 12° before and
+/// as much after that window.
 pub fn true_glitches(run: &Run) -> TrueGlitches {
     const APART: f64 = 40.0 / 360.0 * TAU;
     let mut found = TrueGlitches::default();

@@ -51,7 +51,7 @@ pub(crate) struct Contact<'a> {
 const M_PER_UM: f64 = 1e-6;
 
 impl<'a> Contact<'a> {
-    /// The contact of a mass at rest that has never moved.
+    /// Returns the contact of a mass at rest that has never moved.
     pub(crate) fn new(guide: &'a Guide, mass_kg: f64) -> Self {
         let count = match &guide.presliding {
             Presliding::Springs(springs) => springs.len(),
@@ -70,7 +70,7 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// The friction in N at a speed in m/s that lasts for a step in s.
+    /// Returns the friction in N at a speed in m/s that lasts for a step in s.
     pub(crate) fn force(&mut self, speed: f64, step: f64) -> f64 {
         let guide = self.guide;
         let mm_per_s = speed * 1000.0;
@@ -120,7 +120,7 @@ impl<'a> Contact<'a> {
 }
 
 impl Guide {
-    /// Friction in N at a steady speed in mm/s.
+    /// Returns friction in N at a steady speed in mm/s.
     pub fn steady_n(&self, mm_per_s: f64) -> f64 {
         let fading = (-mm_per_s.abs() / self.fading_mm_per_s).exp();
         self.sliding_n

@@ -31,13 +31,13 @@ pub struct Task {
 pub enum Header {
     /// Every row of attributes.
     Full,
-    /// Only the row `Name` describes channels.
+    /// Only the row `Name`, which describes the channels.
     Names,
     /// Only the row `SymbolName`.
     Symbols,
     /// Rows of attributes, but none about the file.
     WithoutFile,
-    /// Nothing at all.
+    /// No header.
     None,
 }
 
@@ -55,22 +55,22 @@ pub enum Times {
 /// The contents of the rows of a channel that is sampled less often.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Filled {
-    /// Its samples are at the top, the rows below are blank.
+    /// Samples at the top, with blank rows below.
     Blank,
-    /// Its samples are at the top, the rows below are short.
+    /// Samples at the top, with short rows below.
     Short,
-    /// Each sample is repeated until the next one.
+    /// Each sample repeated until the next one.
     Repeated,
-    /// Each sample is at its time, with blanks in between.
+    /// Each sample at its time, with blanks in between.
     Shifted,
 }
 
 /// The form of comments of several lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comments {
-    /// In quotation marks.
+    /// Comments in quotation marks.
     Quoted,
-    /// As they are.
+    /// Comments as they are.
     Bare,
 }
 
@@ -113,9 +113,9 @@ pub struct Export {
     pub letters: Letters,
     /// Line end.
     pub end: &'static str,
-    /// A last line says `EOF`.
+    /// Whether a last line says `EOF`.
     pub has_eof: bool,
-    /// Each line ends with a separator.
+    /// Whether each line ends with a separator.
     pub ends_in_separator: bool,
 }
 
@@ -278,7 +278,7 @@ impl Export {
     }
 }
 
-/// A trace of a SINUMERIK control.
+/// Returns a trace of a SINUMERIK control.
 pub fn sinumerik(task: &Task, are_names_apart: bool) -> String {
     let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<traceSession>\n".to_owned();
     let escape = |text: &str| {

@@ -50,7 +50,7 @@ impl ValueList {
         }
     }
 
-    /// The list with another factor on its currents.
+    /// Returns the list with another factor on its currents.
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
         self.factor *= factor;
@@ -69,8 +69,8 @@ impl ValueList {
         low[1] + (high[1] - low[1]) * (speed - low[0]) / (high[0] - low[0])
     }
 
-    /// The current in drive units in each cycle, for places in mm, velocities in mm/s and whether compensation is
-    /// on.
+    /// Returns the current in drive units in each cycle, for places in mm, velocities in mm/s and whether compensation
+    /// is on.
     pub(crate) fn currents(&self, places: &[f64], velocities: &[f64], is_on: &[bool]) -> Vec<f64> {
         let mut direction = 0.0_f64;
         let mut turned_at = f64::NEG_INFINITY;

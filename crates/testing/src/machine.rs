@@ -8,15 +8,15 @@ use super::program::Program;
 /// A machine of two axes.
 #[derive(Debug, Clone)]
 pub struct Machine {
-    /// Its name in tables.
+    /// Name in tables.
     pub name: &'static str,
     /// X and Y.
     pub axes: [Axis; 2],
-    /// Its control.
+    /// Control.
     pub control: Control,
 }
 
-/// What a machine does in a program.
+/// Record of a machine in a program.
 #[derive(Debug, Clone)]
 pub struct Run {
     /// The commanded values.

@@ -19,7 +19,7 @@ impl Bench {
         }
     }
 
-    /// The times of a piece of work, the shortest first.
+    /// Returns the times of a piece of work, the shortest first.
     pub fn times(self, mut work: impl FnMut()) -> Vec<Duration> {
         let once = |_| {
             let start = Instant::now();
@@ -31,13 +31,13 @@ impl Bench {
         times
     }
 
-    /// The shortest time of a piece of work; other work on the machine only adds.
+    /// Returns the shortest time of a piece of work; other work on the machine only adds.
     pub fn fastest(self, work: impl FnMut()) -> Duration {
         self.times(work)[0]
     }
 }
 
-/// The middle one of several times.
+/// Returns the middle one of several times.
 pub fn median(times: impl IntoIterator<Item = Duration>) -> Duration {
     let mut times: Vec<Duration> = times.into_iter().collect();
     times.sort();

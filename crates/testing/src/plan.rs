@@ -1,6 +1,7 @@
 //! The call that plans measuring programs.
 
-/// The arguments that plan circles of X and Y about X50 Y0 at feeds, on a radius of at most 45 mm; the folder follows.
+/// Returns the arguments that plan circles of X and Y about X50 Y0 at feeds, on a radius of at most 45 mm; the folder
+/// follows.
 pub const fn planned_circles(feeds: &'static str, radius: &'static str) -> [&'static str; 13] {
     [
         "commission",

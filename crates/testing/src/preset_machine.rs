@@ -37,7 +37,7 @@ pub struct PresetMachine {
 pub type Row = [f64; 3];
 
 impl PresetMachine {
-    /// A machine that differs from a preset by the `change` to both drives.
+    /// Returns a machine that differs from a preset by the `change` to both drives.
     fn of(name: &'static str, reference: Preset, change: fn(&mut DriveParameters)) -> Self {
         let mut plant = reference.plant();
         for drive in [&mut plant.x, &mut plant.y] {
@@ -58,7 +58,7 @@ impl PresetMachine {
         }
     }
 
-    /// The machine of the short test, on small and fast circles.
+    /// Returns the machine of the short test, on small and fast circles.
     pub fn small() -> Self {
         Self {
             radius_mm: 40.0,
@@ -66,12 +66,12 @@ impl PresetMachine {
         }
     }
 
-    /// A machine with half the stiffness that its reference has.
+    /// Returns a machine with half the stiffness that its reference has.
     pub fn half() -> Self {
         Self::of("half", Preset::Mid, |it| *it = it.with_contact(0.5))
     }
 
-    /// The machines of the long test.
+    /// Returns the machines of the long test.
     pub fn all() -> Vec<Self> {
         let stiff = Self::of("stiff", Preset::Stiff, |it| *it = it.with_contact(0.8));
         let mid = Self::of("mid", Preset::Mid, |it| *it = it.with_contact(1.2));
@@ -102,7 +102,7 @@ impl PresetMachine {
         }
     }
 
-    /// The largest true glitch of X and of Y in µm with lists or without, over feeds.
+    /// Returns the largest true glitch of X and of Y in µm with lists or without, over feeds.
     pub fn left_um(&self, feeds: &[f64], lists: [Option<&FrictionList>; 2]) -> [f64; 2] {
         let mut most = [0.0_f64; 2];
         for &feed in feeds {
@@ -125,7 +125,7 @@ impl PresetMachine {
         most
     }
 
-    /// The search for the best lists at feeds, with knowledge of the machine.
+    /// Returns the search for the best lists at feeds, with knowledge of the machine.
     pub fn task(&self, feeds: &[f64]) -> Task {
         let circle = |&feed_mm_per_min: &f64| Circle {
             feed_mm_per_min,
@@ -144,8 +144,8 @@ impl PresetMachine {
         }
     }
 
-    /// A recording at a feed: more than a turn in each direction, one row per ms. The friction is a little different
-    /// each time.
+    /// Returns a recording at a feed: more than a turn in each direction, one row per ms. The friction is a little
+    /// different each time.
     pub fn recorded(&self, feed: f64, lists: [Option<&FrictionList>; 2], seed: u64) -> Vec<Row> {
         let mut random = fastrand::Rng::with_seed(seed);
         let friction = 0.99 + 0.02 * random.f64();

@@ -16,14 +16,14 @@ pub enum Move {
         /// The feed in mm/min.
         feed: f64,
     },
-    /// Compensation of an axis is switched on or off.
+    /// Switch of the compensation of an axis: on or off.
     Switch(usize, bool),
 }
 
 /// A program of two axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
-    /// Its moves in their order.
+    /// Moves in their order.
     pub moves: Vec<Move>,
 }
 

@@ -3,9 +3,9 @@
 /// Bounds of a motion along its path.
 #[derive(Debug, Clone, Copy)]
 pub struct Ramp {
-    /// In mm/s².
+    /// Acceleration in mm/s².
     pub acceleration: f64,
-    /// In mm/s³.
+    /// Jerk in mm/s³.
     pub jerk: f64,
 }
 
@@ -21,7 +21,7 @@ pub(crate) struct Motion {
 }
 
 impl Ramp {
-    /// The time in s from rest to a speed in mm/s.
+    /// Returns the time in s from rest to a speed in mm/s.
     fn seconds_to(self, speed: f64) -> f64 {
         if speed >= self.acceleration.powi(2) / self.jerk {
             speed / self.acceleration + self.acceleration / self.jerk
@@ -30,7 +30,7 @@ impl Ramp {
         }
     }
 
-    /// A motion over a length in mm, at most at a speed in mm/s.
+    /// Returns a motion over a length in mm, at most at a speed in mm/s.
     pub(crate) fn motion(self, length: f64, speed: f64) -> Motion {
         let of_ramps = |speed: f64| speed * self.seconds_to(speed);
         let mut reached = speed;
@@ -55,13 +55,13 @@ impl Ramp {
 }
 
 impl Motion {
-    /// The duration in s.
+    /// Returns the duration in s.
     pub(crate) fn seconds(&self) -> f64 {
         let steady = self.length - self.speed * self.ramp_s;
         2.0 * self.ramp_s + steady.max(0.0) / self.speed.max(1e-12)
     }
 
-    /// The distance in mm and the speed in mm/s at a time in s.
+    /// Returns the distance in mm and the speed in mm/s at a time in s.
     pub(crate) fn at(&self, time: f64) -> (f64, f64) {
         let whole = self.seconds();
         if time <= 0.0 {

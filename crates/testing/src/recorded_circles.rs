@@ -110,18 +110,18 @@ pub struct Recorded {
     pub error: Vec<f64>,
 }
 
-/// The friction that slips at a speed in m/s, in N.
+/// Returns the friction that slips at a speed in m/s, in N.
 fn level(speed: f64) -> f64 {
     500.0 + 120.0 * (-speed.abs() / 0.003).exp()
 }
 
-/// The friction at a steady speed in m/s, in drive units: the contents of the list.
+/// Returns the friction at a steady speed in m/s, in drive units: the contents of the list.
 pub fn units_at(speed: f64) -> f64 {
     (level(speed) + 4000.0 * speed.abs()) / UNIT
 }
 
 impl Bench {
-    /// Commanded positions in m and velocities in m/s.
+    /// Returns commanded positions in m and velocities in m/s.
     fn commanded(&self) -> Vec<(f64, f64)> {
         let radius = self.radius_mm / 1000.0;
         let omega = self.feed / 60_000.0 / radius;
@@ -133,7 +133,7 @@ impl Bench {
         (0..=cycles).map(at).collect()
     }
 
-    /// The current of the whole list, cycle by cycle.
+    /// Returns the current of the whole list, cycle by cycle.
     fn currents(&self, motion: &[(f64, f64)]) -> Vec<f64> {
         let (mut direction, mut turned_at, mut is_building) = (0.0, 0.0, false);
         let mut raw = Vec::new();
@@ -158,7 +158,7 @@ impl Bench {
         (0..raw.len()).map(late).collect()
     }
 
-    /// A recording of the circles.
+    /// Returns a recording of the circles.
     pub fn record(&self) -> Recorded {
         const STEP: f64 = 62.5e-6;
         let kp = self.mass * TAU * self.bandwidth;

@@ -19,11 +19,11 @@ pub struct Bench {
     pub velocity_noise: Option<f64>,
     /// Viscous friction grows less than in proportion.
     pub is_concave: bool,
-    /// The speeds are driven upwards, then downwards.
+    /// Whether the speeds are driven upwards, then downwards.
     pub is_up_and_down: bool,
     /// Speeds in mm/s.
     pub speeds: Vec<f64>,
-    /// Both directions, or only forwards.
+    /// Whether both directions are recorded, or only forwards.
     pub is_both: bool,
     /// Length of the recording in s.
     pub length_s: f64,
@@ -105,7 +105,7 @@ impl Noise {
 }
 
 impl Bench {
-    /// The friction in N at a speed in mm/s.
+    /// Returns the friction in N at a speed in mm/s.
     pub fn friction(&self, speed: f64) -> f64 {
         Self::level(speed) + self.viscous(speed)
     }
@@ -122,7 +122,7 @@ impl Bench {
         }
     }
 
-    /// The commanded velocities in mm/s, one per millisecond.
+    /// Returns the commanded velocities in mm/s, one per millisecond.
     pub fn commanded(&self) -> Vec<f64> {
         const ACCELERATION: f64 = 1000.0;
         const PAUSE: usize = 100;
@@ -153,17 +153,17 @@ impl Bench {
         v
     }
 
-    /// A recording of the speeds.
+    /// Returns a recording of the speeds.
     pub fn record(&self) -> Recorded {
         self.record_along(&self.commanded())
     }
 
-    /// A recording of an axis that follows velocities in mm/s.
+    /// Returns a recording of an axis that follows velocities in mm/s.
     pub fn record_along(&self, commanded: &[f64]) -> Recorded {
         self.record_with(commanded, &[])
     }
 
-    /// A recording with a current in drive units that the control adds at each velocity.
+    /// Returns a recording with a current in drive units that the control adds at each velocity.
     pub fn record_with(&self, commanded: &[f64], added: &[f64]) -> Recorded {
         const STEP: f64 = 62.5e-6;
         const MASS: f64 = 1300.0;

@@ -20,23 +20,23 @@ pub struct Recorder {
     pub screw: (f64, f64),
     /// Cycles between two rows.
     pub every: usize,
-    /// The actual positions are the commanded ones.
+    /// Whether the actual positions are the commanded ones.
     pub is_commanded: bool,
-    /// Actual positions are means over this many cycles.
+    /// Number of cycles over which actual positions are means.
     pub averaged: usize,
     /// Cycles by which Y is recorded after X.
     pub y_late: usize,
     /// A factor on the actual positions of Y about their first.
     pub y_factor: f64,
-    /// X and Y are exchanged.
+    /// Whether X and Y are exchanged.
     pub is_exchanged: bool,
-    /// Rows from one part of the recording to another are missing.
+    /// Parts of the recording in which rows are missing, each from one to another.
     pub missing: Vec<[f64; 2]>,
-    /// The torque is cut at this number of drive units.
+    /// Number of drive units at which the torque is cut.
     pub clipped_units: f64,
     /// A factor on the torque.
     pub torque_factor: f64,
-    /// The places are those of the motors.
+    /// Whether the places are those of the motors.
     pub is_motor: bool,
 }
 
@@ -63,7 +63,7 @@ impl Default for Recorder {
 }
 
 impl Recorder {
-    /// The rows of a recording as a table; positions in mm, velocities in mm/s.
+    /// Returns the rows of a recording as a table; positions in mm, velocities in mm/s.
     pub fn table(&self, run: &Run, axes: [&str; 2]) -> String {
         let mut random = Random::new(self.seed);
         let rows = run.commanded.places[0].len();

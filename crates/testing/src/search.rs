@@ -13,7 +13,7 @@ const DECADES: f64 = 0.35;
 const KNOBS: usize = BANDS.len() + 4;
 
 impl Machine {
-    /// The largest glitches of X and Y in µm over some programs of circles with these lists.
+    /// Returns the largest glitches of X and Y in µm over some programs of circles with these lists.
     pub fn left_um(
         &self,
         (programs, start): (&[Program], [f64; 2]),
@@ -27,8 +27,8 @@ impl Machine {
         left
     }
 
-    /// What the best lists leave that a search from these lists finds: whatever leaves less is kept, in steps that become
-    /// finer.
+    /// Returns the remaining glitches of the best lists that a search from these lists finds: whatever leaves less is
+    /// kept, in steps that become finer.
     pub fn best_um(&self, circles: (&[Program], [f64; 2]), from: [ValueList; 2]) -> [f64; 2] {
         const STEPS: [f64; 4] = [1.0, 0.5, 0.25, 0.12];
         let mut best = from;
@@ -49,7 +49,7 @@ impl Machine {
 }
 
 impl ValueList {
-    /// The list with one of its properties changed.
+    /// Returns the list with one of its properties changed.
     fn turned(&self, knob: usize, by: f64) -> Self {
         let mut list = self.clone();
         match knob.checked_sub(BANDS.len()) {
@@ -68,7 +68,7 @@ impl ValueList {
     }
 }
 
-/// A number of cycles, moved by at least one.
+/// Returns a number of cycles, moved by at least one.
 fn moved(cycles: usize, by: f64) -> usize {
     let by = by.signum() * by.abs().round().max(1.0);
     (cycles as f64 + by).max(0.0) as usize

@@ -7,7 +7,7 @@ use super::machine::Machine;
 use super::ramp::Ramp;
 
 impl Presliding {
-    /// A bristle with a deflection in µm and usual damping.
+    /// Returns a bristle with a deflection in µm and usual damping.
     pub fn bristle(um: f64) -> Self {
         Self::Bristle {
             um,
@@ -18,7 +18,7 @@ impl Presliding {
 }
 
 impl Axis {
-    /// A table of 900 kg on roller guides.
+    /// Returns a table of 900 kg on roller guides.
     pub fn table(presliding: Presliding) -> Self {
         Self {
             mass_kg: 900.0,
@@ -47,7 +47,7 @@ impl Axis {
 }
 
 impl Machine {
-    /// A machine of two tables, of which Y is heavier and has more friction.
+    /// Returns a machine of two tables, of which Y is heavier and has more friction.
     pub fn of_tables(name: &'static str, presliding: Presliding) -> Self {
         let x = Axis::table(presliding);
         let mut y = x.clone();
@@ -69,7 +69,7 @@ impl Machine {
         }
     }
 
-    /// A bristle and one mass: the structure of most plants.
+    /// Returns a bristle and one mass: the structure of most plants.
     pub fn bristle() -> Self {
         Self::of_tables("bristle", Presliding::bristle(1.5))
     }

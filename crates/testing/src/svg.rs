@@ -5,7 +5,7 @@ use roxmltree::Document;
 /// The namespace of the elements.
 pub const SVG: &str = "http://www.w3.org/2000/svg";
 
-/// The document of a picture.
+/// Returns the document of a picture.
 ///
 /// # Panics
 ///
@@ -14,7 +14,7 @@ pub fn read(svg: &str) -> Document<'_> {
     Document::parse(svg).unwrap_or_else(|error| panic!("{error}:\n{svg}"))
 }
 
-/// The texts that a picture shows.
+/// Returns the texts that a picture shows.
 pub fn texts<'a>(document: &'a Document<'_>) -> Vec<&'a str> {
     let nodes = document
         .descendants()

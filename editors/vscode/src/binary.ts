@@ -11,7 +11,7 @@ export interface Surroundings {
   platform: NodeJS.Platform;
   /** The variable `PATH`. */
   path: string;
-  /** Whether a path names a file that can be run. */
+  /** Returns whether a path names a file that can be run. */
   exists(file: string): boolean;
 }
 

@@ -35,7 +35,7 @@ export function selector(further: readonly string[]): { scheme: string; language
 /** The endings of TwinCAT projects and their parts, which hold lists. */
 const PROJECTS = ["tsproj", "xti"];
 
-/** Whether the language server is told about a document. */
+/** Returns whether the language server is informed about a document. */
 export function isServed(document: Named, further: readonly string[]): boolean {
   return (
     SCHEMES.includes(document.uri.scheme) &&

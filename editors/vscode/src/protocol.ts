@@ -15,7 +15,7 @@ export interface AxisStates {
 /** The answer of `frictcomp/states`: the axes at the block of a line. */
 export interface States {
   axes: AxisStates[];
-  /** All of it in one short line. */
+  /** States of all axes in one short line. */
   text: string;
 }
 
@@ -30,7 +30,7 @@ export interface Segment {
 export interface Timeline {
   lines: number;
   axes: { axis: string; segments: Segment[] }[];
-  /** What the states rest on, if that has to be stated. */
+  /** Basis of the states, if it has to be stated. */
   remark: string | null;
 }
 
@@ -57,7 +57,7 @@ export interface Contour {
   worst: { file: number; line: number; words: string }[];
   /** The verdict, then the figures in sentences and tables. */
   report: PageReport;
-  /** What the contour rests on, and what is missing from it. */
+  /** Remarks on the basis of the contour, and on what is missing from it. */
   remarks: string[];
 }
 

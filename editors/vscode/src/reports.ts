@@ -76,7 +76,7 @@ export class Reports implements vscode.Disposable {
   }
 }
 
-/** What prevented a run from writing its report, `""` if the user stopped it, otherwise nothing. */
+/** Returns what prevented a run from writing its report, `""` if the user stopped it, otherwise `undefined`. */
 async function finished(running: Promise<unknown>): Promise<string | undefined> {
   try {
     await running;

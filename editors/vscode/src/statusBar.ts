@@ -4,7 +4,7 @@ import { isProgram } from "./programs";
 import type { States } from "./protocol";
 import { statusText, statusTooltip } from "./statusText";
 
-/** How long the cursor rests before the server is asked, in ms. */
+/** Rest of the cursor before the server is asked, in ms. */
 const REST = 80;
 
 export type AskStates = (uri: vscode.Uri, position: vscode.Position) => Promise<States | undefined>;

@@ -1,11 +1,11 @@
-/** Whether a program that was found is frictcomp, and new enough for this extension. */
+/** Check that a program that was found is frictcomp, and new enough for this extension. */
 import { execFile } from "node:child_process";
 import { promisify } from "node:util";
 import type { Found } from "./binary";
 
 const run = promisify(execFile);
 
-/** How long the program may take to print its version, in ms. */
+/** Time limit for the program to print its version, in ms. */
 const PATIENCE = 10_000;
 
 export type Usable = { kind: "usable"; file: string } | { kind: "unusable"; why: string };
@@ -35,7 +35,7 @@ export async function usable(found: Found, wanted: string): Promise<Usable> {
   return { kind: "usable", file };
 }
 
-/** Whether a version comes before another one. */
+/** Returns whether a version comes before another one. */
 export function isOlder(version: string, wanted: string): boolean {
   const parts = (text: string): number[] => text.split(".").map((part) => parseInt(part, 10));
   const [found, needed] = [parts(version), parts(wanted)];

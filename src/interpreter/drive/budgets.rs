@@ -23,7 +23,7 @@ use crate::syntax::Fault;
 use crate::text::Span;
 
 impl Executor {
-    /// FC910 when the next block may not be executed any more.
+    /// Returns FC910 when the next block may not be executed any more.
     #[inline]
     pub(crate) fn over_budget(&self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let limits = &self.options.limits;
@@ -34,8 +34,8 @@ impl Executor {
         is_over.then(|| too_many_repeats(self.state.blocks, at))
     }
 
-    /// FC919, FC908 or FC918 when the block exceeded a budget. Whatever else it could have changed is then unknown:
-    /// the run did not reach its end.
+    /// Returns FC919, FC908 or FC918 when the block exceeded a budget. Whatever else it could have changed is then
+    /// unknown: the run did not reach its end.
     pub(crate) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         if self.is_past_all_ways() {
             self.havoc_all(&Unknown::Work);
@@ -49,7 +49,7 @@ impl Executor {
         is_over.then(|| too_many_values(self.options.limits.values, at))
     }
 
-    /// Whether variables and couplings hold more than their budget.
+    /// Returns whether variables and couplings hold more than their budget.
     pub(crate) fn holds_too_many_values(&self) -> bool {
         let control = &self.state.control;
         let held = control
@@ -71,7 +71,7 @@ impl Executor {
         self.with_loop(at.diagnostic(fault))
     }
 
-    /// The budget's message with the loop that used it up.
+    /// Returns the budget's message with the loop that used it up.
     pub(crate) fn with_loop(&self, diagnostic: Diagnostic) -> Diagnostic {
         let Some(frame) = self.state.control.frames.running() else {
             return diagnostic;
@@ -88,7 +88,7 @@ impl Executor {
     }
 }
 
-/// FC910 at the budget of blocks.
+/// Returns FC910 at the budget of blocks.
 #[cold]
 fn too_many_blocks(budget: u64, at: &BlockContext<'_>) -> Diagnostic {
     cut_off(
@@ -97,7 +97,7 @@ fn too_many_blocks(budget: u64, at: &BlockContext<'_>) -> Diagnostic {
     )
 }
 
-/// FC910 at the budget of repeated work.
+/// Returns FC910 at the budget of repeated work.
 #[cold]
 fn too_many_repeats(blocks: u64, at: &BlockContext<'_>) -> Diagnostic {
     cut_off(
@@ -106,14 +106,14 @@ fn too_many_repeats(blocks: u64, at: &BlockContext<'_>) -> Diagnostic {
     )
 }
 
-/// FC910 of a program that may end: its remaining course is not known, so it is an error (R9.91).
+/// Returns FC910 for a program that may end: its remaining course is not known, so the message is an error (R9.91).
 fn cut_off(message: String, at: &BlockContext<'_>) -> Diagnostic {
     let fault = Fault::new(Code::Fc910, Span::new(0, at.text.len()), message)
         .with_help(Advice::RaiseBudget(Budget::Blocks));
     at.diagnostic(fault).raised(Severity::Error)
 }
 
-/// FC908 where even what the ways could change takes too long to find.
+/// Returns FC908 where even what the ways could change takes too long to find.
 #[cold]
 fn too_much_to_follow(at: &BlockContext<'_>) -> Diagnostic {
     let message = "what the blocks from here on could change takes too much work to find; the dry run ends here, \
@@ -123,7 +123,7 @@ fn too_much_to_follow(at: &BlockContext<'_>) -> Diagnostic {
     at.diagnostic(fault)
 }
 
-/// FC918.
+/// Returns FC918: the program holds more values than the limit.
 #[cold]
 fn too_many_values(limit: u32, at: &BlockContext<'_>) -> Diagnostic {
     at.diagnostic(
@@ -181,7 +181,7 @@ impl ControlState {
 const MAX_NAMED: usize = 3;
 
 impl OtherPaths {
-    /// Whether following the ways of the program takes more work than its budget.
+    /// Returns whether following the ways of the program takes more work than its budget.
     #[inline]
     pub(crate) fn is_past_ways(&self, here: &Executor) -> bool {
         let is_past = here.state.work.ways() > here.options.limits.ways
@@ -262,7 +262,8 @@ impl OtherPaths {
 }
 
 impl Executor {
-    /// The blocks of the main program that ways may execute up to the end of the control blocks that they are in.
+    /// Returns the blocks of the main program that ways may execute up to the end of the control blocks that they are
+    /// in.
     fn passed_by_all(&self, ways: &[Path]) -> Range<EntryIndex> {
         let frames = ways.iter().filter_map(|way| way.control.frames.running());
         let next: Vec<EntryIndex> = frames.map(|frame| frame.next).collect();
@@ -276,7 +277,7 @@ impl Executor {
         }
     }
 
-    /// FC908.
+    /// Returns FC908: the run has more ways than are followed.
     fn too_many_ways(&self, passed: &Range<EntryIndex>) -> Option<Diagnostic> {
         let main = self.state.control.frames.main();
         let index = main.map(|frame| self.programs.index(frame.unit));
@@ -311,7 +312,7 @@ impl Executor {
 }
 
 impl Index {
-    /// A range of blocks with all of each control block that it touches.
+    /// Returns a range of blocks with all of each control block that it touches.
     fn around(&self, mut blocks: Range<EntryIndex>) -> Range<EntryIndex> {
         loop {
             let mut whole = blocks.clone();
@@ -329,7 +330,7 @@ impl Index {
 }
 
 impl Path {
-    /// The way when it reaches a block of the running program.
+    /// Returns the way when it reaches a block of the running program.
     pub(crate) fn at(mut self, entry: EntryIndex) -> Self {
         if let Some(frame) = self.control.frames.running_mut() {
             frame.next = entry;

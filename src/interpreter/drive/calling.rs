@@ -201,7 +201,7 @@ impl OtherPaths {
 }
 
 impl Interpreter {
-    /// The called files that were executed to their end.
+    /// Returns the called files that were executed to their end.
     pub fn returned_files(&self) -> impl Iterator<Item = &Arc<str>> {
         let units = self.here.programs.units().iter().skip(1);
         let returned = units.filter(|unit| unit.returned);
@@ -259,7 +259,7 @@ impl OtherPaths {
         }
     }
 
-    /// The effect of a call is known: the run continues after it.
+    /// Continues the run after a call whose effect is known.
     fn go_on_after_call(
         &mut self,
         here: &mut Executor,
@@ -277,7 +277,7 @@ impl OtherPaths {
         ControlFlow::Continue(())
     }
 
-    /// The running program comes back to the one that called it.
+    /// Returns the running program to the one that called it.
     fn come_back_from_call(&mut self, here: &mut Executor) {
         let called = here.called().filter(|_| !self.call_effects.is_empty());
         here.leave();
@@ -294,7 +294,7 @@ impl OtherPaths {
         }
     }
 
-    /// The running program is left for another place than the block after its call.
+    /// Leaves the running program for another place than the block after its call.
     fn leave_for_elsewhere(&mut self, here: &mut Executor) {
         if let Some(called) = here.called() {
             self.call_effects.remove(called);
@@ -320,13 +320,13 @@ impl Executor {
         self.version += 1;
     }
 
-    /// The running program, which was called.
+    /// Returns the running program, which was called.
     fn called(&self) -> Option<CalledAt> {
         let frames = &self.state.control.frames;
         Some((frames.depth(), frames.program()?))
     }
 
-    /// The state in which the running program is called.
+    /// Returns the state in which the running program is called.
     fn entry_of_call(&self) -> Path {
         self.charge_copies(&self.state.control, &self.state.track.reach);
         let mut entry = self.state.arriving();
@@ -335,7 +335,7 @@ impl Executor {
     }
 }
 
-/// Whether a way is in the last executed call of a program.
+/// Returns whether a way is in the last executed call of a program.
 fn is_within(calls: &CallStack, (depth, program): CalledAt, effect: &CallEffect) -> bool {
     let at_depth = calls.iter().nth(depth.saturating_sub(1));
     at_depth.is_some_and(|frame| frame.program() == program)

@@ -57,24 +57,24 @@ pub struct Interpreter {
 }
 
 impl Interpreter {
-    /// The kinds that are unknown because ways differ, with the states that are possible (R14.2).
+    /// Returns the kinds that are unknown because ways differ, with the states that are possible (R14.2).
     pub fn possible(&self) -> &[PossibleStates] {
         &self.here.shown.possible
     }
 
-    /// The answers to the condition in the last executed block, where only the machine knows which holds and none
-    /// was chosen ([`Branches::OneFollowed`](crate::interpreter::Branches::OneFollowed)).
+    /// Returns the answers to the condition in the last executed block, where only the machine knows which holds and
+    /// none was chosen ([`Branches::OneFollowed`](crate::interpreter::Branches::OneFollowed)).
     pub fn offered(&self) -> &[WayCondition] {
         &self.here.offered
     }
 
-    /// The next such condition has one of the answers that are [`offered`](Self::offered), by its place
-    /// among them; after a second call, so has the one after it.
+    /// Answers the next such condition with one of the answers that are [`offered`](Self::offered), by its place among
+    /// them; a second call answers the one after it.
     pub fn choose(&mut self, place: usize) {
         self.here.chosen.push_back(place);
     }
 
-    /// An interpreter for a machine whose compensation is in a given state.
+    /// Returns an interpreter for a machine whose compensation is in a given state.
     pub fn new(
         machine: impl Into<Arc<Machine>>,
         compensation: Compensation,
@@ -121,17 +121,17 @@ impl Interpreter {
         }
     }
 
-    /// The machine.
+    /// Returns the machine.
     pub fn machine(&self) -> &Arc<Machine> {
         &self.here.machine
     }
 
-    /// The current compensation state.
+    /// Returns the current compensation state.
     pub fn compensation(&self) -> &Compensation {
         &self.here.state.control.compensation
     }
 
-    /// The axes that occurred so far, by position; every axis of a configured machine.
+    /// Returns the axes that occurred so far, by position; every axis of a configured machine.
     pub fn occurred(&self) -> &[bool] {
         &self.here.state.occurred
     }
@@ -147,7 +147,7 @@ impl Interpreter {
         self.here.version
     }
 
-    /// The executed blocks of the session.
+    /// Returns the executed blocks of the session.
     pub fn blocks(&self) -> u64 {
         self.here.state.blocks
     }
@@ -162,24 +162,24 @@ impl Interpreter {
         self.here.state.rests_on
     }
 
-    /// The position of an axis after the last block: the programmed coordinate in mm or degrees.
+    /// Returns the position of an axis after the last block: the programmed coordinate in mm or degrees.
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         self.here.state.control.modal.position(axis)
     }
 
-    /// The G functions in force.
+    /// Returns the G functions in force.
     pub fn modal(&self) -> &Modal {
         &self.here.state.control.modal
     }
 
-    /// The variables that outlive programs and that only programs write: `V.S.`, and `V.E.` where the configuration
-    /// says so (R2.34, R2.99).
+    /// Returns the variables that outlive programs and that only programs write: `V.S.`, and `V.E.` where the
+    /// configuration says so (R2.34, R2.99).
     pub fn shared_variables(&self) -> BTreeMap<String, Value> {
         self.here.state.control.memory.shared()
     }
 
-    /// The values that the running program sees, by name: the own parameters of its call, the
-    /// parameters in the order of their numbers, and the variables.
+    /// Returns the values that the running program sees, by name: the own parameters of its call, the parameters in the
+    /// order of their numbers, and the variables.
     pub fn values(&self) -> Vec<(String, Value)> {
         let running = self.here.state.control.frames.running();
         let own = running.into_iter().flat_map(|frame| &frame.own);
@@ -194,8 +194,8 @@ impl Interpreter {
         self.here.version += 1;
     }
 
-    /// The work of the session so far, in units: characters of macros, texts and regions that were
-    /// gone through, operands that were computed, names that were compared (R2.60).
+    /// Returns the work of the session so far, in units: characters of macros, texts and regions that were gone
+    /// through, operands that were computed, names that were compared (R2.60).
     pub fn work(&self) -> u64 {
         self.here.state.work.spent()
     }
@@ -262,9 +262,9 @@ impl Interpreter {
 }
 
 impl Interpreter {
-    /// A reset of the channel (R1.28): the compensation stays as it is, or returns to its start-up
-    /// state, depending on the reading; kinds with manual activation are switched off in any case. Couplings and
-    /// exchanged axes end with it, unless the channel list says otherwise.
+    /// Resets the channel (R1.28): the compensation stays as it is, or returns to its start-up state, depending on the
+    /// reading; kinds with manual activation are switched off in any case. Couplings and exchanged axes end with it,
+    /// unless the channel list says otherwise.
     pub fn reset(&mut self) {
         let control = &mut self.here.state.control;
         control.end_exchange(ProgramStop::Reset, &self.here.machine.channel);
@@ -276,8 +276,8 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// If the state before the start of the control is not known, friction compensation is unknown where
-    /// the machine is read as keeping it (R1.29).
+    /// Makes friction compensation unknown if the state before the start of the control is not known and the machine is
+    /// read as keeping it (R1.29).
     pub(crate) fn havoc_start(&mut self) {
         if self.machine.readings.takes_second(Question::Restart) {
             self.havoc_any_axis(KindSet::of(Kind::Frict));

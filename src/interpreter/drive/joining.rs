@@ -162,7 +162,7 @@ impl OtherPaths {
 }
 
 impl RunState {
-    /// A condition that is asked on some ways only is reported as such, whatever its own answer.
+    /// Reports a condition that is asked on some ways only as such, whatever its own answer.
     pub(crate) fn limit_to_reach(&self, said: &mut Diagnostic, condition: Option<u32>) {
         let mut reach = self.track.reach.clone();
         if let Some(own) = condition {
@@ -175,7 +175,7 @@ impl RunState {
 }
 
 impl ControlState {
-    /// The kinds in which two ways differ, with their axes.
+    /// Returns the kinds in which two ways differ, with their axes.
     fn differing_kinds(&self, sides: &[ControlState; 2]) -> BTreeMap<Kind, Vec<AxisIndex>> {
         let mut kinds: BTreeMap<Kind, Vec<AxisIndex>> = BTreeMap::new();
         let [mine, theirs] = sides.each_ref().map(|control| &control.compensation);
@@ -190,14 +190,14 @@ impl ControlState {
     }
 }
 
-/// Whether two ways differ in G functions other than that of the motion.
+/// Returns whether two ways differ in G functions other than that of the motion.
 fn differ_in_words(mine: &ControlState, theirs: &ControlState) -> bool {
     let differs = |group: &Group| mine.modal.differs_in(&theirs.modal, *group);
     let groups = Group::ALL.iter().filter(|group| **group != Group::Motion);
     groups.into_iter().any(differs)
 }
 
-/// What differs where ways meet: kinds of compensation, and anything else.
+/// Describes the differences where ways meet: kinds of compensation, and anything else.
 fn outcome_in_words(kinds: &[String], others: &[String]) -> String {
     let switched = format!("{} may be on or off", in_a_row(kinds));
     let is_one = matches!(others, [only] if only.starts_with('`'));
@@ -259,7 +259,7 @@ fn about(condition: &Condition, outcome: &str) -> Diagnostic {
     Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(cause.advice())
 }
 
-/// The condition that separates two ways.
+/// Returns the condition that separates two ways.
 fn what_parts(mine: &Path, other: &Path) -> Option<u32> {
     let (mine, theirs) = (&mine.track.reach, &other.track.reach);
     let both: Vec<u32> = mine.conditions().chain(theirs.conditions()).collect();
@@ -323,7 +323,7 @@ impl OtherPaths {
         Some(last.by)
     }
 
-    /// The ways through the program meet at its end. Where the run has gone on after errors, one that an error has
+    /// Joins the ways through the program at its end. Where the run has gone on after errors, one that an error has
     /// ended counts only if no other went on, and the states at the errors are apart (R9.20).
     #[cold]
     pub(crate) fn meet_ended(&mut self, here: &mut Executor, by: EndedBy) -> MetWays {
@@ -376,7 +376,7 @@ pub(crate) struct MetWays {
 }
 
 impl RunState {
-    /// The places where ways end, each once.
+    /// Returns the places where ways end, each once.
     fn ends_of(&self, ended: &[EndedPath]) -> Vec<ProgramEnd> {
         let mut ends: Vec<ProgramEnd> = Vec::new();
         for end in ended {
@@ -408,7 +408,7 @@ impl RunState {
         ends
     }
 
-    /// The state that errors leave, as one.
+    /// Returns the state that errors leave, as one.
     fn stopped(&self, ended: &[EndedPath]) -> Option<StoppedState> {
         let mut ways = ended.iter().map(|end| end.path.clone());
         let mut all = ways.next()?;
@@ -428,7 +428,7 @@ impl RunState {
 }
 
 impl RunState {
-    /// FC310 at the last executed block; a program without any block is reported as such (R18.6).
+    /// Returns FC310 at the last executed block; a program without any block is reported as such (R18.6).
     pub(crate) fn missing_end(&self) -> Option<Diagnostic> {
         let place = self.last.as_ref()?.place();
         let message = "the program ends here without M30 or M02";
@@ -437,7 +437,7 @@ impl RunState {
 }
 
 impl OtherPaths {
-    /// The ways part after the block that asked.
+    /// Parts the ways after the block that asked.
     #[cold]
     pub(crate) fn take_sides(
         &mut self,
@@ -457,7 +457,7 @@ impl OtherPaths {
         }
     }
 
-    /// The ways that jump part from the one on which the block itself leads elsewhere, which goes on.
+    /// Parts the ways that jump from the one on which the block itself leads elsewhere, which goes on.
     #[cold]
     pub(crate) fn take_jumps(&mut self, here: &mut Executor, finder: &mut dyn Finder) {
         let sides = std::mem::take(&mut here.sides);
@@ -531,14 +531,15 @@ impl OtherPaths {
 }
 
 impl Executor {
-    /// Whether a user has chosen that the block jumps.
+    /// Returns whether a user has chosen that the block jumps.
     pub(crate) fn is_jump_chosen(&self) -> bool {
         let next = self.state.control.frames.running().map(|it| it.next);
         self.options.branches == Branches::OneFollowed
             && matches!(self.sides.as_slice(), [only] if Some(only.to) != next)
     }
 
-    /// The block at which the sides of a question meet again, where one way is followed and the others are its shadows.
+    /// Returns the block at which the sides of a question meet again, where one way is followed and the others are its
+    /// shadows.
     fn meeting(&self, sides: &[BranchSide]) -> Option<Meeting> {
         if !self.options.follows_one_way() || sides.len() < 2 {
             return None;

@@ -30,7 +30,7 @@ pub(crate) struct MainLines<'l> {
     reader: BlockReader<&'l mut dyn LineSource>,
     /// The block read last.
     block: Block,
-    /// Whether it is still to be executed.
+    /// Whether the program is still to be executed.
     is_due: bool,
     /// Whether the program has a block so far.
     has_block: bool,
@@ -60,7 +60,7 @@ impl<'l> MainLines<'l> {
         Some(name)
     }
 
-    /// Whether the block that is due can be executed only with the text after it.
+    /// Returns whether the block that is due can be executed only with the text after it.
     fn need_memory(&self, here: &Executor) -> bool {
         self.is_due && here.needs_text(&self.reader.last(), &self.block)
     }
@@ -212,7 +212,8 @@ impl Interpreter {
         ControlFlow::Continue(())
     }
 
-    /// M17 ended the program: FC310 if it has M30 farther down; a subprogram run by itself ends as it should.
+    /// Reports FC310 for a program that M17 ended if it has M30 farther down; a subprogram run by itself ends as it
+    /// should.
     fn look_after_return(&mut self, lines: &mut Option<MainLines<'_>>) {
         let Some(lines) = lines.take() else {
             return;
@@ -258,7 +259,7 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// Whether a block can be executed only with the text after it.
+    /// Returns whether a block can be executed only with the text after it.
     #[inline]
     fn needs_text(&self, raw: &RawBlock<'_>, block: &Block) -> bool {
         self.undecided_level(block).is_some()
@@ -267,12 +268,12 @@ impl Executor {
     }
 }
 
-/// Whether another program begins, which no run reaches.
+/// Returns whether another program begins, which no run reaches.
 fn begins_another(raw: &RawBlock<'_>) -> bool {
     matches!(raw.stretch, Stretch::Program { .. })
 }
 
-/// Whether a block can be reached again, or needs what follows it.
+/// Returns whether a block can be reached again, or needs what follows it.
 fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
     match raw.stretch {
         Stretch::Program { local, .. } => local,

@@ -30,7 +30,7 @@ const MOST_COUNTED_PASSES: u64 = 1000;
 /// Passes after which a loop that is joined at its head is given up (R14.4).
 const MOST_JOINED_PASSES: u64 = 64;
 
-/// Whether it is known that a loop is repeated.
+/// Certainty that a loop is repeated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Repeats {
     Known,
@@ -41,9 +41,9 @@ pub(crate) enum Repeats {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Around {
     Nothing,
-    /// It is executed pass by pass.
+    /// Loop executed pass by pass.
     Known,
-    /// It is joined at its head.
+    /// Loop joined at its head.
     Joined,
 }
 
@@ -96,7 +96,7 @@ impl OtherPaths {
         }
     }
 
-    /// A pass of a loop that is joined begins.
+    /// Begins a pass of a loop that is joined.
     fn reach_head(
         &mut self,
         here: &mut Executor,
@@ -159,7 +159,7 @@ impl OtherPaths {
         self.reach_head(here, block, (None, now), &blocks) == Arrival::Covered
     }
 
-    /// How the innermost loop around another one is repeated, in the running program or in those that call it.
+    /// Returns how the innermost loop around another one is repeated, in the running program or in those that call it.
     fn around(&self, here: &Executor, opener: EntryIndex) -> Around {
         let RunState { control, track, .. } = &here.state;
         let mut inner = Some(opener);
@@ -190,7 +190,7 @@ impl OtherPaths {
         Around::Nothing
     }
 
-    /// Whether the loop whose passes begin with a block is joined there.
+    /// Returns whether the loop whose passes begin with a block is joined there.
     fn is_joined_at(&self, here: &Executor, target: EntryIndex) -> bool {
         let heads = &self.loop_heads;
         !heads.is_empty() && heads.has(&head_place(&here.state.control.frames, target))
@@ -198,7 +198,7 @@ impl OtherPaths {
 }
 
 impl Executor {
-    /// The state with which a pass begins.
+    /// Returns the state with which a pass begins.
     fn at_head(&mut self, target: EntryIndex) -> Path {
         if let Some(frame) = self.state.control.frames.running_mut() {
             frame.next = target;
@@ -314,7 +314,7 @@ impl Executor {
         self.pass_over_blocks(last.head..last.from.saturating_add(1), cause, finder)
     }
 
-    /// FC910 where the innermost loop is known to be endless.
+    /// Returns FC910 where the innermost loop is known to be endless.
     pub(crate) fn endless_loop(&self) -> Option<Diagnostic> {
         let known = self.state.track.loops.last()?;
         let counters = known.endless.as_ref()?;
@@ -336,8 +336,8 @@ impl OtherPaths {
         }
     }
 
-    /// The innermost loop begins a new pass: what is kept of loops in it is of the last one, unless only the machine
-    /// ends it.
+    /// Drops what is kept of loops inside the innermost loop, which begins a new pass: it belongs to the last pass,
+    /// unless only the machine ends the loop.
     fn drop_heads_in_known_loop(&mut self, state: &RunState) {
         let last = state.track.loops.last();
         let Some(known) = last.filter(|_| !self.loop_heads.is_empty()) else {
@@ -354,7 +354,7 @@ impl OtherPaths {
         }
     }
 
-    /// The other ways that have left the innermost loop.
+    /// Returns the other ways that have left the innermost loop.
     fn left_meanwhile<'a>(&'a self, state: &'a RunState) -> impl Iterator<Item = &'a Path> {
         let last = state.track.loops.last();
         let since = last.map_or(u64::MAX, |known| known.since);
@@ -363,7 +363,7 @@ impl OtherPaths {
         others.filter(move |path| path.parted >= since)
     }
 
-    /// The variables that must change on ways that have left the innermost loop.
+    /// Returns the variables that must change on ways that have left the innermost loop.
     fn names_of_exits(&self, state: &RunState) -> Vec<VariableName> {
         let left = self.left_meanwhile(state);
         let conditions = left.flat_map(|path| path.track.reach.conditions());
@@ -374,7 +374,7 @@ impl OtherPaths {
 }
 
 impl RunState {
-    /// The innermost loop begins anew: the passes so far prove nothing.
+    /// Discards the proofs of earlier passes, since the innermost loop begins anew.
     fn forget_passes(&mut self) {
         if let Some(known) = self.track.loops.last_mut() {
             known.mark = None;
@@ -382,7 +382,7 @@ impl RunState {
         }
     }
 
-    /// Whether the state is that of an earlier pass; if there is none, it is kept for comparison.
+    /// Returns whether the state is that of an earlier pass; if there is none, it is kept for comparison.
     #[cold]
     fn repeats(&mut self) -> bool {
         let Some(mut last) = self.track.loops.pop() else {
@@ -453,7 +453,7 @@ fn counters(mark: &Mark, state: &RunState) -> Option<Vec<Location>> {
     only_counts.then_some(differing)
 }
 
-/// Whether a loop is compared with an earlier pass.
+/// Returns whether a loop is compared with an earlier pass.
 pub(crate) fn watches(track: &RunTrack) -> bool {
     track.loops.iter().any(|known| known.mark.is_some())
 }

@@ -157,7 +157,7 @@ impl Executor {
         self.scratch.clear();
     }
 
-    /// How the run ends before it begins, where faults of the main program keep it from running.
+    /// Returns the end of a run that faults of the main program keep from starting.
     pub(crate) fn end_by_refusal(&self) -> Option<EndedBy> {
         let refused = self.programs.refused();
         let is_refused = !refused.is_empty() && self.options.stop == StopPolicy::FirstError;
@@ -217,10 +217,10 @@ impl Executor {
     }
 }
 
-/// What stops a program.
+/// Cause that stops a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ProgramStop {
-    /// Its end.
+    /// The end of the program.
     End,
     /// A reset of the channel, after an error, in a loop without an end, or between two programs.
     Reset,
@@ -334,8 +334,8 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// P-ERR-21500 to 21502: the text ends while the control skips it for a false `$IF` without `$ENDIF` (R2.103).
-    /// Returns whether the run stops there.
+    /// Reports P-ERR-21500 to 21502: the text ends while the control skips it for a false `$IF` without `$ENDIF`
+    /// (R2.103). Returns whether the run stops there.
     #[cold]
     pub(crate) fn ends_in_open_if(&mut self) -> bool {
         let Some(frame) = self.state.control.frames.running_mut() else {
@@ -368,7 +368,7 @@ impl Executor {
         false
     }
 
-    /// The end of the program where all ways reach one.
+    /// Returns the end of the program where all ways reach one.
     fn own_end(&self, by: EndedBy, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
         let last = self.state.last.as_ref().map(LastBlock::place);
         let place = at.map(|end| end.place.clone()).or(last);
@@ -394,7 +394,7 @@ impl Executor {
         }
     }
 
-    /// The messages on the blocks of a file, each program that is never run before its blocks.
+    /// Reports the messages on the blocks of a file, each program that is never run before its blocks.
     fn check_unexecuted_of(
         &self,
         unit: &SourceUnit,
@@ -479,7 +479,7 @@ impl Interpreter {
 }
 
 impl Executor {
-    /// The last line of a file that was reached, or more than all lines where the rest is checked, too.
+    /// Returns the last line of a file that was reached, or more than all lines where the rest is checked, too.
     fn reached_line(&self, number: usize, unit: &SourceUnit, by: EndedBy) -> u32 {
         if self.options.stop == StopPolicy::CheckAll {
             return u32::MAX;
@@ -494,7 +494,7 @@ impl Executor {
     }
 }
 
-/// FC490 or FC491 for each comment, and the faults of lines outside blocks, down to a line.
+/// Gathers FC490 or FC491 for each comment, and the faults of lines outside blocks, down to a line.
 pub(crate) fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
     let lines = lost.remarks.iter().flat_map(Remark::lines);
     for (text, line) in lines.take_while(|(_, line)| *line <= until) {
@@ -572,7 +572,7 @@ impl ControlState {
         .map(|switch| channel.has(switch));
         let keeps_configuration = channel.has(KeepAxes);
         if keeps_configuration && stop == ProgramStop::Reset && !keeps_couplings {
-            // What the reset of P-CHAN-00460 does to couplings is not documented.
+            // The effect of the reset by P-CHAN-00460 on couplings is not documented.
             if self.couplings.is_any() {
                 self.havoc_couplings();
             }

@@ -31,7 +31,7 @@ enum DueBlock {
     Indexed(usize, EntryIndex),
     /// The next one of the lines of the main program.
     Line,
-    /// None on this way: the run first goes on elsewhere.
+    /// No block on this way: the run first goes on elsewhere.
     Elsewhere,
 }
 
@@ -161,7 +161,7 @@ impl Interpreter {
         }
     }
 
-    /// The next block of the running program, `Break` where the last way ends.
+    /// Returns the next block of the running program, `Break` where the last way ends.
     #[inline]
     fn due_block(&mut self, has_lines: bool) -> ControlFlow<RunOutcome, DueBlock> {
         let Some(frame) = self.here.state.control.frames.running() else {
@@ -305,8 +305,8 @@ impl Interpreter {
         flow
     }
 
-    /// Does what the words of a block ask for beyond a motion and values. Returns whether an error of the control stops
-    /// the run at it.
+    /// Executes what the words of a block ask for beyond a motion and values. Returns whether an error of the control
+    /// stops the run at it.
     #[inline(never)]
     fn act(&mut self, first: usize, at: &BlockContext<'_>, finder: &mut dyn Finder) -> bool {
         self.here.scratch.has_plain_words = false;
@@ -439,7 +439,7 @@ impl Executor {
     }
 }
 
-/// Whether the control only computes, branches or switches.
+/// Returns whether the control only computes, branches or switches.
 fn is_still(item: &Item) -> bool {
     matches!(
         item,
@@ -462,7 +462,7 @@ impl Executor {
         self.outdate_readings(at);
     }
 
-    /// Whether an error of the control stops the run at the block; else its axes move.
+    /// Returns whether an error of the control stops the run at the block; else its axes move.
     #[inline]
     fn judge(&mut self, at: &BlockContext<'_>) -> bool {
         let said = &self.scratch.messages.diagnostics;
@@ -514,7 +514,7 @@ impl Executor {
         self.state.track.shadow.moved.extend(axes);
     }
 
-    /// The axes that shadows moved stand at an unknown position.
+    /// Makes the position of the axes unknown that shadows moved.
     #[cold]
     fn take_moves_of_shadows(&mut self) {
         for axis in std::mem::take(&mut self.state.track.shadow.moved) {
@@ -523,7 +523,7 @@ impl Executor {
         }
     }
 
-    /// Whether the block only computes, or moves axes that have moved before, and nothing else is due after it.
+    /// Returns whether the block only computes, or moves axes that have moved before, and nothing else is due after it.
     #[inline]
     fn is_done(&self, at: &BlockContext<'_>) -> bool {
         self.options.fast_path == FastPath::On
@@ -537,7 +537,7 @@ impl Executor {
             && self.is_within_budgets()
     }
 
-    /// Whether a block of the only way switches nothing, nothing is said on it, and its axes have moved before.
+    /// Returns whether a block of the only way switches nothing, nothing is said on it, and its axes have moved before.
     #[inline]
     fn is_quiet(&self) -> bool {
         self.scratch.is_quiet() && !self.scratch.new_axes && self.state.track.searching.is_none()
@@ -676,7 +676,7 @@ impl Executor {
         work.diagnostics.append(&mut work.of_some_ways);
     }
 
-    /// The machine may change values between the questions of blocks.
+    /// Invalidates values that the machine may change between the questions of blocks.
     #[inline]
     fn outdate_readings(&mut self, at: &BlockContext<'_>) {
         if !self.state.track.readings.is_empty() {

@@ -46,11 +46,11 @@ struct RunFile {
     text: Fingerprint,
 }
 
-/// Why a snapshot cannot be resumed.
+/// Reason why a snapshot cannot be resumed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResumeError {
-    /// Another version wrote it.
+    /// Snapshot written by another version.
     #[error(
         "the snapshot has schema {found}; this version reads schema {}",
         Snapshot::SCHEMA
@@ -68,7 +68,7 @@ pub enum ResumeError {
     /// The machine has other axes.
     #[error("the snapshot belongs to a machine with other axes")]
     OtherMachine,
-    /// It was changed after it was saved, or names something that does not exist.
+    /// A snapshot that was changed after it was saved, or names something that does not exist.
     #[error("the snapshot is damaged: {0}")]
     Damaged(&'static str),
 }
@@ -77,12 +77,12 @@ impl Snapshot {
     /// The number of the format that is written and read.
     pub const SCHEMA: u32 = 17;
 
-    /// The number of the format that the snapshot has.
+    /// Returns the number of the format that the snapshot has.
     pub fn schema(&self) -> u32 {
         self.schema
     }
 
-    /// The names of the files of the run, in the order in which they were first needed.
+    /// Returns the names of the files of the run, in the order in which they were first needed.
     pub fn files(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|file| file.name.as_str())
     }
@@ -119,8 +119,8 @@ impl SourceUnit {
 }
 
 impl Interpreter {
-    /// The state of the run between two blocks. `None` where the program is read line by line: its
-    /// lines are gone, so nothing could be resumed.
+    /// Returns the state of the run between two blocks. `None` where the program is read line by line: its lines are
+    /// gone, so nothing could be resumed.
     pub fn snapshot(&self) -> Option<Snapshot> {
         if self.source_mode == SourceMode::LineByLine {
             return None;
@@ -149,7 +149,7 @@ impl Interpreter {
         Some(snapshot.sealed_anew())
     }
 
-    /// An interpreter in the state of a snapshot. `source` returns the text of each file of the run.
+    /// Returns an interpreter in the state of a snapshot. `source` returns the text of each file of the run.
     ///
     /// # Errors
     /// A snapshot of another version, a file that `source` does not return or whose text has changed, a
@@ -236,7 +236,7 @@ pub(crate) struct Trust<'a> {
 }
 
 impl<'a> Trust<'a> {
-    /// The state of a run, before anything is done with it.
+    /// Returns the state of a run, before anything is done with it.
     pub(crate) fn of(run: &'a Interpreter) -> Self {
         Self {
             machine: &run.here.machine,
@@ -246,7 +246,7 @@ impl<'a> Trust<'a> {
         }
     }
 
-    /// Whether everything that the state names is there.
+    /// Checks that everything that the state names is there.
     pub(crate) fn check(&self) -> Validity {
         let state = self.state;
         holds(
@@ -270,7 +270,7 @@ impl<'a> Trust<'a> {
         holds(begins, "a run without a file")
     }
 
-    /// A way through the program, and its loops with the states at their beginnings.
+    /// Returns a way through the program, and its loops with the states at their beginnings.
     fn check_path(&self, control: &ControlState, track: &RunTrack) -> Validity {
         let is_machine = control.compensation.fits(self.machine.axis_setups());
         holds(is_machine, "a way on another machine")?;
@@ -390,7 +390,7 @@ impl<'a> Trust<'a> {
         unit.is_some_and(|unit| found.section < unit.index.sections.len())
     }
 
-    /// Whether a section contains a block, or ends there.
+    /// Returns whether a section contains a block, or ends there.
     fn has_block(&self, found: ProgramId, entry: EntryIndex) -> bool {
         let unit = self.programs.units().get(found.unit);
         let section = unit.and_then(|unit| unit.index.sections.get(found.section));
@@ -432,7 +432,7 @@ fn holds(is: bool, otherwise: &'static str) -> Validity {
     if is { Ok(()) } else { Err(otherwise) }
 }
 
-/// Whether a place has a line that a text may have.
+/// Returns whether a place has a line that a text may have.
 fn is_somewhere(place: &Place) -> bool {
     place.first_line < MOST_LINES
 }
@@ -449,15 +449,14 @@ pub(crate) struct Fingerprint(u64);
 pub(crate) struct NoFingerprint;
 
 impl Fingerprint {
-    /// The fingerprint of a text.
+    /// Returns the fingerprint of a text.
     fn of_text(text: &str) -> Self {
         let mut hasher = FnvHasher::default();
         hasher.write(text.as_bytes());
         Self(hasher.finish())
     }
 
-    /// The fingerprint of data, computed over its serialised bytes. `None` for data that cannot be
-    /// serialised.
+    /// Returns the fingerprint of data, computed over its serialised bytes. `None` for data that cannot be serialised.
     pub(crate) fn of_data(data: &impl Serialize) -> Option<Self> {
         let bytes = Bytes(FnvHasher::default());
         postcard::serialize_with_flavor(data, bytes).ok()

@@ -1,4 +1,4 @@
-//! How a block moves: its axis words and the words of its geometry, the axes that move without a word of their own
+//! Motion of a block: its axis words and the words of its geometry, the axes that move without a word of their own
 //! (R10.7), and the path and velocity that follow from them (R5.1).
 
 use std::cell::Cell;
@@ -44,7 +44,7 @@ pub(crate) struct BlockMotion {
     last_arc: Option<Travel>,
 }
 
-/// What the motion of a block depends on, apart from its words.
+/// State on which the motion of a block depends, apart from its words.
 #[derive(Clone, Copy)]
 pub(crate) struct MotionSetting<'a> {
     pub(crate) axes: AxisLookup<'a>,
@@ -89,17 +89,17 @@ impl BlockMotion {
         });
     }
 
-    /// A word of an axis that the machine does not have.
+    /// Records a word of an axis that the machine does not have.
     pub(crate) fn lack(&mut self, name: String, span: Span) {
         self.lacking.push((name, span));
     }
 
-    /// An axis moves, or may, without a word of its own.
+    /// Records an axis that moves, or may, without a word of its own.
     pub(crate) fn also_move(&mut self, moved: MovedAxis) {
         self.also.push(moved);
     }
 
-    /// It is not known whether an axis moves.
+    /// Records that an axis possibly moves.
     pub(crate) fn perhaps_move(&mut self, axis: AxisIndex) {
         self.also.push(MovedAxis {
             axis,
@@ -109,7 +109,7 @@ impl BlockMotion {
         });
     }
 
-    /// It is not known whether any of these axes moves.
+    /// Records that each of these axes possibly moves.
     pub(crate) fn perhaps_move_all(&mut self, axes: impl ExactSizeIterator<Item = AxisIndex>) {
         let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
         if self.also.iter().filter(possible).count() < axes.len() {
@@ -117,18 +117,18 @@ impl BlockMotion {
         }
     }
 
-    /// The axis words move otherwise than the G functions in force say.
+    /// Sets the motion of the axis words, which differs from that of the G functions in force.
     pub(crate) fn move_as(&mut self, row: MotionEffect) {
         self.row = Some(row);
         self.rests.set(true);
     }
 
-    /// The axes come to rest, or may.
+    /// Records that the axes come to rest, or may.
     pub(crate) fn rest(&self) {
         self.rests.set(true);
     }
 
-    /// The block is G04 or `#TIME`.
+    /// Marks the block as G04 or `#TIME`.
     pub(crate) fn dwell(&mut self) {
         self.dwells = true;
     }
@@ -137,17 +137,17 @@ impl BlockMotion {
         self.dwells
     }
 
-    /// Where expressions say that the axes may come to rest.
+    /// Returns where expressions say that the axes may come to rest.
     pub(crate) fn rest_flag(&self) -> &Cell<bool> {
         &self.rests
     }
 
-    /// Whether the axes come to rest in the block, or may.
+    /// Returns whether the axes come to rest in the block, or may.
     pub(crate) fn rests(&self) -> bool {
         self.rests.get() || self.dwells
     }
 
-    /// The geometry words of the block.
+    /// Returns the geometry words of the block.
     pub(crate) fn geometry(&mut self) -> &mut Geometry {
         self.geometry.get_or_insert_default()
     }
@@ -156,12 +156,12 @@ impl BlockMotion {
         self.geometry.is_some()
     }
 
-    /// The axis words, those of axes that move along a circle last.
+    /// Returns the axis words, those of axes that move along a circle last.
     pub(crate) fn words(&self) -> &[AxisWord] {
         &self.words
     }
 
-    /// The axis words that give targets.
+    /// Returns the axis words that give targets.
     #[inline]
     pub(crate) fn coordinates(&mut self) -> &mut [AxisWord] {
         let around = self.geometry.as_ref().map_or(0, |it| it.around);
@@ -169,17 +169,17 @@ impl BlockMotion {
         &mut self.words[..count]
     }
 
-    /// The axes that the block moves, or may, without their own word.
+    /// Returns the axes that the block moves, or may, without their own word.
     pub(crate) fn also_moved(&self) -> &[MovedAxis] {
         &self.also
     }
 
-    /// The axes that have a word, a bit each by their positions modulo 64.
+    /// Returns the axes that have a word, a bit each by their positions modulo 64.
     pub(crate) fn named(&self) -> u64 {
         self.named
     }
 
-    /// Motion of the axis words, where the G functions in force do not decide it.
+    /// Returns the motion of the axis words, where the G functions in force do not decide it.
     pub(crate) fn row(&self) -> Option<MotionEffect> {
         self.row
     }
@@ -188,23 +188,23 @@ impl BlockMotion {
         self.motion.as_ref()
     }
 
-    /// The words of the block before, unless the axes came to rest after it.
+    /// Returns the words of the block before, unless the axes came to rest after it.
     pub(crate) fn last_words(&self) -> &[AxisWord] {
         &self.last_words
     }
 
-    /// The arc of the block, and that of the block before, unless the axes came to rest after it.
+    /// Returns the arc of the block, and that of the block before, unless the axes came to rest after it.
     pub(crate) fn arcs(&self) -> [Option<&Travel>; 2] {
         [self.arc.as_ref(), self.last_arc.as_ref()]
     }
 
-    /// Every axis that the block moves, or may.
+    /// Returns every axis that the block moves, or may.
     pub(crate) fn axes(&self) -> impl Iterator<Item = AxisIndex> {
         let words = self.words.iter().map(|word| word.axis);
         words.chain(self.also.iter().map(|moved| moved.axis))
     }
 
-    /// Whether it has words of axes that the machine does not have.
+    /// Returns whether it has words of axes that the machine does not have.
     #[inline]
     pub(crate) fn lacks_axes(&self) -> bool {
         !self.lacking.is_empty()
@@ -214,7 +214,7 @@ impl BlockMotion {
         std::mem::take(&mut self.lacking)
     }
 
-    /// Whether an axis may have two words.
+    /// Returns whether an axis may have two words.
     #[inline]
     pub(crate) fn has_repeated(&self) -> bool {
         self.again != 0
@@ -239,35 +239,35 @@ impl BlockMotion {
         repeated
     }
 
-    /// The axis words move nothing.
+    /// Drops the axis words, which move nothing.
     pub(crate) fn drop_words(&mut self) {
         self.words.clear();
     }
 
-    /// The control stops before the block moves.
+    /// Drops all motion of the block, since the control stops before it.
     pub(crate) fn stop(&mut self) {
         self.words.clear();
         self.also.clear();
     }
 
-    /// The words of the block describe geometry.
+    /// Drops all words of the block, since they describe geometry.
     pub(crate) fn drop_all(&mut self) {
         self.words.clear();
         self.geometry = None;
     }
 
-    /// The block before was executed on another way.
+    /// Drops the words of the block before, since it was executed on another way.
     pub(crate) fn forget_last(&mut self) {
         self.words.clear();
         self.last_words.clear();
     }
 
-    /// The words so far, and the other motions.
+    /// Returns the words so far, and the other motions.
     pub(crate) fn len(&self) -> [usize; 2] {
         [self.words.len(), self.also.len()]
     }
 
-    /// What a macro added is shown where the macro is used.
+    /// Moves the spans of everything that a macro added to the use of the macro.
     pub(crate) fn show_at(&mut self, [words, also]: [usize; 2], span: Span) {
         for word in &mut self.words[words..] {
             word.span = span;
@@ -277,20 +277,21 @@ impl BlockMotion {
         }
     }
 
-    /// The positions of the axes of the words, where they are known.
+    /// Returns the positions of the axes of the words, where they are known.
     pub(crate) fn ends(&mut self, modal: &Modal) -> Vec<Option<f64>> {
         let words = self.coordinates().iter();
         words.map(|word| modal.position(word.axis).value).collect()
     }
 
-    /// Whether the block moves along its axis words at the feed in force.
+    /// Returns whether the block moves along its axis words at the feed in force.
     pub(crate) fn is_at_feed(&self, modal: &Modal) -> bool {
         let geometry = self.geometry.as_ref();
         let is_other = geometry.is_some_and(|it| it.foreign.is_some() || it.end_feed.is_some());
         !self.words.is_empty() && self.row.is_none() && modal.functions.is_feed_move() && !is_other
     }
 
-    /// The axes that the block certainly moves, with the words that move them; by homing only where that counts.
+    /// Returns the axes that the block certainly moves, with the words that move them; by homing only where that
+    /// counts.
     pub(crate) fn certain(&self, words: AxisWords, homing_counts: bool) -> Vec<(AxisIndex, Span)> {
         let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring)
             || (homing_counts && words == AxisWords::Homing);
@@ -306,7 +307,7 @@ impl BlockMotion {
             .collect()
     }
 
-    /// The axes that move to their reference points.
+    /// Returns the axes that move to their reference points.
     pub(crate) fn homed(&self, words: AxisWords) -> impl Iterator<Item = AxisIndex> {
         let is_homing = words == AxisWords::Homing;
         let of_words = self.words.iter().filter(move |_| is_homing);
@@ -336,12 +337,12 @@ impl BlockMotion {
         }
     }
 
-    /// Whether other axes may follow what the block moves.
+    /// Returns whether other axes may follow what the block moves.
     pub(crate) fn leads(&self, words: AxisWords) -> bool {
         !self.also.is_empty() || !self.words.is_empty() && words.move_axes()
     }
 
-    /// In manual mode the operator moves axes.
+    /// Leaves the motion of axes to the operator in manual mode.
     fn leave_to_operator(&mut self, row: MotionEffect, setting: MotionSetting<'_>) {
         let words = self.words.iter().map(|it| (it.axis, it.span));
         let mut axes: Vec<_> = words.collect();
@@ -359,7 +360,7 @@ impl BlockMotion {
         }
     }
 
-    /// A motion word in a rotated or transformed frame moves its other axes, too.
+    /// Moves the other axes, too, in a rotated or transformed frame.
     fn move_in_frame(&mut self, setting: MotionSetting<'_>) {
         let of_words = self.words.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;
@@ -457,7 +458,7 @@ fn follow(moving: &mut BTreeMap<AxisIndex, MovedAxis>, links: &[CouplingLink]) -
 }
 
 impl MotionSetting<'_> {
-    /// The axes of a frame, and whether each certainly moves with another of them.
+    /// Returns the axes of a frame, and whether each certainly moves with another of them.
     fn frame(self, name: &str) -> Option<(Vec<AxisIndex>, Certainty)> {
         if name == CUTTER_RADIUS {
             // The path of the tool centre is beside the programmed one.
@@ -485,7 +486,7 @@ impl MotionSetting<'_> {
 
 /// The path and the velocity.
 impl BlockMotion {
-    /// A circle moves both axes of its plane, even without a word for them: `G2 I5` is a full circle
+    /// Returns the axes of the plane that a circle moves, even without a word for them: `G2 I5` is a full circle
     /// (R2.46). Axes without a word end where they start. Returns those axes.
     pub(crate) fn move_around(
         &mut self,
@@ -524,7 +525,7 @@ impl BlockMotion {
         added
     }
 
-    /// The radius of the block, if it has one.
+    /// Returns the radius of the block, if it has one.
     pub(crate) fn radius(&self) -> WordValue {
         self.geometry.as_ref()?.radius
     }
@@ -710,7 +711,7 @@ impl BlockPath<'_> {
         pace.share(haste, self.words.iter().map(|word| word.axis))
     }
 
-    /// A feed in mm, or in degrees where only rotary axes move.
+    /// Returns a feed in mm, or in degrees where only rotary axes move.
     fn per_minute(self, feed: ProgrammedFeed) -> Option<f64> {
         let machine = self.setting.axes.machine;
         let is_rotary = |word: &AxisWord| machine.axis(word.axis).axis_type == AxisType::Rotary;
@@ -720,7 +721,7 @@ impl BlockPath<'_> {
         feed.unit_mm.map(|unit| feed.value * unit)
     }
 
-    /// E, which counts with G94 only (PM/206811147).
+    /// Executes E, which counts with G94 only (PM/206811147).
     fn end_feed(self) -> Option<f64> {
         let modal = self.setting.modal;
         let is_per_minute = modal.functions.feed_mode == 94 && modal.functions.motion != 0;

@@ -11,14 +11,14 @@ use crate::language::{Certainty, MotionKind, Simplifications};
 use crate::lists::SlopeProfile;
 use crate::text::Span;
 
-/// Whether blocks report their motion.
+/// Reports of motion by blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Motions {
-    /// They do not.
+    /// Blocks do not report their motion.
     #[default]
     None,
-    /// They do, see [`Motion`].
+    /// Blocks report their motion, see [`Motion`].
     Taken,
 }
 
@@ -80,7 +80,7 @@ pub enum PathForm {
     Line,
     /// G02, G03: an arc, or a helix when the third axis moves.
     Arc(Arc),
-    /// Something that is not modelled, or not known offline, in words.
+    /// Shape that is not modelled, or not known offline, in words.
     Unknown(&'static str),
 }
 
@@ -110,9 +110,9 @@ pub enum Turn {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Centre {
-    /// By its coordinates on the two axes of the plane, in mm.
+    /// Coordinates on the two axes of the plane, in mm.
     Point([f64; 2]),
-    /// By the radius in mm: positive for the short arc, negative for the long one.
+    /// Radius in mm: positive for the short arc, negative for the long one.
     Radius(f64),
 }
 
@@ -124,10 +124,9 @@ pub enum PathFeed {
     PerMinute(f64),
     /// G93: the seconds that the block takes (PM/206602507).
     Seconds(f64),
-    /// At least one axis moves at this part of its highest velocity: G00, and G194 with its weight
-    /// (PM/206602507).
+    /// Share of its highest velocity at which at least one axis moves: G00, and G194 with its weight (PM/206602507).
     OfAxes(f64),
-    /// Not known, with the reason.
+    /// Unknown feed, with the reason.
     Unknown(&'static str),
 }
 
@@ -135,7 +134,7 @@ pub enum PathFeed {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum BlockEnd {
-    /// The path continues as fast as its corner allows.
+    /// No stop: the path continues as fast as its corner allows.
     #[default]
     Through,
     /// G60, or G360 until G359: the axes come to rest (PM/206301707).
@@ -188,7 +187,7 @@ impl ArcShape {
 }
 
 impl Arc {
-    /// The arc from one place of its plane to another.
+    /// Returns the arc from one place of its plane to another.
     ///
     /// # Errors
     /// The reason why the ends and the centre make no arc.
@@ -293,14 +292,14 @@ pub struct MovedAxis {
     pub axis: AxisIndex,
     /// The words that move it.
     pub span: Span,
-    /// How it moves.
+    /// Kind of the motion.
     pub kind: MotionKind,
-    /// Whether it certainly moves.
+    /// Certainty of the motion.
     pub certainty: Certainty,
 }
 
 impl MovedAxis {
-    /// The motion of an axis word.
+    /// Returns the motion of an axis word.
     #[inline]
     pub(crate) fn of_word(word: &AxisWord, kind: MotionKind) -> Self {
         Self {
@@ -326,8 +325,7 @@ pub struct AxisWord {
     pub from: Option<f64>,
 }
 
-/// A coordinate that counts from a place; unknown if any part is, or if the sum leaves the range of
-/// numbers.
+/// Returns a coordinate that counts from a place; unknown if any part is, or if the sum leaves the range of numbers.
 #[inline]
 pub(crate) fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
     let sum = from? + value? * scale?;

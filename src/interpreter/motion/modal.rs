@@ -16,12 +16,11 @@ use crate::language::{
 };
 use crate::lists::{ChannelSettings, ChannelSwitch, SlopeProfile};
 
-/// Whether a position is one of the machine, and if not, what separates it from one; what separates more
-/// comes later.
+/// Frame of a position: that of the machine, or the difference from it; greater differences come later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PositionFrame {
-    /// No transformation is active.
+    /// Position in the coordinates of the machine.
     Machine,
     /// An origin that only the machine knows: paths and velocities are those of the machine, places
     /// are those of the program (R11.30).
@@ -40,7 +39,7 @@ pub struct AxisPosition {
     /// The programmed coordinate in mm or degrees with the offset of G92; `None` where it is not
     /// known.
     pub value: Option<f64>,
-    /// Whether it is one of the machine.
+    /// Frame of the position.
     pub frame: PositionFrame,
 }
 
@@ -78,7 +77,7 @@ pub struct Modal {
 }
 
 impl Modal {
-    /// The defaults at program start. Axis positions are not known.
+    /// Returns the defaults at program start. Axis positions are not known.
     pub fn new(axes: usize) -> Self {
         Self {
             functions: GFunctions::default(),
@@ -97,7 +96,7 @@ impl Modal {
         }
     }
 
-    /// The state at program start in a channel.
+    /// Returns the state at program start in a channel.
     pub(crate) fn at_start(axes: usize, channel: &ChannelSettings) -> Self {
         let mut modal = Self {
             pace: Pace::new(channel.feed_unit.in_mm()),
@@ -131,7 +130,7 @@ impl Modal {
         modal
     }
 
-    /// The state at the start of the next program: the axes stay where they are.
+    /// Returns the state at the start of the next program: the axes stay where they are.
     pub(crate) fn next_program(&self, channel: &ChannelSettings) -> Self {
         Self {
             positions: self.positions.clone(),
@@ -139,19 +138,18 @@ impl Modal {
         }
     }
 
-    /// Whether it describes a number of axes.
+    /// Returns whether it describes a number of axes.
     pub(crate) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
         [self.positions.len(), self.references.len(), suspended] == [axes; 3]
     }
 
-    /// Whether it is known which G function of a group is in force.
+    /// Returns whether it is known which G function of a group is in force.
     pub fn is_known(&self, group: Group) -> bool {
         !self.functions.unknown.contains(group)
     }
 
-    /// The axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is
-    /// not known.
+    /// Returns the axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is not known.
     pub(crate) fn main_axis(&self, letter: u8) -> Option<u8> {
         let place = usize::from(letter.checked_sub(b'X')?);
         let axes = match self.functions.plane {
@@ -190,7 +188,7 @@ impl Modal {
         }
     }
 
-    /// A command or function that a commanded trace does not follow in full.
+    /// Records a command or function that a commanded trace does not follow in full.
     pub(crate) fn simplify(&mut self, what: Simplification, holds: Holds) {
         self.simplified = match holds {
             Holds::On => self.simplified.union(what.into()),
@@ -199,7 +197,7 @@ impl Modal {
         };
     }
 
-    /// The parameters that a command sets.
+    /// Returns the parameters that a command sets.
     pub(crate) fn contouring_of(&mut self, command: ContouringCommand) -> &mut Contouring {
         match command {
             ContouringCommand::Contour => &mut self.contour,
@@ -216,7 +214,7 @@ impl Modal {
         (holds.contains(Simplification::Contouring)).then_some(self.contour)
     }
 
-    /// The profile of the acceleration; `None` is that of the channel.
+    /// Returns the profile of the acceleration; `None` is that of the channel.
     pub(crate) fn slope(&self) -> Option<SlopeProfile> {
         self.slope
     }
@@ -232,7 +230,7 @@ impl Modal {
         self.simplify(Simplification::Slope, holds);
     }
 
-    /// Something may have been put into force: its rounding is not known.
+    /// Records a simplification that may have been put into force: its rounding is not known.
     fn perhaps_simplify(&mut self, what: Simplification) {
         self.simplify(what, Holds::On);
         match what {
@@ -243,7 +241,7 @@ impl Modal {
         }
     }
 
-    /// Whether coordinates count from an origin other than that at the start of the program, or may: axis
+    /// Returns whether coordinates count from an origin other than that at the start of the program, or may: axis
     /// positions from then have no meaning any more.
     pub fn has_moved_origin(&self) -> bool {
         self.origin_moved
@@ -291,8 +289,8 @@ impl Modal {
         }
     }
 
-    /// `#MCS ON` suspends all offsets until `#MCS OFF`. Positions programmed after either of them
-    /// are not certainly machine positions any more.
+    /// Suspends all offsets at `#MCS ON` until `#MCS OFF`. Positions programmed after either of them are not certainly
+    /// machine positions any more.
     fn machine_coordinates(&mut self, name: &str, switch: OnOff) {
         if switch == OnOff::Off {
             if let Some(references) = self.suspended.take() {
@@ -306,8 +304,8 @@ impl Modal {
         self.havoc_positions();
     }
 
-    /// Whether the programmed coordinate of an axis is that of the machine: no zero offset, no G92 and no tool data are
-    /// in force (R2.112).
+    /// Returns whether the programmed coordinate of an axis is that of the machine: no zero offset, no G92 and no tool
+    /// data are in force (R2.112).
     pub(crate) fn is_without_offsets(&self, axis: AxisIndex) -> bool {
         self.functions.offset == 53
             && self.is_known(Group::Offset)
@@ -315,13 +313,13 @@ impl Modal {
             && self.functions.tool_data == Some(0)
     }
 
-    /// Whether the path between points is a spline, G151 or `#HSC ON [OPMODE 2]`.
+    /// Returns whether the path between points is a spline, G151 or `#HSC ON [OPMODE 2]`.
     pub(crate) fn is_spline(&self) -> bool {
         let fast = self.simplified.contains(Simplification::HighSpeed);
         self.transformed.contains("#SPLINE") || fast && self.high_speed.is_spline
     }
 
-    /// Whether offsets may be switched off.
+    /// Returns whether offsets may be switched off.
     pub(crate) fn are_offsets_suspended(&self) -> bool {
         let mut rows = self
             .transformed
@@ -330,12 +328,12 @@ impl Modal {
         rows.any(|row| row.chain == Some(ChainStep::Machine))
     }
 
-    /// Whether a rotation is in force in which a motion along one axis of the plane moves the other one, too.
+    /// Returns whether a rotation is in force in which a motion along one axis of the plane moves the other one, too.
     pub(crate) fn is_skewed(&self) -> bool {
         self.skewed && !self.are_offsets_suspended()
     }
 
-    /// The centre of an arc on one axis: G162 counts from the start of the arc, G161 from the origin of the
+    /// Returns the centre of an arc on one axis: G162 counts from the start of the arc, G161 from the origin of the
     /// program (PM/206537483). A word may be left out only with G162.
     pub(crate) fn centre_of(
         &self,
@@ -358,14 +356,14 @@ impl Modal {
         start.zip(word).map(|(start, word)| start + word)
     }
 
-    /// Positions are in program coordinates from here on.
+    /// Records that positions are in program coordinates from here on.
     pub(crate) fn note_transformed(&mut self, name: &str) {
         if !self.transformed.contains(name) {
             self.transformed.insert(name.to_owned());
         }
     }
 
-    /// A step of the coordinate chain, with this state after it, may or may not have been executed.
+    /// Merges the state after a step of the coordinate chain that may or may not have been executed.
     fn havoc_chain(&mut self, after: Self) {
         if after != *self {
             if after.references != self.references {
@@ -405,8 +403,8 @@ impl Modal {
         }
     }
 
-    /// Whether it is known that two states have different functions of a group in force, or unknown
-    /// in one of them only.
+    /// Returns whether it is known that two states have different functions of a group in force, or unknown in one of
+    /// them only.
     pub(crate) fn differs_in(&self, other: &Self, group: Group) -> bool {
         let (mine, theirs) = (self.is_known(group), other.is_known(group));
         mine != theirs || (mine && self.value(group) != other.value(group))
@@ -417,7 +415,7 @@ impl Modal {
         self.functions.tool_data = number.and_then(|it| u32::try_from(it).ok());
     }
 
-    /// The groups in which two states differ, or may, become unknown.
+    /// Makes the groups unknown in which two states differ, or may.
     fn join_functions(&mut self, other: &Self) {
         let data = &mut self.functions.tool_data;
         *data = data.filter(|_| *data == other.functions.tool_data);
@@ -454,7 +452,7 @@ impl Modal {
         }
     }
 
-    /// G92: offsets for the absolute coordinates that follow; in G91 they add to those in force
+    /// Sets the offsets of G92 for the absolute coordinates that follow; in G91 they add to those in force
     /// (PM/206145291). The axes do not move.
     pub(crate) fn set_references(&mut self, words: &[AxisWord]) {
         let scale = self.scale();
@@ -480,7 +478,7 @@ impl Modal {
         self.positions[axis.get()] = None;
     }
 
-    /// Any word may have been executed.
+    /// Makes all modal words unknown.
     pub(crate) fn havoc_words(&mut self) {
         self.havoc_g(None);
         self.havoc_feeds();
@@ -489,7 +487,7 @@ impl Modal {
         self.radius = None;
     }
 
-    /// A G function that may or may not have been executed; `None` for one that is not known.
+    /// Records a G function that may or may not have been executed; `None` for one that is not known.
     pub(crate) fn havoc_g(&mut self, number: Option<i64>) {
         let Some(number) = number.and_then(|number| u32::try_from(number).ok()) else {
             self.functions.unknown = Group::ALL.into_iter().collect();
@@ -563,7 +561,7 @@ impl Modal {
         }
     }
 
-    /// A feed word, in the unit of the mode in force.
+    /// Sets the feed of the mode in force, in its unit.
     #[inline]
     pub fn set_feed(&mut self, value: Option<f64>) {
         if !self.is_known(Group::Feed) {
@@ -584,18 +582,18 @@ impl Modal {
         self.functions.feeds[place] = value.map(|value| ProgrammedFeed { value, unit_mm });
     }
 
-    /// Any feed may have been programmed.
+    /// Makes all feeds unknown.
     fn havoc_feeds(&mut self) {
         self.functions.feeds = [None; 4];
         self.functions.perhaps_give_feeds();
     }
 
-    /// The unit in mm/min that an E word has.
+    /// Returns the unit in mm/min that an E word has.
     pub(crate) fn unit_per_min(&self) -> Option<f64> {
         self.pace.unit_per_min(self.metric())
     }
 
-    /// The programmed coordinate, without the offset of G92.
+    /// Returns the programmed coordinate, without the offset of G92.
     pub(crate) fn programmed(&self, axis: AxisIndex) -> Option<f64> {
         let position = self.positions[axis.get()].zip(self.references[axis.get()]);
         position.map(|(position, reference)| position - reference)
@@ -606,7 +604,7 @@ impl Modal {
         &self.positions
     }
 
-    /// The offset of G92 of an axis; `None` where it is not known.
+    /// Returns the offset of G92 of an axis; `None` where it is not known.
     pub(crate) fn reference(&self, axis: AxisIndex) -> Option<f64> {
         self.references[axis.get()]
     }
@@ -616,7 +614,7 @@ impl Modal {
         self.positions[axis.get()] = position;
     }
 
-    /// The position of an axis.
+    /// Returns the position of an axis.
     #[inline]
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         AxisPosition {
@@ -625,7 +623,7 @@ impl Modal {
         }
     }
 
-    /// What separates positions from those of the machine.
+    /// Returns the frame of the programmed positions.
     #[inline]
     pub fn frame(&self) -> PositionFrame {
         if self.transformed.is_empty() {
@@ -641,7 +639,7 @@ impl Modal {
         frames.max().unwrap_or(PositionFrame::Machine)
     }
 
-    /// The side of the programmed contour on which the tool follows it, where that is known; `None` without
+    /// Returns the side of the programmed contour on which the tool follows it, where that is known; `None` without
     /// tool radius compensation.
     pub(crate) fn tool_side(&self) -> Option<ToolSide> {
         match self.functions.tool_side {
@@ -653,8 +651,8 @@ impl Modal {
     }
 }
 
-/// What the command or function of a name makes of positions (R11.30): an M, T or D function that may move the
-/// origin leaves paths as they are; one whose number is not known may call any program.
+/// Returns the frame that a command or function switches to, by its name (R11.30): an M, T or D function that may move
+/// the origin leaves paths as they are; one whose number is not known may call any program.
 fn frame_of(name: &str) -> PositionFrame {
     if name == CUTTER_RADIUS {
         return PositionFrame::Contour;
@@ -667,7 +665,7 @@ fn frame_of(name: &str) -> PositionFrame {
     }
 }
 
-/// Whether an M function is known not to move an origin: those of DIN 66025-2 and of the manual's overview
+/// Returns whether an M function is known not to move an origin: those of DIN 66025-2 and of the manual's overview
 /// (tccncprogramming/15557312651).
 pub(crate) fn is_named_m(number: i64) -> bool {
     matches!(number, 0..=17 | 19 | 29..=31 | 40..=49 | 60)
@@ -715,7 +713,7 @@ fn without_compensation() -> u32 {
 }
 
 impl Default for GFunctions {
-    /// Those at program start.
+    /// Returns the modal words at program start.
     fn default() -> Self {
         Self {
             motion: 0,
@@ -736,7 +734,7 @@ impl Default for GFunctions {
 }
 
 impl GFunctions {
-    /// The place of the feed of the mode in force.
+    /// Returns the place of the feed of the mode in force.
     #[inline]
     fn feed_place(&self) -> usize {
         match self.feed_mode {
@@ -747,46 +745,46 @@ impl GFunctions {
         }
     }
 
-    /// Whether G01, G02 or G03 is in force and may have no feed, or the feed 0 (R2.110).
+    /// Returns whether G01, G02 or G03 is in force and may have no feed, or the feed 0 (R2.110).
     #[inline]
     pub(crate) fn may_lack_feed(&self) -> bool {
         self.is_feed_move() && self.has_no_feed()
     }
 
-    /// Whether the mode in force may have no feed, or the feed 0.
+    /// Returns whether the mode in force may have no feed, or the feed 0.
     #[inline]
     pub(crate) fn has_no_feed(&self) -> bool {
         self.lacking.contains(self.feed_place())
     }
 
-    /// Whether G01, G02 or G03 is in force.
+    /// Returns whether G01, G02 or G03 is in force.
     #[inline]
     pub(crate) fn is_feed_move(&self) -> bool {
         GFunction::is_feed_move(self.motion) && !self.unknown.contains(Group::Motion)
     }
 
-    /// Whether G02 or G03 was programmed last.
+    /// Returns whether G02 or G03 was programmed last.
     #[inline]
     pub(crate) fn is_arc(&self) -> bool {
         GFunction::is_arc(self.motion)
     }
 
-    /// Whether the program has certainly given no feed so far, and G94 is in force.
+    /// Returns whether the program has certainly given no feed so far, and G94 is in force.
     pub(crate) fn is_first_without_feed(&self) -> bool {
         self.feed_mode == 94 && !self.unknown.contains(Group::Feed) && self.lacking.is_certain()
     }
 
-    /// The feed of the mode in force, as the program gives it.
+    /// Returns the feed of the mode in force, as the program gives it.
     pub(crate) fn programmed_feed(&self) -> Option<f64> {
         self.feeds[self.feed_place()].map(|feed| feed.value)
     }
 
-    /// The mode in force has a feed that the program does not say.
+    /// Records that the mode in force has a feed that the program does not give.
     pub(crate) fn give_feed(&mut self) {
         self.lacking.give(self.feed_place());
     }
 
-    /// Any mode may have a feed that the program does not say.
+    /// Records that any mode may have a feed that the program does not give.
     pub(crate) fn perhaps_give_feeds(&mut self) {
         self.lacking = LackingFeeds::default();
     }
@@ -833,7 +831,7 @@ impl Modal {
         }
     }
 
-    /// The end of a cycle.
+    /// Restores the saved words at the end of a cycle.
     pub(crate) fn restore(&mut self, saved: &Saved) {
         if self.functions.offset != saved.functions.offset {
             self.havoc_positions();

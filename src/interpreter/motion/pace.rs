@@ -1,6 +1,6 @@
-//! From a programmed F to the velocity of the path: the unit, the main spindle, programmed overrides (R5.1), the profile of the
-//! acceleration that a program selects (R11.20), the modes in which no feed is in force (R2.110), and the rounding of transitions
-//! between blocks (R11.21): the parameters of `#CONTOUR MODE` and `#HSC`.
+//! Velocity of the path that follows from a programmed F: the unit, the main spindle, programmed overrides (R5.1), the
+//! profile of the acceleration that a program selects (R11.20), the modes in which no feed is in force (R2.110), and
+//! the rounding of transitions between blocks (R11.21): the parameters of `#CONTOUR MODE` and `#HSC`.
 //!
 //! PM/n is page n of the TF5200 programming manual, HSC/n one of the HSC package.
 
@@ -27,9 +27,9 @@ pub struct ProgrammedFeed {
 /// known.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Factors {
-    /// With G01, G02, G03.
+    /// Factor of feed motions: G01, G02, G03.
     pub(crate) feed: Option<f64>,
-    /// With G00.
+    /// Factor of rapid motions: G00.
     pub(crate) rapid: Option<f64>,
 }
 
@@ -42,7 +42,7 @@ impl Default for Factors {
     }
 }
 
-/// Whether a motion is a rapid one.
+/// Haste of a motion: rapid or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Haste {
     /// G00.
@@ -101,8 +101,8 @@ impl Pace {
         }
     }
 
-    /// The unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; its
-    /// effect on m/min is not documented.
+    /// Returns the unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; its effect on
+    /// m/min is not documented.
     pub(crate) fn unit_per_min(&self, length_mm: Option<f64>) -> Option<f64> {
         let (unit, length) = (self.feed_unit_mm?, length_mm?);
         #[allow(clippy::float_cmp)] // both are constants
@@ -110,18 +110,18 @@ impl Pace {
         plain.then_some(unit * length)
     }
 
-    /// An S word of the main spindle.
+    /// Sets the speed of the main spindle by an S word.
     pub(crate) fn speed(&mut self, value: Option<f64>) {
         self.spindle.speed_per_min = value.filter(|_| !self.spindle.cuts);
     }
 
-    /// G96, G97: the meaning of S.
+    /// Sets the meaning of S: G96, G97.
     pub(crate) fn cut(&mut self, cuts: bool) {
         self.spindle.cuts = cuts;
         self.spindle.speed_per_min = None;
     }
 
-    /// An M function of the main spindle.
+    /// Executes an M function of the main spindle.
     pub(crate) fn m(&mut self, number: i64) {
         match number {
             3 | 4 => self.spindle.stands = false,
@@ -130,7 +130,7 @@ impl Pace {
         }
     }
 
-    /// Another spindle became the main one, or the speed may be any.
+    /// Makes the spindle speed unknown: another spindle became the main one, or the speed may be any.
     pub(crate) fn havoc_spindle(&mut self) {
         self.spindle = Spindle::default();
     }
@@ -149,18 +149,18 @@ impl Pace {
         }
     }
 
-    /// `#OVERRIDE`: changes the overrides that it names.
+    /// Changes the overrides that `#OVERRIDE` names.
     pub(crate) fn override_path(&mut self, change: impl FnOnce(&mut Factors)) {
         change(&mut self.overrides.get_or_insert_default().path);
     }
 
-    /// `X[OVERRIDE …]`
+    /// Changes the override of an axis: `X[OVERRIDE …]`.
     pub(crate) fn override_axis(&mut self, axis: AxisIndex, change: impl FnOnce(&mut Factors)) {
         let overrides = self.overrides.get_or_insert_default();
         change(overrides.axes.entry(axis.get()).or_default());
     }
 
-    /// G129: the weight of rapid motions.
+    /// Sets the weight of rapid motions by G129.
     pub(crate) fn weigh_rapid(&mut self, weight: Option<f64>) {
         self.overrides.get_or_insert_default().rapid.rapid = weight;
     }
@@ -185,7 +185,7 @@ impl Pace {
         Some(path * own)
     }
 
-    /// The weight of G129 alone, which G166 does not suppress.
+    /// Returns the weight of G129 alone, which G166 does not suppress.
     pub(crate) fn weight(&self, haste: Haste) -> Option<f64> {
         let overrides = self.overrides.as_ref();
         overrides.map_or(Some(1.0), |it| it.rapid.of(haste))
@@ -199,7 +199,7 @@ impl Pace {
         };
     }
 
-    /// Everything may have been changed in any way.
+    /// Makes the spindle speed and the overrides unknown.
     pub(crate) fn havoc(&mut self) {
         self.havoc_spindle();
         self.havoc_overrides();
@@ -236,7 +236,7 @@ const PROFILES: [(&str, SlopeProfile); 4] = [
 ];
 
 impl SlopeSelection {
-    /// The selection of a command; `None` where its bracket names no profile.
+    /// Returns the selection of a command; `None` where its bracket names no profile.
     pub(crate) fn of(
         form: SlopeForm,
         (arguments, text): (&BracketArguments, &str),
@@ -276,16 +276,16 @@ pub(crate) fn plain_number(argument: &Argument) -> Option<f64> {
 /// [`crate::interpreter::motion::modal::GFunctions::feeds`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) struct LackingFeeds {
-    /// Those that certainly do.
+    /// The modes that certainly lack a feed.
     certain: u8,
-    /// Those that may.
+    /// The modes that possibly lack a feed.
     possible: u8,
 }
 
 impl LackingFeeds {
     const ALL: u8 = 0b1111;
 
-    /// No feed was programmed.
+    /// Returns the state before the first feed is programmed.
     pub(crate) fn all() -> Self {
         Self {
             certain: Self::ALL,
@@ -293,31 +293,31 @@ impl LackingFeeds {
         }
     }
 
-    /// The mode at a place has a feed from here on.
+    /// Gives the mode at a place a feed from here on.
     pub(crate) fn give(&mut self, place: usize) {
         self.certain &= !(1 << place);
         self.possible &= !(1 << place);
     }
 
-    /// The mode at a place has the feed 0 from here on.
+    /// Gives the mode at a place the feed 0 from here on.
     pub(crate) fn take(&mut self, place: usize) {
         self.certain |= 1 << place;
         self.possible |= 1 << place;
     }
 
-    /// Another way reaches the same block.
+    /// Merges another way that reaches the same block.
     pub(crate) fn join(&mut self, other: Self) {
         self.certain &= other.certain;
         self.possible |= other.possible;
     }
 
-    /// Whether the mode at a place may lack a feed.
+    /// Returns whether the mode at a place may lack a feed.
     #[inline]
     pub(crate) fn contains(self, place: usize) -> bool {
         self.possible & 1 << place != 0
     }
 
-    /// Whether the program has certainly given no feed in any mode.
+    /// Returns whether the program has certainly given no feed in any mode.
     pub(crate) fn is_certain(self) -> bool {
         self.certain == Self::ALL
     }
@@ -345,9 +345,9 @@ pub struct Contouring {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Joining {
-    /// Those that follow a curve already, within a fraction of a µm (R11.22).
+    /// Blocks that follow a curve already, within a fraction of a µm (R11.22).
     Fine,
-    /// All within the tolerance.
+    /// All blocks within the tolerance.
     WithinTolerance,
 }
 
@@ -437,7 +437,7 @@ impl ContouringCommand {
 }
 
 impl Default for Contouring {
-    /// `#CONTOUR MODE` at the start of a program: `DEV` with 1 mm (PM/475164939).
+    /// Returns `#CONTOUR MODE` at the start of a program: `DEV` with 1 mm (PM/475164939).
     fn default() -> Self {
         Self {
             tolerance_mm: Some(CONTOUR_MM),
@@ -451,7 +451,7 @@ impl Default for Contouring {
 }
 
 impl Contouring {
-    /// `#HSC ON` without parameters: `OPMODE 1` (PM/207285131).
+    /// Returns `#HSC ON` without parameters: `OPMODE 1` (PM/207285131).
     pub(crate) fn high_speed() -> Self {
         Self {
             tolerance_mm: Some(CONTOUR_ERROR_MM),

@@ -23,12 +23,12 @@ const MAX_PARSED: usize = 10_000;
 struct Open {
     kind: ControlBlock,
     opener: EntryIndex,
-    /// All statements of the control block so far.
+    /// Statements of the control block so far.
     parts: Vec<EntryIndex>,
     span: Span,
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
     sign: Option<char>,
-    /// Whether its `$ELSE` or `$DEFAULT` was found.
+    /// Whether the `$ELSE` or `$DEFAULT` of the block was found.
     last_branch: bool,
     /// Whether a block before its first branch was refused.
     is_led: bool,
@@ -254,7 +254,7 @@ impl Builder {
         self.index.refused.push(diagnostic);
     }
 
-    /// A place in a block.
+    /// Returns a place in a block.
     fn place_of(&mut self, entry: EntryIndex) -> Place {
         let known = if entry + 1 == self.at() {
             &mut self.here
@@ -324,8 +324,8 @@ impl Builder {
         }
     }
 
-    /// FC208: a control statement whose block contains anything else (PM/206890763, errors 20212 to
-    /// 20245). `$GOTO` may be among words, or after an `$IF` (PM/206915851).
+    /// Reports FC208: a control statement whose block contains anything else (PM/206890763, errors 20212 to 20245).
+    /// `$GOTO` may be among words, or after an `$IF` (PM/206915851).
     fn shares_block<'t>(&mut self, block: &Block, at: impl Fn(Span) -> Statement<'t>) {
         let jump = block.items.iter().find(|item| is_jump(item));
         let is_other = |item: &&Item| matches!(item, Item::Flow(..)) && !is_jump(item);
@@ -445,7 +445,7 @@ impl Builder {
         });
     }
 
-    /// FC208: a block between `$SWITCH` and its first `$CASE`, which no value reaches.
+    /// Reports FC208: a block between `$SWITCH` and its first `$CASE`, which no value reaches.
     fn before_cases(&mut self, block: &Block, at: Statement<'_>) {
         let Some(open) = self.open.last_mut() else {
             return;
@@ -517,7 +517,7 @@ impl Builder {
         self.index.links.insert(at.entry, links);
     }
 
-    /// The innermost open control block of certain kinds.
+    /// Returns the innermost open control block of certain kinds.
     fn innermost(&self, wanted: impl Fn(ControlBlock) -> bool) -> Option<usize> {
         let innermost = self.open.last()?.innermost;
         let kinds = ControlBlock::ALL.into_iter().filter(|kind| wanted(*kind));
@@ -603,7 +603,7 @@ fn not_closed(open: &Open) -> Option<Fault> {
     Some(fault.with_help(format!("write `{closer}` in a separate block")))
 }
 
-/// Whether a statement is one of the language, and not a misspelt one.
+/// Returns whether a statement is one of the language, and not a misspelt one.
 fn is_spelt(kind: ControlBlock, text: &str) -> bool {
     kind == ControlBlock::RealTime || is_statement(text)
 }
@@ -631,8 +631,8 @@ fn after_last(kind: ControlBlock, at: Statement<'_>) -> Fault {
     Fault::new(Code::Fc208, at.span, message).with_help(help)
 }
 
-/// The section that a run of a file begins with: blocks before any `%` line, else the first program
-/// that is not a local subprogram.
+/// Returns the section that a run of a file begins with: blocks before any `%` line, else the first program that is not
+/// a local subprogram.
 fn main_of(sections: &[ProgramSection]) -> Option<usize> {
     let is_main = |section: &ProgramSection| match section.name {
         None => section.end > section.start,

@@ -27,9 +27,9 @@ pub struct CallSite {
     pub line: u32,
 }
 
-/// The calls of other files in a text, in their order, on a control that has these programs for
-/// words and macros: `L`, `L CYCLE`, `L SEQUENCE`, and the words that call a program (R2.14, R2.75).
-/// Nothing is executed: a call counts whether it is reached or not.
+/// Returns the calls of other files in a text, in their order, on a control that has these programs for words and
+/// macros: `L`, `L CYCLE`, `L SEQUENCE`, and the words that call a program (R2.14, R2.75). Nothing is executed: a call
+/// counts whether it is reached or not.
 ///
 /// ```
 /// use frictcomp::interpreter::call_sites;
@@ -59,7 +59,7 @@ pub fn call_sites(text: &str, programs: &ConfiguredPrograms) -> Vec<CallSite> {
     sites.found
 }
 
-/// Whether M02 or M30 is in a text, or an M function known only at run time.
+/// Returns whether M02 or M30 is in a text, or an M function known only at run time.
 ///
 /// ```
 /// use frictcomp::interpreter::holds_program_end;
@@ -81,7 +81,7 @@ pub fn holds_program_end(text: &str) -> bool {
     is_found
 }
 
-/// Whether a text is a main program: M02 or M30 is in it, and it does not end with M17 or M29 (R2.110).
+/// Returns whether a text is a main program: M02 or M30 is in it, and it does not end with M17 or M29 (R2.110).
 pub(crate) fn is_main_program(text: &str) -> bool {
     let mut returns = false;
     for_each_block(text, |block, _, _| {
@@ -141,7 +141,7 @@ impl Sites<'_> {
         });
     }
 
-    /// A macro of the channel list, whose code is in no program.
+    /// Adds a macro of the channel list, whose code is in no program.
     fn configured_macro(&mut self, name: &str) {
         let macros = &self.programs.macros;
         if let Some((_, code)) = macros.iter().find(|(it, _)| it == name) {
@@ -157,7 +157,7 @@ impl Sites<'_> {
         }
     }
 
-    /// The calls of a block, without those of its macros.
+    /// Adds the calls of a block, without those of its macros.
     fn own(&mut self, block: &Block, text: &str) {
         for word in block.all_words() {
             self.word(word);
@@ -212,7 +212,7 @@ impl Sites<'_> {
         }
     }
 
-    /// A function, whose number is `None` where it is known only at run time.
+    /// Adds a function, whose number is `None` where it is known only at run time.
     fn function(&mut self, letter: char, number: Option<i64>) {
         if self.by_word.is_empty() {
             return;
@@ -248,7 +248,7 @@ pub(crate) struct FunctionWord {
 }
 
 impl FunctionWord {
-    /// A G function.
+    /// Returns a G function.
     pub(crate) fn g(number: u32) -> Self {
         Self {
             letter: b'G',
@@ -256,7 +256,7 @@ impl FunctionWord {
         }
     }
 
-    /// The D word with the number of a T word.
+    /// Returns the D word with the number of a T word.
     pub(crate) fn of_data(self) -> Self {
         Self {
             letter: b'D',
@@ -267,7 +267,7 @@ impl FunctionWord {
 
 /// Program configured for a word.
 pub(crate) enum Configured {
-    /// Nothing.
+    /// No program.
     None,
     /// A program.
     Program(String),
@@ -284,7 +284,7 @@ pub(crate) struct WantedCall {
     pub(crate) span: Span,
     /// Span of the name, if the block itself has it.
     pub(crate) named: Option<Span>,
-    /// Whether it is a cycle.
+    /// Form of the call: that of a cycle or of a program.
     pub(crate) form: CallForm,
     /// Set for a modal cycle: whether it waits for motion.
     pub(crate) repeat: Option<bool>,
@@ -295,7 +295,7 @@ pub(crate) struct WantedCall {
 }
 
 impl WantedCall {
-    /// A call of a program without parameters.
+    /// Returns a call of a program without parameters.
     pub(crate) fn program(scope: CallScope, name: String, span: Span) -> Self {
         Self {
             scope,
@@ -310,7 +310,7 @@ impl WantedCall {
         }
     }
 
-    /// G80 and the like, which call a program of the machine that is not known (R2.94).
+    /// Creates the call of G80 and the like: a program of the machine that is not known (R2.94).
     pub(crate) fn of_word(number: u32, span: Span) -> Self {
         Self {
             word: Some(number),
@@ -318,7 +318,7 @@ impl WantedCall {
         }
     }
 
-    /// The called program, if it is missing.
+    /// Returns the called program, if it is missing.
     pub(crate) fn missing(&self) -> MissingProgram {
         let named = || MissingProgram::Named(self.name.as_str().into());
         self.word.map_or_else(named, MissingProgram::OfG)
@@ -333,7 +333,7 @@ pub(crate) struct CalledPart {
     /// Whether the call itself ends the part, too.
     pub(crate) end_tag: bool,
     pub(crate) passes: u64,
-    /// Whether it belongs to the program being executed.
+    /// Whether the part belongs to the program being executed.
     pub(crate) here: bool,
 }
 
@@ -348,7 +348,7 @@ pub(crate) enum FileName<'a> {
 /// The letters of the words that may get a program.
 const LETTERS: [&str; 4] = ["D", "G", "M", "T"];
 
-/// The words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional. With any
+/// Returns the words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional. With any
 /// other text, the program of every word is unknown.
 pub(crate) fn file_names<'a>(hash: &Hash, text: &'a str) -> Vec<(String, FileName<'a>)> {
     let mut names = Vec::new();
@@ -391,25 +391,25 @@ fn is_word(word: &str) -> bool {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoProgram {
-    /// It does not exist (FC320).
+    /// No program of that name (FC320).
     Absent,
-    /// It does not exist, but one with a similar name, which may be meant, does (FC320).
+    /// No program of that name, but one with a similar name that may be meant (FC320).
     Near(String),
-    /// It is in a folder that programs are not called from (FC321).
+    /// A program in a folder that programs are not called from (FC321).
     Outside,
-    /// It exists but cannot be used (FC320); the words that follow its name: `is a folder`.
+    /// A file that exists but cannot be used (FC320), with the words that follow its name: `is a folder`.
     Unusable(String),
 }
 
 /// Finds called programs.
 pub trait Finder {
-    /// The text of the program called `name`, asked for by the file `caller`.
+    /// Returns the text of the program called `name`, asked for by the file `caller`.
     ///
     /// # Errors
     /// It is missing.
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram>;
 
-    /// The names of further files with other content that the name may mean on the control (FC329).
+    /// Returns the names of further files with other content that the name may mean on the control (FC329).
     fn others(&mut self, _name: &str, _caller: &str) -> Vec<String> {
         Vec::new()
     }

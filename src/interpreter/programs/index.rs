@@ -45,7 +45,7 @@ pub(crate) struct IndexEntry {
 pub(crate) struct ProgramSection {
     pub(crate) name: Option<String>,
     pub(crate) local: bool,
-    /// Its name in the `%` line, where it has one.
+    /// Name in the `%` line, where it has one.
     pub(crate) opening: Option<Place>,
     pub(crate) start: EntryIndex,
     pub(crate) end: EntryIndex,
@@ -70,12 +70,12 @@ pub(crate) enum LabelName {
 }
 
 impl LabelName {
-    /// The label of a number. One that is larger than any block number names no block.
+    /// Returns the label of a number. One that is larger than any block number names no block.
     pub(crate) fn numbered(number: f64) -> Self {
         rounded(number).map_or_else(|| Self::Text(format!("N{number}")), Self::Number)
     }
 
-    /// The label that a jump names; `None` where it computes it.
+    /// Returns the label that a jump names; `None` where it computes it.
     pub(crate) fn of(target: &BlockReference, text: &str) -> Option<Self> {
         match target {
             BlockReference::Number(Operand::Number(number)) => Some(Self::numbered(*number)),
@@ -108,15 +108,15 @@ impl std::fmt::Display for LabelName {
 /// Control blocks whose borders a jump crosses, where the control may refuse it (R2.103).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum JumpAcross {
-    /// None, or it leaves them completely.
+    /// No border, or only those of blocks that the jump leaves completely.
     Nothing,
-    /// It stays within its loop.
+    /// Jump that stays within its loop.
     WithinLoop,
-    /// It leaves a loop and stays within another one.
+    /// Jump out of a loop that stays within another loop.
     OneOfSeveralLoops,
-    /// It enters a loop.
+    /// Jump into a loop.
     IntoLoop,
-    /// It enters a `$SWITCH`.
+    /// Jump into a `$SWITCH`.
     IntoSwitch,
 }
 
@@ -140,7 +140,7 @@ impl JumpTargets {
         }
     }
 
-    /// Whether a label may be one of them, in either form.
+    /// Returns whether a label may be one of them, in either form.
     pub(crate) fn may_be(&self, label: &LabelName) -> bool {
         let other = label.in_other_form();
         self.are_computed
@@ -188,19 +188,19 @@ pub(crate) struct Index {
 }
 
 impl Index {
-    /// Whether a `$` statement belongs to a control block that is whole.
+    /// Returns whether a `$` statement belongs to a control block that is whole.
     pub(crate) fn is_linked(&self, entry: EntryIndex) -> bool {
         self.links.contains_key(&entry)
     }
 
-    /// The last `$IF` without `$ENDIF` of a section.
+    /// Returns the last `$IF` without `$ENDIF` of a section.
     pub(crate) fn last_unclosed(&self, section: usize) -> Option<EntryIndex> {
         let section = self.sections.get(section)?;
         let mut unclosed = self.unclosed.range(section.start..section.end);
         unclosed.next_back().copied()
     }
 
-    /// The links of a `$` statement.
+    /// Returns the links of a `$` statement.
     pub(crate) fn links(&self, entry: EntryIndex) -> Links {
         self.links.get(&entry).copied().unwrap_or(Links {
             opener: entry,
@@ -209,7 +209,7 @@ impl Index {
         })
     }
 
-    /// FC323 where the file has only local subprograms.
+    /// Returns FC323 where the file has only local subprograms.
     pub(crate) fn no_main_program(&self) -> Option<Diagnostic> {
         let first_local = self.sections.iter().find(|section| section.local)?;
         let place = first_local.opening.clone()?;
@@ -218,7 +218,7 @@ impl Index {
         Some(said.with_help("begin the main program with `%NAME`"))
     }
 
-    /// FC103 where the program that a run executes has no block (R18.6).
+    /// Returns FC103 where the program that a run executes has no block (R18.6).
     pub(crate) fn no_block(&self) -> Option<Diagnostic> {
         let is_empty = match self.main {
             Some(main) => self.sections.get(main).is_some_and(|it| it.start == it.end),
@@ -227,8 +227,8 @@ impl Index {
         (is_empty && self.refused.is_empty()).then(|| no_block(self.source.name()))
     }
 
-    /// FC324 for every main program with blocks except the one that runs, with its first block. A lone `%` may end
-    /// a file.
+    /// Returns FC324 for every main program with blocks except the one that runs, with its first block. A lone `%` may
+    /// end a file.
     pub(crate) fn other_mains(&self) -> impl Iterator<Item = (EntryIndex, Diagnostic)> {
         let others = self.sections.iter().enumerate();
         let others = others.filter(|(number, section)| {
@@ -237,14 +237,14 @@ impl Index {
         others.filter_map(|(_, section)| Some((section.start, never_run(section.opening.clone()?))))
     }
 
-    /// The line of the `%` that follows the main program; `u32::MAX` where the file ends with it.
+    /// Returns the line of the `%` that follows the main program; `u32::MAX` where the file ends with it.
     pub(crate) fn end_of_main(&self) -> u32 {
         let next = self.main.and_then(|main| self.sections.get(main + 1));
         let opening = next.and_then(|section| section.opening.as_ref());
         opening.map_or(u32::MAX, |place| place.first_line)
     }
 
-    /// The text of a program from one of its blocks on.
+    /// Returns the text of a program from one of its blocks on.
     pub(crate) fn text_from(&self, section: usize, first: EntryIndex) -> &str {
         let end = self.sections.get(section).map(|section| section.end);
         let offset = |entry: EntryIndex| {
@@ -258,18 +258,18 @@ impl Index {
             .unwrap_or_default()
     }
 
-    /// A local subprogram by its name.
+    /// Returns a local subprogram by its name.
     pub(crate) fn local(&self, name: &str) -> Option<usize> {
         self.locals.get(name).copied()
     }
 
-    /// The opening of another local subprogram of a name that several have.
+    /// Returns the opening of another local subprogram of a name that several have.
     pub(crate) fn repeated_local(&self, name: &str) -> Option<&Place> {
         let section = self.sections.get(*self.repeated.get(name)?)?;
         section.opening.as_ref()
     }
 
-    /// The names of the local subprograms.
+    /// Returns the names of the local subprograms.
     pub(crate) fn local_names(&self) -> impl Iterator<Item = &str> {
         self.sections
             .iter()
@@ -277,12 +277,13 @@ impl Index {
             .filter_map(|section| section.name.as_deref())
     }
 
-    /// The block of a label.
+    /// Returns the block of a label.
     pub(crate) fn label(&self, section: usize, label: LabelName) -> Option<EntryIndex> {
         self.labels.get(&(section, label)).copied()
     }
 
-    /// The jump labels of a section in the order of the text; `None` where there are more than a number of them.
+    /// Returns the jump labels of a section in the order of the text; `None` where there are more than a number of
+    /// them.
     pub(crate) fn few_labels(
         &self,
         section: usize,
@@ -295,7 +296,7 @@ impl Index {
         (labels.len() <= most).then_some(labels)
     }
 
-    /// The blocks of a section that have jump labels.
+    /// Returns the blocks of a section that have jump labels.
     pub(crate) fn labels(&self, section: usize) -> impl Iterator<Item = EntryIndex> {
         let mut found: Vec<EntryIndex> = self
             .labels
@@ -307,7 +308,7 @@ impl Index {
         found.into_iter()
     }
 
-    /// The blocks of a section by their numbers; of a number given twice the first one.
+    /// Returns the blocks of a section by their numbers; of a number given twice the first one.
     pub(crate) fn numbers(&self, section: usize) -> HashMap<i64, EntryIndex> {
         let mut numbers = HashMap::new();
         let Some(section) = self.sections.get(section) else {
@@ -331,7 +332,7 @@ impl Index {
         numbers
     }
 
-    /// The place of a span in the text of a block.
+    /// Returns the place of a span in the text of a block.
     pub(crate) fn place(&self, entry: EntryIndex, span: Span) -> Place {
         let mut block = Block::default();
         self.reader(entry).next(&mut block).map_or_else(
@@ -345,7 +346,7 @@ impl Index {
         )
     }
 
-    /// The place of a whole block's first line.
+    /// Returns the place of a whole block's first line.
     pub(crate) fn block_place(&self, entry: EntryIndex) -> Place {
         let line = self
             .entries
@@ -357,18 +358,18 @@ impl Index {
         self.source.place(Span::new(start, start + block.len()))
     }
 
-    /// The loop that contains a block, by its opener.
+    /// Returns the loop that contains a block, by its opener.
     pub(crate) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
         let opens = self.loops.contains_key(&entry);
         opens.then_some(entry).or_else(|| self.loop_around(entry))
     }
 
-    /// The innermost loop that contains a block and does not begin with it, by its opener.
+    /// Returns the innermost loop that contains a block and does not begin with it, by its opener.
     pub(crate) fn loop_around(&self, entry: EntryIndex) -> Option<EntryIndex> {
         self.opened_around(&self.loops, entry).next()
     }
 
-    /// The control blocks that contain a block and do not begin with it, by their openers, the innermost first.
+    /// Returns the control blocks that contain a block and do not begin with it, by their openers, the innermost first.
     fn opened_around<'a>(
         &'a self,
         blocks: &'a OpenedBlocks,
@@ -381,12 +382,12 @@ impl Index {
         outwards.filter(move |opener| self.is_within(entry, *opener))
     }
 
-    /// Whether a block is within a control block, by its opener, and does not open it.
+    /// Returns whether a block is within a control block, by its opener, and does not open it.
     fn is_within(&self, entry: EntryIndex, opener: EntryIndex) -> bool {
         opener < entry && entry <= self.links(opener).end
     }
 
-    /// What a jump crosses (R2.103).
+    /// Returns the control blocks that a jump crosses (R2.103).
     pub(crate) fn jump_across(&self, from: EntryIndex, to: EntryIndex) -> JumpAcross {
         let mut loops = self.opened_around(&self.loops, from);
         let mut enters_switch = self
@@ -406,12 +407,12 @@ impl Index {
         self.interpreted.get(&entry).copied()
     }
 
-    /// The comment line above a block that is addressed to this tool.
+    /// Returns the comment line above a block that is addressed to this tool.
     pub(crate) fn remark(&self, entry: EntryIndex) -> Option<Remark> {
         self.remarks.get(&entry).cloned()
     }
 
-    /// A reader that is positioned before a block, or at the end of the text.
+    /// Returns a reader that is positioned before a block, or at the end of the text.
     pub(crate) fn reader(&self, entry: EntryIndex) -> BlockReader<TextLines<'_>> {
         let text = self.source.text();
         let entry = self.entries.get(entry as usize);
@@ -420,7 +421,7 @@ impl Index {
     }
 }
 
-/// FC103: a file whose program has no block.
+/// Returns FC103: a file whose program has no block.
 pub(crate) fn no_block(file: &Arc<str>) -> Diagnostic {
     let place = Place::head_of(file);
     let message = "the program has no block: the control executes nothing and keeps every state";
@@ -428,7 +429,7 @@ pub(crate) fn no_block(file: &Arc<str>) -> Diagnostic {
         .with_help("check whether it was saved and copied as a whole")
 }
 
-/// FC104: a file that is something else.
+/// Returns FC104: a file that is something else.
 pub(crate) fn not_a_program(file: &Arc<str>, what: &str) -> Diagnostic {
     let place = Place::head_of(file);
     let message = format!("this file is {what}, not an NC program; nothing of it was run");
@@ -436,7 +437,7 @@ pub(crate) fn not_a_program(file: &Arc<str>, what: &str) -> Diagnostic {
         .with_help("name the program itself, or keep the file out of the folder")
 }
 
-/// FC324: a main program, by its name in its `%` line, after the one that its file runs.
+/// Returns FC324: a main program, by its name in its `%` line, after the one that its file runs.
 pub(crate) fn never_run(name: Place) -> Diagnostic {
     let (shown, call) = match name.span.of(&name.text) {
         "" => ("without a name".to_owned(), "%L NAME".to_owned()),

@@ -15,7 +15,7 @@ use crate::syntax::ast::{Block, CallScope, Item};
 use crate::syntax::{Comments, Fault, RawBlock, Remark, Stretch, no_program};
 use crate::text::{Place, SourceFile};
 
-/// Limit of the names that a run compares with those of calls that find nothing.
+/// Limit on the names that a run compares with those of calls that find nothing.
 const MAX_COMPARED: usize = 100_000;
 
 /// Limit of the parsed blocks that a run keeps.
@@ -56,7 +56,7 @@ pub(crate) struct ProgramStore {
 }
 
 impl ProgramStore {
-    /// No file yet.
+    /// Creates a store without files.
     pub(crate) fn new(nesting: u32) -> Self {
         Self {
             nesting,
@@ -69,35 +69,35 @@ impl ProgramStore {
         *self = Self::new(self.nesting);
     }
 
-    /// The files.
+    /// Returns the files.
     pub(crate) fn units(&self) -> &[SourceUnit] {
         &self.units
     }
 
-    /// A file.
+    /// Returns a file.
     pub(crate) fn unit_mut(&mut self, unit: usize) -> &mut SourceUnit {
         &mut self.units[unit]
     }
 
-    /// The index of a file.
+    /// Returns the index of a file.
     #[inline]
     pub(crate) fn index(&self, unit: usize) -> &Index {
         &self.units[unit].index
     }
 
-    /// Whether the first blocks of a file were read line by line and are not kept.
+    /// Returns whether the first blocks of a file were read line by line and are not kept.
     pub(crate) fn is_cut(&self, unit: usize) -> bool {
         let source = &self.index(unit).source;
         unit == 0 && (source.name().is_empty() || source.lines().first() > 1)
     }
 
-    /// A program.
+    /// Returns a program.
     #[inline]
     pub(crate) fn section(&self, program: ProgramId) -> &ProgramSection {
         &self.units[program.unit].index.sections[program.section]
     }
 
-    /// The work that the texts allow.
+    /// Returns the work that the texts allow.
     pub(crate) fn granted(&self) -> u64 {
         PER_BYTE_HELD.saturating_mul(self.held_text)
     }
@@ -129,13 +129,13 @@ impl ProgramStore {
         self.names.insert(name, 0);
     }
 
-    /// Whether a block was read before, in order to be executed.
+    /// Returns whether a block was read before, in order to be executed.
     #[inline]
     pub(crate) fn was_read(&self, unit: usize, entry: EntryIndex) -> bool {
         self.units[unit].executed[entry as usize]
     }
 
-    /// A parsed block; the first ones and those that are executed again are kept.
+    /// Returns a parsed block; the first ones and those that are executed again are kept.
     pub(crate) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
         let place = entry as usize;
         let unit = &mut self.units[unit];
@@ -156,7 +156,7 @@ impl ProgramStore {
         parsed
     }
 
-    /// The block of a section that a jump label or a block number names.
+    /// Returns the block of a section that a jump label or a block number names.
     pub(crate) fn block_of(
         &mut self,
         program: ProgramId,
@@ -178,7 +178,7 @@ impl ProgramStore {
         numbers.get(number).copied()
     }
 
-    /// The program that a call means; `None` where its file holds nothing to execute.
+    /// Returns the program that a call means; `None` where its file holds nothing to execute.
     pub(crate) fn find(
         &mut self,
         wanted: &WantedCall,
@@ -240,8 +240,8 @@ impl ProgramStore {
         }
     }
 
-    /// FC320 for a local subprogram. Names are compared for the first calls only: a file of calls
-    /// that all fail has as many names as calls (R2.60).
+    /// Returns FC320 for a local subprogram. Names are compared for the first calls only: a file of calls that all fail
+    /// has as many names as calls (R2.60).
     fn no_local(&mut self, wanted: &WantedCall, unit: usize, work: &WorkBudget) -> Box<Fault> {
         let name = wanted.name.as_str();
         let fault = Fault::new(
@@ -269,7 +269,7 @@ impl ProgramStore {
     }
 }
 
-/// A file that was found, unless it is something else than a program (R18.6).
+/// Returns a file that was found, unless it is something else than a program (R18.6).
 fn program(source: SourceFile) -> Result<SourceFile, NoProgram> {
     match no_program(source.text()) {
         Some(what) => Err(NoProgram::Unusable(format!("is {what}, not an NC program"))),
@@ -277,7 +277,7 @@ fn program(source: SourceFile) -> Result<SourceFile, NoProgram> {
     }
 }
 
-/// FC320: which of several local subprograms of one name the control calls is not documented.
+/// Returns FC320: which of several local subprograms of one name the control calls is not documented.
 fn repeated(wanted: &WantedCall, again: &Place) -> Box<Fault> {
     let name = &wanted.name;
     let line = again.first_line;
@@ -334,7 +334,7 @@ pub(crate) struct SourceUnit {
     pub(crate) index: Arc<Index>,
     /// The first blocks and those that were executed more than once, parsed.
     pub(crate) kept: Vec<Option<Arc<Parsed>>>,
-    /// Blocks below this one were executed before.
+    /// Index below which blocks were executed before.
     pub(crate) high: EntryIndex,
     /// Executed blocks, where they are requested.
     pub(crate) executed: Vec<bool>,

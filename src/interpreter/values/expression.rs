@@ -51,16 +51,16 @@ pub(crate) struct ExpressionScope<'a> {
     /// The variables read whose value is known and which the PLC may write.
     pub(crate) relied: &'a RefCell<Vec<VariableName>>,
     pub(crate) held: HeldValues,
-    /// Whether numbers are equal that differ only by rounding (R2.112).
+    /// Reading of the equality of numbers that differ only by rounding (R2.112).
     pub(crate) nearly_equal: Option<Alternative>,
 }
 
 /// Source of the own parameters of a program, `@P1` ….
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ParameterSource {
-    /// A call gave some, and no others.
+    /// Call, which gives some parameters and no others.
     ByCall,
-    /// The program is a cycle that runs without a call: its caller gives them.
+    /// Caller of a cycle that runs without a call.
     FromOutside,
 }
 
@@ -76,7 +76,7 @@ pub(crate) struct Macros<'a> {
 }
 
 impl Macros<'_> {
-    /// One macro more, whose code is so long; FC914 past the budget.
+    /// Returns the progress inside a macro with this code; FC914 past the budget.
     pub(crate) fn expand(
         self,
         code: &str,
@@ -121,7 +121,7 @@ pub(crate) struct Evaluator<'a> {
 }
 
 impl Evaluator<'_> {
-    /// The value of an operand.
+    /// Returns the value of an operand.
     pub(crate) fn value(&self, operand: Operand, stack: &mut Vec<Slot>) -> Slot {
         match operand {
             Operand::Number(number) => Ok(Value::Number(number)),
@@ -218,8 +218,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The result of `EXIST` for a variable that an earlier program may or may not have left, and for a `V.CYC.`
-    /// variable that no open level has (R2.102).
+    /// Returns the result of `EXIST` for a variable that an earlier program may or may not have left, and for a
+    /// `V.CYC.` variable that no open level has (R2.102).
     fn existence(&self, function: Function, at: usize) -> Option<Value> {
         if function != Function::Exist {
             return None;
@@ -254,7 +254,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A text that an operation made; FC312 where it is longer than any text of a program.
+    /// Returns a text that an operation made; FC312 where it is longer than any text of a program.
     fn bounded(&self, slot: Slot, span: Span) -> Slot {
         if let Ok(Value::Text(text)) = &slot {
             self.work.charge(text.len());
@@ -300,7 +300,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The value of a parameter or variable that is computed.
+    /// Returns the value of a parameter or variable that is computed.
     fn denoted(&self, place: Denoted, span: Span) -> Slot {
         match (place.location, place.decided_by) {
             (Location::Elements(name), Some(_))
@@ -317,8 +317,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A text: the name of a macro whose code is an expression denotes its value (PM/206014219), any other
-    /// text itself.
+    /// Returns a text: the name of a macro whose code is an expression denotes its value (PM/206014219), any other text
+    /// itself.
     fn text(&self, span: Span) -> Slot {
         let name = unquoted(span.of(self.text));
         let plain = || Ok(Value::Text(name.replace("\\\"", "\"").into()));
@@ -347,7 +347,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The variable whose subscripts are on the stack.
+    /// Returns the variable whose subscripts are on the stack.
     fn computed_variable(
         &self,
         at: usize,
@@ -374,7 +374,7 @@ impl Evaluator<'_> {
         Ok(Location::Variable(VariableName::with_values(text, values)).into())
     }
 
-    /// The value that the user gave an element as the program writes it.
+    /// Returns the value that the user gave an element as the program writes it.
     fn as_set(&self, span: Span) -> Option<Value> {
         let name = VariableName::read(span.of(self.text));
         if !name.is_element() {
@@ -422,7 +422,7 @@ impl Evaluator<'_> {
         }))
     }
 
-    /// A value of a variable that the PLC may write, too (R2.99).
+    /// Returns a value of a variable that the PLC may write, too (R2.99).
     fn relied_on(&self, name: &VariableName, value: Value, span: Span) -> Value {
         let memory = self.scope.memory;
         let is_known = !matches!(value, Value::Unknown(_));
@@ -445,7 +445,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The number of elements of an array: of its first dimension, or of the requested one.
+    /// Returns the number of elements of an array: of its first dimension, or of the requested one.
     fn sizeof(&self, span: Span, dimension: Option<Slot>) -> Slot {
         let name = VariableName::first_argument(span.of(self.text));
         self.note_found(|| Location::named(name.clone()));
@@ -475,7 +475,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The place that an assignment writes.
+    /// Returns the place that an assignment writes.
     pub(crate) fn place(
         &self,
         place: Expression,
@@ -519,7 +519,7 @@ impl Evaluator<'_> {
         found.map(Some)
     }
 
-    /// The dimensions in a declaration's subscripts; for an unknown one, the cause.
+    /// Returns the dimensions in a declaration's subscripts; for an unknown one, the cause.
     pub(crate) fn dimensions(
         &self,
         place: Expression,
@@ -575,7 +575,7 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
     )
 }
 
-/// The use of a name that its declaration does not allow (R2.102).
+/// Returns the use of a name that its declaration does not allow (R2.102).
 pub(crate) fn misused(misuse: Misuse, span: Span, text: &str) -> Box<Fault> {
     let name = span.of(text).trim();
     match misuse {
@@ -591,7 +591,7 @@ pub(crate) fn misused(misuse: Misuse, span: Span, text: &str) -> Box<Fault> {
     }
 }
 
-/// A text without its quotes.
+/// Returns a text without its quotes.
 pub(crate) fn unquoted(text: &str) -> &str {
     let inner = text.strip_prefix('"').unwrap_or(text);
     inner.strip_suffix('"').unwrap_or(inner)

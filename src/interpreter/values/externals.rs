@@ -32,27 +32,27 @@ impl ExternalNames {
         }
     }
 
-    /// Whether only programs write a variable.
+    /// Returns whether only programs write a variable.
     pub(crate) fn is_own(&self, name: &VariableName) -> bool {
         is_named(&self.own, name)
     }
 
-    /// Whether only programs write a variable or an array.
+    /// Returns whether only programs write a variable or an array.
     pub(crate) fn is_own_array(&self, array: &str) -> bool {
         !self.own.is_empty() && self.is_own(&VariableName::whole(array.to_owned()))
     }
 
-    /// Whether a variable keeps its value while a program runs, unless the program writes it.
+    /// Returns whether a variable keeps its value while a program runs, unless the program writes it.
     pub(crate) fn is_stable(&self, name: &VariableName) -> bool {
         is_named(&self.stable, name) || self.is_own(name)
     }
 
-    /// Whether the PLC may write a variable while a program runs.
+    /// Returns whether the PLC may write a variable while a program runs.
     pub(crate) fn may_change(&self, name: &VariableName) -> bool {
         name.family() == VariableFamily::External && !self.is_stable(name)
     }
 
-    /// The variables that only programs write.
+    /// Returns the variables that only programs write.
     pub(crate) fn own(&self) -> impl Iterator<Item = &VariableName> {
         self.own.iter()
     }
@@ -61,10 +61,10 @@ impl ExternalNames {
 /// Use of the values that the program set in `V.E.` variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum HeldValues {
-    /// They count.
+    /// The values count.
     #[default]
     Taken,
-    /// They may have changed.
+    /// The values may have changed.
     Doubted,
 }
 
@@ -79,13 +79,13 @@ pub(crate) struct ExternalVariables {
 }
 
 impl ExternalVariables {
-    /// Whether any variable is held.
+    /// Returns whether any variable is held.
     #[inline]
     fn are_held(&self) -> bool {
         !self.held.is_empty() || self.initialised.is_some()
     }
 
-    /// Another value takes the place of those that the program set, which are returned.
+    /// Releases the values that the program set, whose place another value takes, and returns them.
     #[inline]
     pub(crate) fn release(&mut self, name: &VariableName) -> Option<HeldVariable> {
         if self.held.is_empty() {
@@ -94,13 +94,13 @@ impl ExternalVariables {
         self.held.remove(name)
     }
 
-    /// Whether a variable without a value is 0: only programs write it and none has since the start of the
+    /// Returns whether a variable without a value is 0: only programs write it and none has since the start of the
     /// control, or `#INIT V.E.` has set it.
     pub(crate) fn is_zero(&self, name: &VariableName) -> bool {
         self.names.is_own(name) || self.initialised.is_some() && self.names.may_change(name)
     }
 
-    /// Two ways meet: a variable may have the values that the program set on either.
+    /// Merges another way: a variable may have the values that the program set on either.
     pub(crate) fn join(&mut self, other: &Self) {
         for name in self.held.differing(&other.held) {
             let both = [&*self, other].map(|it| it.held_or_initial(&name));
@@ -135,7 +135,7 @@ pub(crate) struct HeldVariable {
 }
 
 impl HeldVariable {
-    /// A variable that the program has set.
+    /// Returns a variable that the program has set.
     pub(crate) fn of(value: Value, at: SetAt) -> Self {
         Self {
             first: at.clone(),
@@ -143,12 +143,12 @@ impl HeldVariable {
         }
     }
 
-    /// The first block that set it.
+    /// Returns the first block that set it.
     pub(crate) fn first(&self) -> &SetAt {
         &self.first
     }
 
-    /// What remains of it where a condition tells its value.
+    /// Returns the part that remains where a condition determines the value; `None` if the value is impossible.
     pub(crate) fn with(&self, value: &Value) -> Option<Self> {
         let mut values = self.values.iter();
         let at = match values.find(|(known, _)| known == value) {
@@ -179,7 +179,7 @@ impl HeldVariable {
     }
 }
 
-/// Whether names hold a variable, or the array or structure that it belongs to.
+/// Returns whether names hold a variable, or the array or structure that it belongs to.
 fn is_named(names: &BTreeSet<VariableName>, name: &VariableName) -> bool {
     !names.is_empty() && name.is_any(|it| names.contains(it))
 }
@@ -188,7 +188,7 @@ fn is_named(names: &BTreeSet<VariableName>, name: &VariableName) -> bool {
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(crate) struct SetAt {
     pub(crate) file: Arc<str>,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub(crate) line: u32,
 }
 
@@ -198,12 +198,12 @@ impl Memory {
         self.externals.names = Arc::clone(names);
     }
 
-    /// Whether the PLC may write a variable, and no value from the user says what it writes.
+    /// Returns whether the PLC may write a variable, and no value from the user says what it writes.
     pub(crate) fn may_change(&self, name: &VariableName) -> bool {
         self.externals.names.may_change(name) && self.given.get(name).is_none()
     }
 
-    /// The program has set a variable, which keeps its value until the PLC acts.
+    /// Holds the value of a variable that the program has set, until the PLC acts.
     pub(crate) fn hold(&mut self, name: &VariableName, at: SetAt) {
         if let Some(known) = self.known(name)
             && self.externals.names.may_change(name)
@@ -223,7 +223,7 @@ impl Memory {
         held.or(initialised)
     }
 
-    /// The PLC may write variables. Returns those of them that were held.
+    /// Lets the PLC write variables, and returns those of them that were held. Returns those of them that were held.
     pub(crate) fn let_change(
         &mut self,
         is_it: impl Fn(&VariableName) -> bool,
@@ -249,7 +249,7 @@ impl Memory {
         held.into_iter().map(|(name, _)| name).collect()
     }
 
-    /// Whether any variable is held.
+    /// Returns whether any variable is held.
     #[inline]
     pub(crate) fn holds_any(&self) -> bool {
         self.externals.are_held()
@@ -274,7 +274,7 @@ impl Memory {
         }
     }
 
-    /// The PLC may write every variable that `#INIT V.E.` set.
+    /// Ends `#INIT V.E.`: the PLC may write every variable that it set.
     pub(crate) fn end_initialisation(&mut self) {
         self.externals.initialised = None;
     }

@@ -43,7 +43,7 @@ impl FoundVariables {
         part
     }
 
-    /// The locations that may exist, with their values; none is known where anything may have been written.
+    /// Returns the locations that may exist, with their values; none is known where anything may have been written.
     pub(crate) fn values(&self) -> impl Iterator<Item = (&Location, Value)> {
         self.values.iter().map(|(location, value)| {
             let value = if self.anything {
@@ -70,7 +70,7 @@ impl FoundVariables {
     }
 }
 
-/// A value as found by the next program that is not known.
+/// Returns a value as found by the next program that is not known.
 fn unknown(location: &Location) -> Value {
     Value::Unknown(Unknown::text(location.to_string()))
 }
@@ -101,7 +101,7 @@ impl VariableUse {
         self.written.add(&other.written);
     }
 
-    /// Anything may be written: the effect of the program is unknown.
+    /// Records that anything may be written: the effect of the program is unknown.
     pub(crate) fn write_anything(&mut self) {
         self.written.anything = true;
     }
@@ -113,7 +113,7 @@ impl VariableUse {
         }
     }
 
-    /// A value is written, or may be.
+    /// Records that a value is written, or may be.
     pub(crate) fn write(&mut self, location: &Location, value: &Value) {
         match location {
             Location::Parameter(Owner::Program, _) => {
@@ -129,7 +129,8 @@ impl VariableUse {
         }
     }
 
-    /// A variable, or an element of an array, of which no value is followed from program to program.
+    /// Records the write of a variable, or of an element of an array, of which no value is followed from program to
+    /// program.
     pub(crate) fn write_name(&mut self, name: &VariableName, value: &Value) {
         let whole = Location::named(name.at(Subscripts::default()));
         if !self.outlives(&whole) {
@@ -141,7 +142,7 @@ impl VariableUse {
             value.clone()
         };
         if self.externals.is_own_array(name.array()) {
-            // What no program has written before is 0.
+            // A variable that no program has written is 0.
             self.written.write(&whole, Value::Number(0.0));
         }
         self.written.write(&whole, value);

@@ -1,5 +1,5 @@
-//! Where values are, which of them expressions read (R2.84), and why one is not known: its words in messages, and the advice on
-//! it (R2.50).
+//! Locations of values, of which expressions read some (R2.84), and causes for unknown ones: the words in messages, and
+//! the advice on them (R2.50).
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -15,9 +15,9 @@ use crate::syntax::ast::Owner;
 use crate::syntax::{Fault, Subscript, VariableName};
 use crate::text::Span;
 
-/// Something that only the machine knows and that makes values unknown (R2.50).
+/// Cause of unknown values that only the machine knows (R2.50).
 ///
-/// A saved state has the words of those without data, as states before schema 4 have them.
+/// A saved state contains the causes without data as words, like states before schema 4.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Unknown {
@@ -36,12 +36,12 @@ pub enum Unknown {
     /// The reaction of the control to a missing jump label.
     #[serde(rename = "a missing jump label")]
     MissingLabel,
-    /// What `$CONTINUE` does in a `$SWITCH` outside a loop (R2.40).
+    /// Effect of `$CONTINUE` in a `$SWITCH` outside a loop (R2.40).
     #[serde(rename = "`$CONTINUE` in a `$SWITCH`")]
     ContinueInSwitch,
-    /// Whether the control refuses a block, by the number of its error where that is public (R2.114).
+    /// Refusal of a block by the control, with the number of its error where that is public (R2.114).
     Refused(Option<u32>),
-    /// Whether the control takes variables that no `#VAR` declares (R2.102).
+    /// Acceptance by the control of variables that no `#VAR` declares (R2.102).
     #[serde(rename = "a missing declaration")]
     Undeclared,
     /// The last digits of a computed number (R2.112; PM/206929163).
@@ -53,13 +53,13 @@ pub enum Unknown {
     /// The ways past the budget of ways, which are not followed (R14.4).
     #[serde(rename = "ways that are not followed")]
     Ways,
-    /// What the control would do past the budget of work (R2.60).
+    /// Behaviour of the control past the budget of work (R2.60).
     #[serde(rename = "the budget of work")]
     Work,
     /// The effect of a block search on the commands that it passes (R2.96).
     #[serde(rename = "the block search")]
     Search,
-    /// Whether the control skips an optional section while it moves backward (R2.109).
+    /// Skipping of an optional section while the control moves backward (R2.109).
     #[serde(rename = "an optional section")]
     OptionalSection,
     /// A modal cycle that may be in force, by the name of its program (R2.13).
@@ -101,7 +101,7 @@ pub struct UnknownText {
     meaning: TextMeaning,
 }
 
-/// It takes a word, in which a value says its kind, too: a processor waits where it reads a word that was written in parts.
+/// Meaning of an unknown text. It is as wide as a word: reading a word that was written in parts stalls the processor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u64)]
 enum TextMeaning {
@@ -137,12 +137,12 @@ impl From<UnknownText> for Arc<str> {
 }
 
 impl Unknown {
-    /// Text of a program: a parameter, a variable, an address, a command, or what is not understood.
+    /// Classifies text of a program: a parameter, a variable, an address, a command, or what is not understood.
     pub fn text(text: impl Into<Arc<str>>) -> Self {
         Self::Text(text.into().into())
     }
 
-    /// A variable after the PLC may have changed the value that the program set.
+    /// Returns a variable after the PLC may have changed the value that the program set.
     pub(crate) fn changed(name: &str, value: String, at: &SetAt) -> Self {
         Self::Changed(Arc::new(ChangedVariable {
             name: name.into(),
@@ -152,7 +152,7 @@ impl Unknown {
         }))
     }
 
-    /// Its words in a message, with the reason why it is not known, as seen from a file.
+    /// Returns its words in a message, with the reason why it is not known, as seen from a file.
     pub(crate) fn seen_from(&self, file: &str) -> String {
         match self {
             Self::SkipLevel(_) => format!("{self}, a switch of the machine"),
@@ -185,7 +185,7 @@ impl Unknown {
         }
     }
 
-    /// The advice by which a user makes it known.
+    /// Returns the advice by which a user makes it known.
     pub(crate) fn advice(&self) -> Advice {
         match self {
             Self::SkipLevel(level) => Advice::SetSkip(*level),
@@ -213,7 +213,7 @@ impl Unknown {
         }
     }
 
-    /// Whether a block shows it.
+    /// Returns whether a block shows it.
     pub(crate) fn is_shown_in(&self, text: &str) -> bool {
         match self {
             Self::Text(of) => text.contains(&*of.text),
@@ -225,7 +225,7 @@ impl Unknown {
         }
     }
 
-    /// Its words where it decides something: `` `V.E.A` ``, a missing jump label.
+    /// Returns its words where it decides something: `` `V.E.A` ``, a missing jump label.
     pub(crate) fn quoted(&self) -> String {
         match self {
             Self::Text(_) | Self::RemedyClass | Self::Cycle(_) => format!("`{self}`"),
@@ -268,7 +268,7 @@ impl fmt::Display for Unknown {
 }
 
 impl fmt::Debug for Unknown {
-    /// Its words, as a text.
+    /// Writes its words as a text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:?}", self.to_string())
     }
@@ -310,7 +310,7 @@ pub(crate) enum Location {
 }
 
 impl Location {
-    /// The parameter or variable of a name.
+    /// Returns the parameter or variable of a name.
     pub(crate) fn named(name: VariableName) -> Self {
         match name.parameter_index() {
             Some(index) => Self::Parameter(Owner::Program, index),
@@ -318,7 +318,7 @@ impl Location {
         }
     }
 
-    /// The name under which the user gives its value.
+    /// Returns the name under which the user gives its value.
     pub(crate) fn name(&self) -> VariableName {
         match self {
             Self::Parameter(Owner::Program, index) => VariableName::parameter(*index),
@@ -349,7 +349,7 @@ pub(crate) struct Denoted {
 }
 
 impl Denoted {
-    /// One of several locations.
+    /// Returns one of several locations.
     pub(crate) fn any_of(location: Location, decided_by: Unknown) -> Self {
         Self {
             location,
@@ -357,7 +357,7 @@ impl Denoted {
         }
     }
 
-    /// The name of the variable, where it is one that is known.
+    /// Returns the name of the variable, where it is one that is known.
     pub(crate) fn variable(&self) -> Option<&VariableName> {
         match &self.location {
             Location::Variable(name) => Some(name),
@@ -365,7 +365,7 @@ impl Denoted {
         }
     }
 
-    /// The location with the value that it has after an assignment.
+    /// Returns the location with the value that it has after an assignment.
     pub(crate) fn assigned(self, value: Value) -> (Location, Value) {
         let value = self.decided_by.map_or(value, Value::Unknown);
         (self.location, value)

@@ -19,7 +19,7 @@ use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 use crate::syntax::{VariableFamily, VariableName};
 
-/// Everything a program can write and read back.
+/// Memory of everything that a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Memory {
     pub(crate) parameters: ParameterValues,
@@ -104,7 +104,7 @@ impl Memory {
         self.parameters.set(index, value);
     }
 
-    /// The value of a variable, the declared default of an array element that was never written.
+    /// Returns the value of a variable, the declared default of an array element that was never written.
     pub(crate) fn variable(&self, name: &VariableName) -> Option<Value> {
         if name.family().is_of_level() {
             let mut levels = self.locals.iter().rev();
@@ -126,12 +126,12 @@ impl Memory {
         })
     }
 
-    /// Whether only programs write the variable of a name.
+    /// Returns whether only programs write the variable of a name.
     fn is_written(&self, name: &VariableName) -> bool {
         name.family().is_written() || self.externals.names.is_own(name)
     }
 
-    /// Whether a name that nothing is known about may exist.
+    /// Returns whether a name that nothing is known about may exist.
     fn may_find(&self, name: &VariableName) -> bool {
         let is_kept = name.family() == VariableFamily::Shared || self.externals.names.is_own(name);
         self.may_find && is_kept && self.given.get(name).is_none()
@@ -152,7 +152,7 @@ impl Memory {
         }
     }
 
-    /// A variable or an array is found: of an array no element is known but those that the user gave.
+    /// Adds a variable or an array that is found: of an array no element is known but those that the user gave.
     fn find_variable(&mut self, name: &VariableName, value: Value) {
         if let Value::Unknown(cause) = &value {
             self.variables.havoc_elements(name.array(), cause);
@@ -165,7 +165,7 @@ impl Memory {
         }
     }
 
-    /// Whether a parameter or a whole variable may exist and the program has not certainly written it.
+    /// Returns whether a parameter or a whole variable may exist and the program has not certainly written it.
     pub(crate) fn is_found(&self, location: &Location) -> bool {
         let is_new = |name: &VariableName| {
             self.may_find(name) && self.variables.names.get(name.array()).is_none()
@@ -174,7 +174,7 @@ impl Memory {
             || matches!(location, Location::Variable(name) if is_new(name))
     }
 
-    /// Whether a parameter or a whole variable still has the value that the program found, or none.
+    /// Returns whether a parameter or a whole variable still has the value that the program found, or none.
     pub(crate) fn is_unwritten(&self, location: &Location) -> bool {
         let holds = match location {
             Location::Parameter(_, index) => self.parameters.get(*index).is_some(),
@@ -184,7 +184,7 @@ impl Memory {
         self.is_found(location) || !(holds || names.get(location.name().array()).is_some())
     }
 
-    /// A value from the user (R2.36). Values that programs write take precedence.
+    /// Sets a value given by the user (R2.36). Values that programs write take precedence.
     pub(crate) fn give(&mut self, name: VariableName, value: Value) {
         if !self.is_written(&name) {
             self.set_variable(&name, value.clone());
@@ -192,7 +192,7 @@ impl Memory {
         self.given.insert(name, value);
     }
 
-    /// The value that the user gave.
+    /// Returns the value that the user gave.
     pub(crate) fn given(&self, name: &VariableName) -> Option<&Value> {
         self.given.get(name)
     }
@@ -211,7 +211,7 @@ impl Memory {
         }
     }
 
-    /// The variables of the current level.
+    /// Returns the variables of the current level.
     fn level(&mut self) -> &mut VariableNames {
         if self.locals.is_empty() {
             self.locals.push(VariableNames::default());
@@ -229,7 +229,7 @@ impl Memory {
         }
     }
 
-    /// A variable is not any more as an earlier program left it.
+    /// Records that a variable is no longer as an earlier program left it.
     fn lose_found(&mut self, name: &VariableName) {
         if !self.found.is_empty() {
             self.found.remove(&Location::named(name.clone()));
@@ -255,7 +255,7 @@ impl Memory {
         self.declared(name).set(name, value);
     }
 
-    /// The variable of a declared name, if it outlives programs and exists, or may.
+    /// Returns the variable of a declared name, if it outlives programs and exists, or may.
     pub(crate) fn before_declaration(&self, name: &VariableName) -> Option<NamedVariable> {
         let held = self.variables.names.get(name.array());
         let held = held.filter(|_| name.family() == VariableFamily::Shared);
@@ -269,8 +269,8 @@ impl Memory {
         })
     }
 
-    /// A variable was declared that existed before. Whether the start value replaces its present value is not
-    /// documented, so it is unknown where the two differ (R2.34); the user's value decides.
+    /// Records the declaration of a variable that existed before. Whether the start value replaces its present value is
+    /// not documented, so it is unknown where the two differ (R2.34); the user's value decides.
     pub(crate) fn declare_anew(&mut self, name: &VariableName, before: &NamedVariable) {
         let cause = Unknown::text(name.array());
         self.variables.join_name(name.array(), before, &cause);
@@ -296,7 +296,7 @@ impl Memory {
         self.declared(name).declare_array(name.array(), array);
     }
 
-    /// A variable was declared with a type, where that is certain.
+    /// Records the certain declaration of a variable with a type.
     pub(crate) fn set_declared(&mut self, name: &VariableName, kind: ValueType) {
         let names = self.declared(name);
         names.set_declared(
@@ -308,7 +308,7 @@ impl Memory {
         );
     }
 
-    /// The declaration of a variable or an array, in the level of the program or around it.
+    /// Returns the declaration of a variable or an array, in the level of the program or around it.
     pub(crate) fn declaration(&self, name: &VariableName) -> Option<Declared> {
         let levels = self.locals.iter().rev();
         let mut levels = levels.filter(|_| name.family().is_of_level());
@@ -318,7 +318,7 @@ impl Memory {
             .declared
     }
 
-    /// Whether a declaration of the name in the current level is a second one.
+    /// Returns the form in which the current level declares the name; `None` if it does not.
     pub(crate) fn is_declared_here(&self, name: &VariableName) -> Option<Declared> {
         let level = if name.family().is_of_level() {
             self.locals.last()?
@@ -328,7 +328,7 @@ impl Memory {
         level.names.get(name.array())?.declared
     }
 
-    /// The variable of a name that only a level around the current one has.
+    /// Returns the variable of a name that only a level around the current one has.
     pub(crate) fn of_outer_level(&self, name: &VariableName) -> Option<&NamedVariable> {
         let (current, outer) = self.locals.split_last()?;
         let found = |level: &VariableNames| level.names.get(name.array()).is_some();
@@ -336,7 +336,7 @@ impl Memory {
         outer.find_map(|level| level.names.get(name.array()))
     }
 
-    /// Whether nothing of the name is known, or may be there.
+    /// Returns whether nothing of the name is known, or may be there.
     pub(crate) fn is_absent(&self, name: &VariableName) -> bool {
         let mut levels = self.locals.iter().chain([&self.variables]);
         self.unknown_names.is_none()
@@ -344,7 +344,7 @@ impl Memory {
             && levels.all(|level| level.names.get(name.array()).is_none())
     }
 
-    /// How a name is used otherwise than the variable allows.
+    /// Returns the misuse in a name that does not fit its variable.
     pub(crate) fn misuse(&self, name: &VariableName) -> Option<Misuse> {
         let array = self.array(name.array());
         match (name.is_element(), array) {
@@ -364,7 +364,7 @@ impl Memory {
         }
     }
 
-    /// A declared array.
+    /// Returns a declared array.
     pub(crate) fn array(&self, name: &str) -> Option<&Array> {
         let mut levels = self.locals.iter().rev();
         let local = levels.find_map(|level| level.array(name));
@@ -389,7 +389,7 @@ impl Memory {
         }
     }
 
-    /// Some element of an array was written, but it is not known which: none is known any more.
+    /// Makes all elements of an array unknown, since it is not known which one was written.
     pub(crate) fn havoc_elements(&mut self, name: &VariableName, cause: &Unknown) {
         let array = name.array();
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
@@ -400,14 +400,13 @@ impl Memory {
         }
     }
 
-    /// Some P parameter was written, but it is not known which: none is known any more.
+    /// Makes all P parameters unknown, since it is not known which one was written.
     fn havoc_parameters(&mut self, cause: &Unknown) {
         self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
     }
 
-    /// Everything that a program can write may have been written: nothing is known any more.
-    /// Values that only the machine holds are kept.
+    /// Discards the values of everything that a program can write. Values that only the machine holds are kept.
     pub(crate) fn havoc_all(&mut self, cause: &Unknown) {
         self.havoc_parameters(cause);
         self.unknown_names = Some(cause.clone());
@@ -425,7 +424,7 @@ impl Memory {
         }
     }
 
-    /// A missing program may have written what the run never wrote.
+    /// Records that a missing program may have written what the run never wrote.
     pub(crate) fn miss(&mut self, cause: &Unknown) {
         self.lost.get_or_insert_with(|| cause.clone());
         self.unknown_names.get_or_insert_with(|| cause.clone());
@@ -442,8 +441,7 @@ impl Memory {
         self.parameters.remove(index);
     }
 
-    /// The names whose numbers differ in another memory; `None` where anything else does, or more
-    /// than a few.
+    /// Returns the names whose numbers differ in another memory; `None` where anything else does, or more than a few.
     pub(crate) fn differing_numbers(&self, other: &Self) -> Option<Vec<Location>> {
         let same = self.lost == other.lost
             && self.externals == other.externals
@@ -526,8 +524,8 @@ impl Memory {
         differing + names.len()
     }
 
-    /// The variables that are read not only by the program and that differ in another memory, beyond what the PLC
-    /// may have changed.
+    /// Returns the variables that are read not only by the program and that differ in another memory, beyond what the
+    /// PLC may have changed.
     pub(crate) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
         let names = self.variables.names.differing(&other.variables.names);
         let is_lost = |memory: &Self, name: &VariableName| {
@@ -553,7 +551,7 @@ impl Memory {
         }
     }
 
-    /// Whether the macros of another memory are the same.
+    /// Returns whether the macros of another memory are the same.
     fn has_macros_of(&self, other: &Self) -> bool {
         self.macros == other.macros
     }
@@ -581,15 +579,15 @@ impl Memory {
         }
     }
 
-    /// A macro may have been defined, or redefined (R2.51).
+    /// Records that a macro may have been defined, or redefined (R2.51).
     pub(crate) fn havoc_macro(&mut self, name: &str, cause: &Unknown) {
         if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
     }
 
-    /// Any of the macros may have been taken away, or redefined, except for those that `stays`
-    /// names with their code.
+    /// Records that any of the macros may have been taken away, or redefined, except for those that `stays` names with
+    /// their code.
     pub(crate) fn havoc_macros(&mut self, cause: &Unknown, stays: impl Fn(&str, &str) -> bool) {
         let goes = |(name, code): &(&String, &Value)| match code {
             Value::Text(code) => !stays(name, code),
@@ -605,7 +603,7 @@ impl Memory {
         }
     }
 
-    /// `#INIT MACRO TAB`
+    /// Clears the macros: `#INIT MACRO TAB`.
     pub(crate) fn clear_macros(&mut self) {
         self.macro_version.rise();
         let weights = self
@@ -616,7 +614,7 @@ impl Memory {
         self.macros.clear();
     }
 
-    /// The code of a macro, which may be unknown.
+    /// Returns the code of a macro, which may be unknown.
     pub(crate) fn macro_code(&self, name: &str) -> Option<&Value> {
         self.macros.get(name.trim())
     }
@@ -627,7 +625,7 @@ impl Memory {
         code.unwrap_or_else(|| Value::Text(name.into()))
     }
 
-    /// The `V.S.` variables, which outlive programs.
+    /// Returns the `V.S.` variables, which outlive programs.
     pub(crate) fn shared(&self) -> BTreeMap<String, Value> {
         let held = self.variables.held().into_iter();
         let shared = held.filter(|(name, _)| {
@@ -638,7 +636,7 @@ impl Memory {
             .collect()
     }
 
-    /// The parameters, and the variables that the running program sees.
+    /// Returns the parameters, and the variables that the running program sees.
     pub(crate) fn all(&self) -> Vec<(String, Value)> {
         let parameters = self.parameters.iter();
         let parameters = parameters.map(|(index, value)| (format!("P{index}"), value.clone()));
@@ -652,18 +650,18 @@ impl Memory {
     }
 }
 
-/// The code of a macro as it is used.
+/// Returns the code of a macro as it is used.
 fn unescaped(code: &str) -> String {
     code.replace("\\\"", "\"")
 }
 
-/// Whether a program start leaves a variable or array.
+/// Returns whether a program start leaves a variable or array.
 pub(crate) fn is_kept(array: &str, parameters: Parameters) -> bool {
     let family = VariableFamily::of(array);
     !family.is_of_run() || (parameters == Parameters::Kept && family == VariableFamily::Parameter)
 }
 
-/// Parameters below this number are found without a search.
+/// Number below which parameters are found without a search.
 const DIRECT: u32 = 1024;
 
 /// Parameters that are copied together.
@@ -714,7 +712,7 @@ impl ParameterValues {
         }
     }
 
-    /// The parameters that have a value, in the order of their numbers.
+    /// Returns the parameters that have a value, in the order of their numbers.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, &Value)> {
         let direct = (0..).zip(self.pages.iter().flat_map(|page| page.iter()));
         let direct = direct.filter_map(|(index, value)| Some((index, value.as_ref()?)));
@@ -722,7 +720,7 @@ impl ParameterValues {
         direct.chain(further)
     }
 
-    /// The numbers whose values differ in another set, or that only one of the two has.
+    /// Returns the numbers whose values differ in another set, or that only one of the two has.
     pub(crate) fn differing(&self, other: &Self) -> Vec<u32> {
         let none = Shared::default();
         let mut found = Vec::new();
@@ -757,7 +755,7 @@ fn page_of(index: u32) -> (usize, usize) {
 pub(crate) struct Shared<T>(Arc<T>);
 
 impl<T> Shared<T> {
-    /// Whether two are copies of each other, neither of which has changed since.
+    /// Returns whether two are copies of each other, neither of which has changed since.
     fn is_copy_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

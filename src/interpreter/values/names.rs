@@ -44,7 +44,7 @@ pub(crate) struct NamedVariable {
     pub(crate) elements: PersistentMap<Subscripts, Value>,
     /// Set when some element was written, but it is not known which.
     pub(crate) lost: Option<Unknown>,
-    /// Its declaration, where it has one on some way.
+    /// Declaration, where it has one on some way.
     pub(crate) declared: Option<Declared>,
 }
 
@@ -55,7 +55,7 @@ pub(crate) struct Declared {
     pub(crate) certainty: Sure,
 }
 
-/// Whether a variable is declared on every way.
+/// Certainty of a declaration over the ways.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Sure {
     Certain,
@@ -76,7 +76,7 @@ pub(crate) enum Misuse {
 }
 
 impl Declared {
-    /// The declaration where another way has another one, or none.
+    /// Returns the declaration where another way has another one, or none.
     fn join(mine: Option<Self>, theirs: Option<Self>) -> Option<Self> {
         let kind = match (mine, theirs) {
             (Some(mine), Some(theirs)) if mine == theirs => return Some(mine),
@@ -100,7 +100,7 @@ pub(crate) struct Array {
 }
 
 impl Array {
-    /// Whether the subscripts are, or may be, those of an element.
+    /// Returns whether the subscripts are, or may be, those of an element.
     pub(crate) fn has(&self, subscripts: &Subscripts) -> bool {
         let is_inside = |(number, size): (&i64, &Option<u32>)| {
             u32::try_from(*number).is_ok_and(|at| size.is_none_or(|size| at < size))
@@ -201,7 +201,7 @@ impl NamedVariable {
         self.elements.iter().map(weight).sum()
     }
 
-    /// Whether it is there on every way.
+    /// Returns whether it is there on every way.
     pub(crate) fn is_certain(&self) -> bool {
         let is_known = |value: &Value| !matches!(value, Value::Unknown(_));
         let declared = self.declared.map(|it| it.certainty == Sure::Certain);
@@ -218,7 +218,7 @@ impl NamedVariable {
 }
 
 impl VariableNames {
-    /// All values by name, those of an array element by element.
+    /// Returns all values by name, those of an array element by element.
     pub(crate) fn held(&self) -> BTreeMap<VariableName, Value> {
         let mut held = BTreeMap::new();
         for (array, variable) in self.names.iter() {
@@ -375,7 +375,7 @@ impl VariableNames {
     }
 }
 
-/// The value on two ways: unknown where they differ.
+/// Joins the values of two ways: unknown where they differ.
 pub(crate) fn join_value(mine: &mut Option<Value>, theirs: Option<&Value>, cause: &Unknown) {
     let joined = match (mine.as_ref(), theirs) {
         (Some(Value::Unknown(_)), _) => return,

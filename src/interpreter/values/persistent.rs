@@ -13,7 +13,7 @@ use std::sync::{Arc, LazyLock};
 use serde::ser::SerializeSeq as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// No program can choose names whose ranks make the tree deep.
+/// Seed of the ranks, random so that no program can choose names whose ranks make the tree deep.
 static RANKS: LazyLock<RandomState> = LazyLock::new(RandomState::new);
 
 /// An ordered map; a copy shares everything with its original until one of them changes.
@@ -60,7 +60,7 @@ impl<K, V> PersistentMap<K, V> {
         *self = Self::default();
     }
 
-    /// All entries in the order of their keys.
+    /// Returns all entries in the order of their keys.
     pub(crate) fn iter(&self) -> MapEntries<'_, K, V> {
         let mut entries = MapEntries { open: Vec::new() };
         entries.descend(self.root.as_deref());
@@ -87,7 +87,7 @@ impl<K, V> PersistentMap<K, V> {
         None
     }
 
-    /// The entries from a key on.
+    /// Returns the entries from a key on.
     pub(crate) fn from<Q>(&self, key: &Q) -> MapEntries<'_, K, V>
     where
         K: Borrow<Q>,
@@ -136,7 +136,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
         None
     }
 
-    /// The value under a key, put there first where there is none.
+    /// Returns the value under a key, put there first where there is none.
     pub(crate) fn slot(&mut self, key: K, first: impl FnOnce() -> V) -> &mut V {
         let rank = RANKS.hash_one(&key);
         let mut link = &mut self.root;
@@ -196,7 +196,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
 }
 
 impl<K: Ord + Hash + Clone, V: Clone + PartialEq> PersistentMap<K, V> {
-    /// The keys whose values differ in another map, or that only one of the two has.
+    /// Returns the keys whose values differ in another map, or that only one of the two has.
     pub(crate) fn differing(&self, other: &Self) -> Vec<K> {
         let mut keys = Vec::new();
         compare(&self.root, &other.root, &mut keys);

@@ -11,7 +11,7 @@ use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owne
 use crate::syntax::{Subscript, VariableFamily, VariableName};
 use crate::text::Span;
 
-/// Whether a condition holds.
+/// Truth of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Truth {
     Holds,
@@ -37,7 +37,7 @@ impl Truth {
     }
 }
 
-/// The values that follow from a condition that holds or does not: `V.E.A == 2`, `NOT`, `&&`.
+/// Returns the values that follow from a condition that holds or does not: `V.E.A == 2`, `NOT`, `&&`.
 pub(crate) fn conclusions(
     block: &Block,
     text: &str,
@@ -84,8 +84,8 @@ pub(crate) fn conclusions(
     found
 }
 
-/// Whether an expression only compares one variable with one number, so that either answer tells whether
-/// they are equal.
+/// Returns whether an expression only compares one variable with one number, so that either answer tells whether they
+/// are equal.
 pub(crate) fn is_one_comparison(block: &Block, text: &str, expression: Expression) -> bool {
     let Some((node, operands)) = root(block, expression) else {
         return false;
@@ -105,7 +105,7 @@ pub(crate) fn is_one_comparison(block: &Block, text: &str, expression: Expressio
     }
 }
 
-/// Whether a variable can only be 0 or 1.
+/// Returns whether a variable can only be 0 or 1.
 fn is_switch(target: &Location) -> bool {
     let of_axis = match target {
         Location::Variable(name) => name.of_axis(),
@@ -114,7 +114,7 @@ fn is_switch(target: &Location) -> bool {
     of_axis.is_some_and(|(variable, _)| variable.ends_with("_COMP_ACTIVE"))
 }
 
-/// A variable and the number that it equals.
+/// Returns a variable and the number that it equals.
 fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Location, Value)> {
     let [one, other] = pair;
     let known = |part| {
@@ -132,7 +132,7 @@ fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Location, 
     target.or_else(|| variable(block, text, other).zip(known(one)))
 }
 
-/// The parameter or variable of an expression that consists only of it.
+/// Returns the parameter or variable of an expression that consists only of it.
 pub(crate) fn variable(block: &Block, text: &str, part: Expression) -> Option<Location> {
     let (start, end) = (part.start as usize, part.end as usize);
     let [node] = block.nodes.get(start..end)? else {
@@ -153,7 +153,7 @@ fn target(node: Node, written: &str) -> Option<Location> {
     }
 }
 
-/// The last node of an expression and its operands.
+/// Returns the last node of an expression and its operands.
 fn root(block: &Block, part: Expression) -> Option<(Node, Vec<Expression>)> {
     let node = *block.nodes.get(part.end.checked_sub(1)? as usize)?;
     Some((node, operands_of(block, part)?))
@@ -200,7 +200,7 @@ fn popped(node: Node) -> usize {
 /// Writer of a value other than the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(crate) enum Writer {
-    /// Nothing: parameters, `V.P.`, `V.L.`, `V.S.`, and `stable` variables.
+    /// No other writer: parameters, `V.P.`, `V.L.`, `V.S.`, and `stable` variables.
     Nothing,
     /// The machine at any time: `V.E.`, skip levels.
     Machine,
@@ -220,7 +220,7 @@ impl Writer {
     }
 }
 
-/// What a condition is about, in a form independent of its text.
+/// Meaning of a condition, independent of its text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ConditionMeaning {
     pub(crate) subject: ConditionSubject,
@@ -233,15 +233,15 @@ pub(crate) struct ConditionMeaning {
 /// Subject of a condition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum ConditionSubject {
-    /// Whether an expression holds.
+    /// Truth of an expression.
     Truth,
-    /// Which of some cases an expression is.
+    /// Choice of a case by the value of an expression.
     Cases(Vec<Arc<str>>),
-    /// Whether an expression as the remedy class of an error ends the program.
+    /// End of the program by an error whose remedy class is the expression.
     RemedyClass,
-    /// Something that only the machine knows.
+    /// Subject that only the machine knows.
     Unknown(Unknown),
-    /// Whether the control takes blocks of a kind, in the words of FC328.
+    /// Acceptance by the control of blocks of a kind, in the words of FC328.
     Refusal(Arc<str>),
 }
 
@@ -252,7 +252,7 @@ pub(crate) struct Asking {
 }
 
 impl Asking {
-    /// A condition on something that only the machine knows.
+    /// Returns a condition on something that only the machine knows.
     pub(crate) fn of_unknown(writer: Writer, unknown: Unknown) -> Self {
         let meaning = Arc::new(ConditionMeaning {
             subject: ConditionSubject::Unknown(unknown),
@@ -262,7 +262,7 @@ impl Asking {
         Self { writer, meaning }
     }
 
-    /// The same expression for another subject.
+    /// Returns the same expression for another subject.
     pub(crate) fn about(mut self, subject: ConditionSubject) -> Self {
         Arc::make_mut(&mut self.meaning).subject = subject;
         self
@@ -304,7 +304,7 @@ pub(crate) fn reads(
     Some(Asking { writer, meaning })
 }
 
-/// The values of the machine or the control that an expression reads by their names.
+/// Returns the values of the machine or the control that an expression reads by their names.
 pub(crate) fn read_of_machine(
     block: &Block,
     text: &str,
@@ -323,7 +323,7 @@ pub(crate) fn read_of_machine(
     read.collect()
 }
 
-/// Whether an expression reads, or may read, a value that the machine writes while the program waits.
+/// Returns whether an expression reads, or may read, a value that the machine writes while the program waits.
 pub(crate) fn is_written_by_machine(
     block: &Block,
     text: &str,
@@ -344,7 +344,7 @@ pub(crate) fn is_written_by_machine(
     })
 }
 
-/// A subscript that is a plain number.
+/// Returns a subscript that is a plain number.
 pub(crate) fn subscript(node: &Node) -> Subscript {
     let number = match node {
         Node::Number(number) => rounded(*number),
@@ -353,7 +353,7 @@ pub(crate) fn subscript(node: &Node) -> Subscript {
     Subscript::Number(number.unwrap_or(i64::MAX))
 }
 
-/// Whether a function of numbers always gives equal results for equal numbers.
+/// Returns whether a function of numbers always gives equal results for equal numbers.
 fn is_pure(function: Function) -> bool {
     !matches!(
         function,
@@ -361,7 +361,7 @@ fn is_pure(function: Function) -> bool {
     )
 }
 
-/// The text of an expression, with the brackets that belong to it, and its span.
+/// Returns the text of an expression, with the brackets that belong to it, and its span.
 pub(crate) fn text_of(block: &Block, text: &str, expression: Expression) -> (String, Span) {
     let range = expression.start as usize..expression.end as usize;
     let spans = block.spans.get(range).unwrap_or_default();

@@ -20,16 +20,16 @@ pub enum Value {
     Number(f64),
     /// A text.
     Text(Arc<str>),
-    /// Something that only the machine knows (R2.50).
+    /// Value that only the machine knows (R2.50).
     Unknown(Unknown),
 }
 
-/// One operand on the stack. A failure waits until something needs its value, so that `EXIST` and
-/// the second operand of `&&` and `||` may fail without harm.
+/// Operand on the stack. A failure waits until something needs its value, so that `EXIST` and the second operand of
+/// `&&` and `||` may fail without harm.
 pub(crate) type Slot = Result<Value, Box<Fault>>;
 
 impl Value {
-    /// The number, where it is one.
+    /// Returns the number, where it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(*number),
@@ -37,7 +37,7 @@ impl Value {
         }
     }
 
-    /// The value as a program writes it.
+    /// Returns the value as a program writes it.
     pub(crate) fn as_written(&self) -> String {
         match self {
             Self::Number(number) => number.to_string(),
@@ -46,13 +46,13 @@ impl Value {
         }
     }
 
-    /// Whether the value counts as true: |value| ≥ 0.5 (R2.31). `None` where it is not a number.
+    /// Returns whether the value counts as true: |value| ≥ 0.5 (R2.31). `None` where it is not a number.
     pub fn truth(&self) -> Option<bool> {
         self.number().map(is_true)
     }
 }
 
-/// R2.31
+/// Returns whether a number counts as true (R2.31).
 pub(crate) fn is_true(number: f64) -> bool {
     number.abs() >= 0.5
 }
@@ -78,7 +78,7 @@ impl From<&crate::machine::Setting> for Value {
     }
 }
 
-/// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
+/// Returns whether both values count as equal: they differ by less than 0.001 (R2.40; PM/206908427).
 pub(crate) fn same_case(wanted: &Value, value: &Value) -> bool {
     match (wanted, value) {
         (Value::Number(wanted), Value::Number(value)) => (wanted - value).abs() < 0.001,
@@ -86,7 +86,7 @@ pub(crate) fn same_case(wanted: &Value, value: &Value) -> bool {
     }
 }
 
-/// A number that is a whole number, 0 or more.
+/// Returns a number that is a whole number, 0 or more.
 #[inline]
 pub(crate) fn exact(number: f64) -> Option<u32> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
@@ -96,7 +96,7 @@ pub(crate) fn exact(number: f64) -> Option<u32> {
     is_whole.then_some(whole)
 }
 
-/// A number as a whole number, rounded half away from zero; `None` if out of range.
+/// Returns a number as a whole number, rounded half away from zero; `None` if out of range.
 pub(crate) fn rounded(number: f64) -> Option<i64> {
     // 2^53: beyond it, numbers of the language are not exact whole numbers any more.
     const LIMIT: f64 = 9_007_199_254_740_992.0;
@@ -133,18 +133,18 @@ pub(crate) enum ValueType {
 
 /// A value as a variable of a type takes it.
 pub(crate) enum TypedValue {
-    /// The variable has it.
+    /// Value that the variable has.
     Taken(Value),
-    /// The variable has one of the two whole numbers beside this one.
+    /// Value between two whole numbers, of which the variable has one.
     Fraction(f64),
-    /// The type does not have it: its least and its greatest value.
+    /// Value out of the range of the type, with its least and its greatest value.
     OutOfRange(f64, f64),
     /// A text for a number, a number for a text, or a text that is too long.
     OtherKind(String),
 }
 
 impl ValueType {
-    /// The type of a word in upper case, with the length in its bracket.
+    /// Returns the type of a word in upper case, with the length in its bracket.
     pub(crate) fn named(word: Option<&str>, length: Option<u32>) -> Self {
         match word {
             Some("BOOLEAN") => Self::Boolean,
@@ -159,7 +159,7 @@ impl ValueType {
         }
     }
 
-    /// The value of a variable that nothing was written to.
+    /// Returns the value of a variable that nothing was written to.
     pub(crate) fn default(self) -> Value {
         match self {
             Self::Text(_) => Value::Text("".into()),
@@ -167,13 +167,13 @@ impl ValueType {
         }
     }
 
-    /// Whether a whole number is one of its own.
+    /// Returns whether a whole number is one of its own.
     pub(crate) fn has(self, number: f64) -> bool {
         let limits = self.limits();
         limits.is_none_or(|(least, most)| (least..=most).contains(&number))
     }
 
-    /// The least and the greatest of its whole numbers.
+    /// Returns the least and the greatest of its whole numbers.
     fn limits(self) -> Option<(f64, f64)> {
         let power = |bits: u8| f64::from(bits).exp2();
         match self {
@@ -184,7 +184,7 @@ impl ValueType {
         }
     }
 
-    /// What a variable of the type and of a name has after an assignment.
+    /// Returns the value of a variable of the type and of a name after an assignment.
     pub(crate) fn take(self, name: &str, value: Value) -> TypedValue {
         match (self, value, self.limits()) {
             (Self::Text(most), Value::Text(text), _) => match most {
@@ -221,7 +221,7 @@ pub(crate) fn wrong_type(span: Span, message: &str) -> Box<Fault> {
     fault(Code::Fc312, span, message)
 }
 
-/// The number where a number is expected; `None` for what only the machine knows, FC312 for a string (R2.37).
+/// Returns the number where a number is expected; `None` for what only the machine knows, FC312 for a string (R2.37).
 pub(crate) fn numeric(value: &Value, span: Span) -> Result<Option<f64>, Box<Fault>> {
     match value {
         Value::Text(_) => Err(wrong_type(
@@ -233,7 +233,7 @@ pub(crate) fn numeric(value: &Value, span: Span) -> Result<Option<f64>, Box<Faul
     }
 }
 
-/// The value of an operation; a reading decides whether comparisons have a tolerance (R2.112).
+/// Returns the value of an operation; a reading decides whether comparisons have a tolerance (R2.112).
 pub(crate) fn binary(
     operator: BinaryOperator,
     (left, right): (Slot, Slot),
@@ -259,7 +259,7 @@ pub(crate) fn binary(
     }
 }
 
-/// The value of an operation on two numbers.
+/// Returns the value of an operation on two numbers.
 #[inline]
 pub(crate) fn numbers(
     operator: BinaryOperator,
@@ -284,14 +284,14 @@ pub(crate) fn numbers(
     arithmetic(operator, left, right, span)
 }
 
-/// Whether rounding alone keeps a number from being a multiple of another.
+/// Returns whether rounding alone keeps a number from being a multiple of another.
 fn is_nearly_multiple(left: f64, right: f64) -> bool {
     let rest = (left % right).abs();
     let least = rest.min(right.abs() - rest);
     rest > 0.0 && least <= ROUNDING * left.abs().max(right.abs())
 }
 
-/// The number beside which rounding decides the value of a function (R2.112).
+/// Returns the number beside which rounding decides the value of a function (R2.112).
 fn jump_of(function: Function, x: f64) -> Option<f64> {
     match function {
         Function::Ceil | Function::Floor => Some(x.round()),
@@ -303,7 +303,7 @@ fn jump_of(function: Function, x: f64) -> Option<f64> {
     }
 }
 
-/// `&&` and `||`: one operand alone may decide, whatever the other is.
+/// Returns `&&` and `||`: one operand alone may decide, whatever the other is.
 fn logic(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot {
     let deciding = operator == BinaryOperator::Or;
     let truth = |slot: &Slot| slot.as_ref().ok().and_then(Value::truth);
@@ -365,7 +365,7 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
 /// as it stands (R2.112).
 const ROUNDING: f64 = 1e-9;
 
-/// Whether two numbers differ, and by no more than rounding: the control may have rounded otherwise.
+/// Returns whether two numbers differ, and by no more than rounding: the control may have rounded otherwise.
 pub(crate) fn are_nearly_equal(left: f64, right: f64) -> bool {
     let difference = (left - right).abs();
     let scale = if left == 0.0 || right == 0.0 {
@@ -376,7 +376,7 @@ pub(crate) fn are_nearly_equal(left: f64, right: f64) -> bool {
     difference > 0.0 && difference <= ROUNDING * scale
 }
 
-/// FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.
+/// Returns FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.
 pub(crate) fn finite(value: f64, span: Span) -> Slot {
     if value.is_finite() {
         Ok(Value::Number(value))
@@ -398,7 +398,7 @@ fn bitwise(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Slot 
     Ok(Value::Number(bits as f64))
 }
 
-/// `IS_STRING[v]`, `IS_NUMBER[v]` (R2.79).
+/// Returns `IS_STRING[v]`, `IS_NUMBER[v]` (R2.79).
 fn type_test(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
     let [slot]: [Slot; 1] = slots
         .try_into()

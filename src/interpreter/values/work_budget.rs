@@ -63,13 +63,13 @@ impl WorkBudget {
         self.charge_ways(units.saturating_mul(PER_UNIT_READ));
     }
 
-    /// The work of following ways, and of reading blocks that are passed over.
+    /// Returns the work of following ways, and of reading blocks that are passed over.
     #[inline]
     pub(crate) fn ways(&self) -> u64 {
         self.ways.get()
     }
 
-    /// A program begins.
+    /// Resets the work on ways at the start of a program.
     pub(crate) fn begin_ways(&self) {
         self.ways.set(0);
     }
@@ -94,7 +94,7 @@ impl WorkBudget {
         }
     }
 
-    /// A block was executed again; `before` is all work before it.
+    /// Counts a block that was executed again; `before` is all work before it.
     #[inline]
     pub(crate) fn repeat(&mut self, weight: u64, said: u64, before: u64) {
         let work = self.spent.get().saturating_sub(before);
@@ -108,7 +108,7 @@ impl WorkBudget {
         self.repeated
     }
 
-    /// All work so far.
+    /// Returns all work so far.
     pub(crate) fn spent(&self) -> u64 {
         self.spent.get()
     }

@@ -63,17 +63,17 @@ impl Split {
         }
     }
 
-    /// Whether all conditions that it names are below a number.
+    /// Returns whether all conditions that it names are below a number.
     pub(crate) fn fits(&self, conditions: usize) -> bool {
         self.conditions().all(|it| (it as usize) < conditions)
     }
 
-    /// The conditions that both name.
+    /// Returns the conditions that both name.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.on.conditions().chain(self.off.conditions())
     }
 
-    /// The only selection that is possible on some ways.
+    /// Returns the only selection that is possible on some ways.
     fn only_on(&self, ways: &WaySet) -> Option<Membership> {
         match (self.on.is_apart_from(ways), self.off.is_apart_from(ways)) {
             (false, true) => Some(Membership::In),
@@ -82,7 +82,7 @@ impl Split {
         }
     }
 
-    /// The only selection that is possible.
+    /// Returns the only selection that is possible.
     pub(crate) fn only(&self) -> Option<Membership> {
         match (self.on.is_never(), self.off.is_never()) {
             (false, true) => Some(Membership::In),
@@ -95,11 +95,11 @@ impl Split {
 /// Effect of a block on a kind; of the effects of one block, the later one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum KindEffect {
-    /// A command switches it off.
+    /// Switch off by a command.
     Off,
-    /// A command switches it on.
+    /// Switch on by a command.
     On,
-    /// Something that is not known may switch anything (R2.52).
+    /// Unknown switching of any kind (R2.52).
     Lost,
     /// A part of the program that may or may not be executed, or a change of the machine data, may switch it (R2.51,
     /// R2.92).
@@ -184,7 +184,7 @@ impl KindHistory {
             .map_or_else(|| reach.clone(), |ways| ways.and(reach))
     }
 
-    /// The block with an effect, where nothing else has any on the ways of `reach`.
+    /// Returns the block with an effect, where nothing else has any on the ways of `reach`.
     fn only(&self, effect: KindEffect, reach: &WaySet) -> Option<&BlockSite> {
         let blocks: usize = self.sites.iter().map(|sites| sites.0.len()).sum();
         let site = self.sites[effect as usize].latest();
@@ -220,7 +220,7 @@ pub(crate) struct HistorySide<'a> {
 }
 
 impl HistorySide<'_> {
-    /// The ways to each state of a kind; `None` where they are not known.
+    /// Returns the ways to each state of a kind; `None` where they are not known.
     fn split(&self, (axis, kind): AxisKind) -> Option<Split> {
         if self.compensation.unknown(axis).contains(kind) {
             let split = self.history.states(axis, kind)?;
@@ -240,7 +240,7 @@ impl HistorySide<'_> {
         })
     }
 
-    /// Whether a kind is unknown on both sides, with the same ways to its states.
+    /// Returns whether a kind is unknown on both sides, with the same ways to its states.
     fn is_open_alike(&self, (axis, kind): AxisKind, theirs: &Self) -> bool {
         let is_unknown = |it: &Self| it.compensation.unknown(axis).contains(kind);
         is_unknown(self)
@@ -254,7 +254,7 @@ impl HistorySide<'_> {
         both[0] == both[1]
     }
 
-    /// The ways of both sides to each state of a kind; `None` where they are not known.
+    /// Returns the ways of both sides to each state of a kind; `None` where they are not known.
     fn join_states(&self, key: AxisKind, theirs: &Self) -> Option<Split> {
         let (mut split, other) = self.split(key).zip(theirs.split(key))?;
         split.on.or(&other.on);
@@ -264,7 +264,7 @@ impl HistorySide<'_> {
 }
 
 impl History {
-    /// The histories of kinds of which only the ways to their states are known.
+    /// Returns the histories of kinds of which only the ways to their states are known.
     pub(crate) fn of_states(states: impl IntoIterator<Item = (AxisKind, Split)>) -> Self {
         let mut history = Self::default();
         for ((axis, kind), split) in states {
@@ -273,7 +273,7 @@ impl History {
         history
     }
 
-    /// A program begins: it finds the states that the one before it left.
+    /// Begins a program, which finds the states that the one before it left.
     pub(crate) fn begin_program(&mut self) {
         self.change_all(|kind| {
             kind.found = None;
@@ -281,7 +281,7 @@ impl History {
         });
     }
 
-    /// A command switches kinds of an axis: on this way it is the last one.
+    /// Records that a command switches kinds of an axis: on this way it is the last one.
     pub(crate) fn switch(&mut self, axis: AxisIndex, selection: Selection, site: BlockSite) {
         let mut switched = KindHistory {
             found: Some(WaySet::never()),
@@ -294,7 +294,7 @@ impl History {
         }
     }
 
-    /// A block may have switched kinds of an axis.
+    /// Records that a block may have switched kinds of an axis.
     pub(crate) fn doubt(
         &mut self,
         (axis, kinds): (AxisIndex, KindSet),
@@ -307,7 +307,7 @@ impl History {
         }
     }
 
-    /// Something other than a command sets kinds of an axis.
+    /// Records that something other than a command sets kinds of an axis.
     pub(crate) fn set(&mut self, axis: AxisIndex, kinds: KindSet) {
         let set = Arc::new(KindHistory {
             found: Some(WaySet::never()),
@@ -318,12 +318,12 @@ impl History {
         }
     }
 
-    /// A restart of the control comes after all blocks.
+    /// Forgets the places of all commands, since a restart of the control comes after all blocks.
     pub(crate) fn forget_sites(&mut self) {
         self.change_all(|kind| kind.sites = Default::default());
     }
 
-    /// The states of kinds of an axis are known, or may be any on any way.
+    /// Ends the distinction of ways by the states of kinds of an axis, which are known, or may be any on any way.
     pub(crate) fn close(&mut self, axis: AxisIndex, kinds: KindSet) {
         for kind in kinds.iter() {
             if self.states(axis, kind).is_some() {
@@ -332,45 +332,45 @@ impl History {
         }
     }
 
-    /// The states of all kinds of all axes are known, or may be any on any way.
+    /// Ends the distinction of ways by the states of all kinds of all axes.
     pub(crate) fn close_all(&mut self) {
         self.change_all(|kind| kind.states = None);
     }
 
-    /// A kind of an axis has either state, each on its ways.
+    /// Gives a kind of an axis either state, each on its ways.
     pub(crate) fn open(&mut self, axis: AxisIndex, kind: Kind, split: Split) {
         self.change((axis, kind), |it| it.states = Some(split));
     }
 
-    /// Whether the state of some kind differs between ways.
+    /// Returns whether the state of some kind differs between ways.
     #[inline]
     pub(crate) fn is_open(&self) -> bool {
         self.0.values().any(|kind| kind.states.is_some())
     }
 
-    /// The ways to the states of a kind of an axis, where they differ.
+    /// Returns the ways to the states of a kind of an axis, where they differ.
     pub(crate) fn states(&self, axis: AxisIndex, kind: Kind) -> Option<&Split> {
         self.0.get(&(axis, kind))?.states.as_ref()
     }
 
-    /// The kinds whose states differ between ways.
+    /// Returns the kinds whose states differ between ways.
     pub(crate) fn open_kinds(&self) -> impl Iterator<Item = (AxisKind, &Split)> {
         let kinds = self.0.iter();
         kinds.filter_map(|(key, kind)| Some((*key, kind.states.as_ref()?)))
     }
 
-    /// Those of the ways to a block on which a kind is as the program found it.
+    /// Returns the ways to a block on which a kind is as the program found it.
     pub(crate) fn found(&self, key: AxisKind, reach: &WaySet) -> WaySet {
         let known = self.0.get(&key);
         known.map_or_else(|| reach.clone(), |kind| kind.found_on(reach))
     }
 
-    /// The ways on which a kind is as the program found it, as they are; `None` for all that lead to the block.
+    /// Returns the ways on which a kind is as the program found it, as they are; `None` for all that lead to the block.
     fn found_ways(&self, axis: AxisIndex, kind: Kind) -> Option<&WaySet> {
         self.0.get(&(axis, kind))?.found.as_ref()
     }
 
-    /// The latest of the blocks with an effect on a kind of an axis.
+    /// Returns the latest of the blocks with an effect on a kind of an axis.
     pub(crate) fn latest(
         &self,
         axis: AxisIndex,
@@ -380,14 +380,14 @@ impl History {
         self.0.get(&(axis, kind))?.sites[effect as usize].latest()
     }
 
-    /// The latest of all blocks with an effect on a kind of an axis.
+    /// Returns the latest of all blocks with an effect on a kind of an axis.
     pub(crate) fn last(&self, axis: AxisIndex, kind: Kind) -> Option<(KindEffect, &BlockSite)> {
         let effects = KindEffect::ALL.into_iter();
         let sites = effects.filter_map(|it| Some((it, self.latest(axis, kind, it)?)));
         sites.max_by_key(|(_, site)| site.seq)
     }
 
-    /// The kinds of an axis that a command switches as an earlier one did on all ways of `reach`.
+    /// Returns the kinds of an axis that a command switches as an earlier one did on all ways of `reach`.
     pub(crate) fn repeated(
         &self,
         axis: AxisIndex,
@@ -409,7 +409,7 @@ impl History {
         repeated
     }
 
-    /// The run continues on some ways only: whatever they all agree on is known.
+    /// Restricts the history to some ways: whatever they all agree on is known.
     pub(crate) fn narrow(&mut self, ways: &WaySet, compensation: &mut Compensation) {
         let known: Vec<(AxisKind, Membership)> = self
             .open_kinds()
@@ -421,7 +421,7 @@ impl History {
         }
     }
 
-    /// A condition is asked again.
+    /// Forgets the answer to a condition, which is asked again.
     pub(crate) fn havoc(&mut self, condition: u32) {
         for kind in self.0.values_mut() {
             if kind
@@ -485,17 +485,17 @@ impl History {
         }
     }
 
-    /// The ways of each kind that are compared where ways meet.
+    /// Returns the ways of each kind that are compared where ways meet.
     pub(crate) fn sets(&self) -> impl Iterator<Item = &WaySet> {
         self.0.values().flat_map(|kind| kind.sets())
     }
 
-    /// The conditions that ways name.
+    /// Returns the conditions that ways name.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.sets().flat_map(WaySet::conditions)
     }
 
-    /// Whether all axes and conditions that it names are below a number of each.
+    /// Returns whether all axes and conditions that it names are below a number of each.
     pub(crate) fn fits(&self, axes: usize, conditions: usize) -> bool {
         self.0.keys().all(|(axis, _)| axis.get() < axes)
             && self.conditions().all(|it| (it as usize) < conditions)
@@ -526,7 +526,7 @@ pub(crate) struct BlockSite {
 }
 
 impl PartialEq for BlockSite {
-    /// A block that a loop repeats counts as equal.
+    /// Compares two blocks; one that a loop repeats counts as equal.
     fn eq(&self, other: &Self) -> bool {
         self.place == other.place
     }
@@ -547,11 +547,11 @@ impl BlockSite {
 /// The ways to a block on which the state is the one that the program found.
 #[derive(Debug, Clone)]
 pub(crate) enum UntouchedOn {
-    /// On all of them.
+    /// All ways.
     Always,
-    /// On none.
+    /// No way.
     Never,
-    /// On some, in words: `if V.E.A == 2 (line 12)`.
+    /// Some of the ways, in words: `if V.E.A == 2 (line 12)`.
     If(String),
 }
 
@@ -585,7 +585,7 @@ pub(crate) struct FoundStates<'a> {
 }
 
 impl FoundStates<'_> {
-    /// The possible states of a kind, with some of the ways to each.
+    /// Returns the possible states of a kind, with some of the ways to each.
     pub(crate) fn states_of(
         self,
         kind: (&Compensation, AxisKind),
@@ -594,13 +594,13 @@ impl FoundStates<'_> {
         states_of(kind, split, (self.reach, self.conditions))
     }
 
-    /// Whether a kind of an axis may still be in the state that the program found.
+    /// Returns whether a kind of an axis may still be in the state that the program found.
     pub(crate) fn has(self, axis: AxisIndex, kind: Kind) -> bool {
         let ways = self.history.found_ways(axis, kind);
         ways.is_none_or(|ways| !ways.is_apart_from(self.reach))
     }
 
-    /// Whether it is on all ways, except where a value changes that the program set.
+    /// Returns whether it is on all ways, except where a value changes that the program set.
     pub(crate) fn is_always(self, axis: AxisIndex, kind: Kind) -> bool {
         let ways = self.history.found_ways(axis, kind);
         self.are_all(self.reach) && ways.is_none_or(|ways| self.are_all(ways))
@@ -610,12 +610,12 @@ impl FoundStates<'_> {
         ways.is_always() || !ways.is_never() && ways_of(ways, self.conditions).is_empty()
     }
 
-    /// All ways that lead to the block.
+    /// Returns all ways that lead to the block.
     pub(crate) fn on_all(self) -> FoundOn {
         FoundOn(self.reach.clone())
     }
 
-    /// The ways on which a kind of an axis still is in that state.
+    /// Returns the ways on which a kind of an axis still is in that state.
     pub(crate) fn on(self, axis: AxisIndex, kind: Kind) -> FoundOn {
         FoundOn(self.history.found((axis, kind), self.reach))
     }
@@ -628,13 +628,13 @@ impl FoundStates<'_> {
         ways_of(&on.0, self.conditions)
     }
 
-    /// The ways on which a kind of an axis still is in that state, each a list of conditions that hold
+    /// Returns the ways on which a kind of an axis still is in that state, each a list of conditions that hold
     /// together; none where it is on all of them, or on no way.
     pub(crate) fn ways(self, axis: AxisIndex, kind: Kind) -> Vec<Vec<WayCondition>> {
         self.ways_of(&self.on(axis, kind))
     }
 
-    /// The ways on which a kind of an axis still is in that state, as seen from a file.
+    /// Returns the ways on which a kind of an axis still is in that state, as seen from a file.
     pub(crate) fn of(self, axis: AxisIndex, kind: Kind, file: &str) -> UntouchedOn {
         let ways = self.history.found((axis, kind), self.reach);
         if ways.is_never() {

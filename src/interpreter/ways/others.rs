@@ -27,18 +27,19 @@ pub(crate) struct OtherPaths {
     pub(crate) loop_heads: LoopHeads,
     /// The effects of programs that were called on other ways.
     pub(crate) call_effects: CallEffects,
-    /// How often the program has used up its budget of ways.
+    /// Number of times that the program has used up its budget of ways.
     pub(crate) widened: u64,
     /// Messages on what came before the current block: paths that joined, a block that is not kept.
     #[serde(skip)]
     pub(crate) joined: Vec<Diagnostic>,
-    /// Such messages that are withheld, because they were reported before or nothing differs.
+    /// Messages on what came before the current block that are withheld, because they were reported before or nothing
+    /// differs.
     #[serde(skip)]
     pub(crate) joined_withheld: Vec<Diagnostic>,
 }
 
 impl OtherPaths {
-    /// The paths on which the run goes on elsewhere than after a block that it passes over wait there.
+    /// Lets the paths wait on which the run goes on elsewhere than after a block that it passes over.
     #[inline]
     pub(crate) fn let_leave(&mut self, here: &mut Executor) {
         if !here.scratch.left.is_empty() {
@@ -49,12 +50,12 @@ impl OtherPaths {
         }
     }
 
-    /// The states that are kept of loops and calls.
+    /// Returns the states that are kept of loops and calls.
     pub(crate) fn kept(&self) -> impl Iterator<Item = &Path> {
         self.loop_heads.states().chain(self.call_effects.states())
     }
 
-    /// The states of the control on all of them.
+    /// Returns the states of the control on all of them.
     pub(crate) fn controls_mut(&mut self) -> impl Iterator<Item = &mut ControlState> {
         let kept = self.loop_heads.states_mut();
         let kept = kept.chain(self.call_effects.states_mut());
@@ -86,7 +87,7 @@ impl WaitingPaths {
         self.0.iter()
     }
 
-    /// The ways, whose places must stay as they are.
+    /// Returns the ways, whose places must stay as they are.
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Path> {
         self.0.iter_mut()
     }
@@ -96,7 +97,7 @@ impl WaitingPaths {
         std::mem::take(&mut self.0)
     }
 
-    /// A way waits, after those that wait at the same block.
+    /// Adds a way that waits, after those that wait at the same block.
     pub(crate) fn push(&mut self, path: Path) {
         let frames = &path.control.frames;
         let is_later = |it: &Path| frames.order_of_execution(&it.control.frames).is_lt();
@@ -153,12 +154,12 @@ pub(crate) struct LoopHead {
 #[serde(transparent)]
 pub(crate) struct LoopHeads(#[serde(with = "rows")] BTreeMap<HeadPlace, LoopHead>);
 
-/// What a way adds to the head that it reaches.
+/// Contribution of a way to the head that it reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Arrival {
-    /// Nothing: earlier passes have done all that it may do.
+    /// No contribution: earlier passes have done all that it may do.
     Covered,
-    /// Something, with which the next pass begins.
+    /// Further states, with which the next pass begins.
     Grown,
 }
 
@@ -192,7 +193,7 @@ impl LoopHeads {
         self.0.insert(place, head);
     }
 
-    /// A way reaches a head. Returns the state with what it adds.
+    /// Takes a way that reaches a head. Returns the state with what it adds.
     pub(crate) fn arrive(&mut self, place: &HeadPlace, way: Path) -> Option<(Arrival, &Path)> {
         let head = self.0.get_mut(place)?;
         let arrival = head.state.take_in(way, &Unknown::Passes);
@@ -217,12 +218,12 @@ impl LoopHeads {
     }
 }
 
-/// The place of a block of the running program.
+/// Returns the place of a block of the running program.
 pub(crate) fn head_place(calls: &CallStack, block: EntryIndex) -> HeadPlace {
     place_at(calls, calls.depth(), block)
 }
 
-/// The place of a block of the program at a depth of calls.
+/// Returns the place of a block of the program at a depth of calls.
 pub(crate) fn place_at(calls: &CallStack, depth: usize, block: EntryIndex) -> HeadPlace {
     let mut place: HeadPlace = calls.iter().take(depth).map(CallFrame::place).collect();
     if let Some(last) = place.last_mut() {
@@ -232,14 +233,15 @@ pub(crate) fn place_at(calls: &CallStack, depth: usize, block: EntryIndex) -> He
 }
 
 impl CallFrame {
-    /// The next block, which calls return to.
+    /// Returns the next block, which calls return to.
     pub(crate) fn place(&self) -> PlaceInCall {
         let left = self.passage.map_or(0, |passage| passage.left);
         (self.unit, self.next, left, self.waiting.len())
     }
 }
 
-/// The places of blocks of the running program, and of those that they call: a call returns to the block after it.
+/// Returns the places of blocks of the running program, and of those that they call: a call returns to the block after
+/// it.
 fn places(calls: &CallStack, blocks: &RangeInclusive<EntryIndex>) -> std::ops::Range<HeadPlace> {
     head_place(calls, *blocks.start())..head_place(calls, blocks.end().saturating_add(2))
 }
@@ -282,7 +284,7 @@ impl CallEffect {
         self.exit.iter_mut().chain([&mut self.entry])
     }
 
-    /// The program is called in a further state.
+    /// Takes a call of the program in a further state.
     pub(crate) fn take_in(&mut self, way: Path, cause: &Unknown) -> Arrival {
         let mut both = self.entry.clone();
         let mut left_out = self.left_out.clone();
@@ -313,7 +315,7 @@ impl CallEffect {
         Arrival::Grown
     }
 
-    /// A way comes back from the last call.
+    /// Merges a way that comes back from the last call.
     pub(crate) fn come_back(&mut self, way: Path, cause: &Unknown) {
         match &mut self.exit {
             Some(exit) => _ = exit.join(way, cause),
@@ -321,7 +323,7 @@ impl CallEffect {
         }
     }
 
-    /// The state after the call on some ways; `None` where none of them comes back.
+    /// Returns the state after the call on some ways; `None` where none of them comes back.
     pub(crate) fn after(&self, reach: &WaySet) -> Option<Path> {
         let mut exit = self.exit.clone()?;
         leave_out(&self.left_out, &mut exit);
@@ -385,7 +387,7 @@ impl CallEffects {
     }
 }
 
-/// The blocks to which the calls of a call stack down to a depth return.
+/// Returns the blocks to which the calls of a call stack down to a depth return.
 pub(crate) fn context(calls: &CallStack, depth: usize) -> HeadPlace {
     let callers = calls.iter().take(depth.saturating_sub(1));
     callers.map(CallFrame::place).collect()

@@ -51,7 +51,7 @@ pub(crate) struct RunTrack {
     /// The error that has ended it, where the run goes on as if the failing command were not there (R9.20).
     #[serde(default)]
     pub(crate) failed: Option<Box<FailedAt>>,
-    /// What it is to the way that is followed, where one is (R14.8).
+    /// Relation to the followed way, where one is followed (R14.8).
     pub(crate) shadow: Shadow,
     /// The jump labels at which it continues, where it waits at the first of them and may also be at any other.
     pub(crate) labels: Option<Arc<[EntryIndex]>>,
@@ -65,7 +65,7 @@ pub(crate) struct AskedCondition {
 }
 
 impl AskedCondition {
-    /// Whether no value decides, so that it has one answer on all ways.
+    /// Returns whether no value decides, so that it has one answer on all ways.
     pub(crate) fn reads_nothing(&self) -> bool {
         self.meaning.reads.is_empty()
     }
@@ -84,17 +84,17 @@ pub(crate) struct Marked {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct AssumedValues(#[serde(with = "rows")] BTreeMap<Location, ValueBefore>);
 
-/// What was known of a value before a condition.
+/// Knowledge of a value before a condition.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct ValueBefore {
     value: Option<Value>,
-    /// What the program had set in it, where the PLC had not acted since (R2.99).
+    /// Value set by the program, if the PLC had not acted since (R2.99).
     set: Option<HeldVariable>,
 }
 
 impl ValueBefore {
-    /// Whether as much was known of a value, whatever the cause of an unknown one. A variable of the machine that was
-    /// never written is as unknown as one that the PLC may have changed.
+    /// Returns whether as much was known of a value, whatever the cause of an unknown one. A variable of the machine
+    /// that was never written is as unknown as one that the PLC may have changed.
     fn is_like(&self, other: &Self, target: &Location, memory: &Memory) -> bool {
         let is_external = matches!(target, Location::Variable(name) if memory.may_change(name));
         let is_open = |it: &Self| match &it.value {
@@ -107,7 +107,7 @@ impl ValueBefore {
 }
 
 impl AssumedValues {
-    /// A value that applies on this way from here on.
+    /// Assumes a value that applies on this way from here on.
     pub(crate) fn assume(&mut self, memory: &mut Memory, target: &Location, value: Value) {
         let before = match target {
             Location::Parameter(Owner::Program, index) => {
@@ -194,7 +194,7 @@ fn value_of(memory: &Memory, target: &Location) -> Option<Value> {
 }
 
 impl RunTrack {
-    /// A value is written: conclusions about it from conditions no longer apply.
+    /// Drops conclusions from conditions about a value that is written.
     #[inline]
     pub(crate) fn write(&mut self, location: &Location, memory: &mut Memory) {
         if !self.readings.is_empty() {
@@ -215,14 +215,14 @@ impl RunTrack {
             .retain(|asked| !asked.meaning.reads.contains(location));
     }
 
-    /// Anything may be written.
+    /// Drops all conclusions, since anything may be written.
     pub(crate) fn write_anything(&mut self, memory: &mut Memory) {
         self.assumed.undo(memory);
         self.asked.clear();
         self.readings.clear();
     }
 
-    /// Another program runs, with its own parameters and variables.
+    /// Drops conclusions about the parameters and variables of the level, since another program runs.
     pub(crate) fn change_level(&mut self, depth: usize) {
         let is_own = |target: &Location| match target {
             Location::Parameter(owner, _) => *owner == Owner::Call,
@@ -235,7 +235,7 @@ impl RunTrack {
         self.open_loops.retain(|(of, ..)| *of <= depth);
     }
 
-    /// Another way reaches the same block.
+    /// Merges another way that reaches the same block.
     fn join(&mut self, other: &Self) {
         let Self {
             loops,
@@ -289,8 +289,8 @@ pub(crate) struct Path {
 }
 
 impl Path {
-    /// Another way reaches the same block: what differs becomes unknown. Returns how many values do. Beside a way
-    /// that the control may take, one that an error has ended does not count.
+    /// Joins another way that reaches the same block: what differs becomes unknown. Returns how many values do. Beside
+    /// a way that the control may take, one that an error has ended does not count.
     pub(crate) fn join(&mut self, mut other: Self, cause: &Unknown) -> usize {
         if self.track.failed.is_some() != other.track.failed.is_some() {
             if self.track.failed.is_some() {
@@ -317,7 +317,7 @@ impl Path {
         }
     }
 
-    /// The conditions that its ways name.
+    /// Returns the conditions that its ways name.
     pub(crate) fn conditions(&self) -> BTreeSet<u32> {
         let named = self.control.history.conditions();
         named.chain(self.track.reach.conditions()).collect()
@@ -340,7 +340,7 @@ impl Path {
         }
     }
 
-    /// Whether everything that another way may do from the same block is done on this one, too.
+    /// Returns whether everything that another way may do from the same block is done on this one, too.
     pub(crate) fn covers(&self, other: &Self, cause: &Unknown) -> bool {
         let mut both = self.clone();
         both.join(other.clone(), cause);
@@ -349,8 +349,8 @@ impl Path {
 }
 
 impl Path {
-    /// Another way begins a pass of the loop at whose head this state is kept. The conditions that only that way has
-    /// asked are left out of what leads here: they are asked in every pass.
+    /// Joins another way that begins a pass of the loop at whose head this state is kept. The conditions that only that
+    /// way has asked are left out of what leads here: they are asked in every pass.
     pub(crate) fn take_in(&mut self, way: Self, cause: &Unknown) -> Arrival {
         let named: BTreeSet<u32> = self.track.reach.conditions().collect();
         let mut reach = way.track.reach.clone();
@@ -372,7 +372,7 @@ impl Path {
 }
 
 impl RunState {
-    /// An error ends a way. Ways that it ends at one block, in passes of a loop, are kept as one.
+    /// Ends a way by an error. Ways that it ends at one block, in passes of a loop, are kept as one.
     pub(crate) fn end_way(&mut self, way: EndedPath) {
         let mut ended = self.ended.iter_mut().rev();
         let is_same = |it: &&mut EndedPath| {
@@ -386,7 +386,7 @@ impl RunState {
         }
     }
 
-    /// The part of the way that later ways to the same block are compared with.
+    /// Returns the part of the way that later ways to the same block are compared with.
     pub(crate) fn arriving(&self) -> Path {
         let track = &self.track;
         Path {
@@ -429,7 +429,7 @@ pub(crate) struct BranchSide {
 }
 
 impl BranchSide {
-    /// A side that leads to a block and implies nothing else.
+    /// Returns a side that leads to a block and implies nothing else.
     pub(crate) fn to(ways: WaySet, to: EntryIndex) -> Self {
         Self {
             ways,
@@ -503,7 +503,7 @@ pub(crate) struct Loop {
 }
 
 impl Loop {
-    /// The section that contains it.
+    /// Returns the section that contains it.
     pub(crate) fn program(&self) -> ProgramId {
         ProgramId {
             unit: self.unit,
@@ -511,12 +511,12 @@ impl Loop {
         }
     }
 
-    /// Its place among the loops whose condition is not known.
+    /// Returns its place among the loops whose condition is not known.
     pub(crate) fn place(&self) -> (usize, usize, EntryIndex) {
         (self.depth, self.unit, self.head)
     }
 
-    /// Whether its counters are below a bound.
+    /// Returns whether its counters are below a bound.
     pub(crate) fn fits(&self, bound: u64) -> bool {
         let marked = self.mark.as_ref().map_or(0, |mark| mark.pass);
         self.passes.max(marked) < bound
@@ -524,13 +524,13 @@ impl Loop {
 }
 
 impl Loop {
-    /// Whether the loop contains a jump back, or is the one that jumps.
+    /// Returns whether the loop contains a jump back, or is the one that jumps.
     pub(crate) fn is_around(&self, place: ProgramId, head: EntryIndex, from: EntryIndex) -> bool {
         let around = self.head < head && from <= self.from;
         self.program() == place && (self.head == head || around)
     }
 
-    /// Whether the state is compared at this pass, or kept to be compared with.
+    /// Returns whether the state is compared at this pass, or kept to be compared with.
     pub(crate) fn is_due(&self) -> bool {
         self.mark.is_some() || (self.passes >= FIRST_LOOK && self.passes.is_power_of_two())
     }
@@ -563,10 +563,10 @@ pub(crate) struct Meeting {
     pub(crate) entry: EntryIndex,
 }
 
-/// What a way is to the one that is followed.
+/// Relation of a way to the followed one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Shadow {
-    /// Where it is followed again; `None` for the way that is followed.
+    /// Place at which the way is followed again; `None` for the followed way.
     pub(crate) until: Option<Meeting>,
     /// The axes that shadows may have moved since the last event.
     pub(crate) moved: BTreeSet<AxisIndex>,
@@ -575,7 +575,7 @@ pub(crate) struct Shadow {
 }
 
 impl Shadow {
-    /// Another way reaches the same block: they are followed if one of them is.
+    /// Merges another way that reaches the same block: they are followed if one of them is.
     pub(crate) fn join(&mut self, other: &Self) {
         if other.until.is_none() {
             self.until = None;
@@ -586,19 +586,19 @@ impl Shadow {
 }
 
 impl RunTrack {
-    /// Whether the way raises no events.
+    /// Returns whether the way raises no events.
     #[inline]
     pub(crate) fn is_shadow(&self) -> bool {
         self.shadow.until.is_some()
     }
 
-    /// Whether motions on the ways that lead here are not those of all ways.
+    /// Returns whether motions on the ways that lead here are not those of all ways.
     pub(crate) fn has_undecided_motion(&self) -> bool {
         self.shadow.moves_alone || !self.shadow.moved.is_empty()
     }
 
-    /// A shadow that has come to the block at which the sides of its question meet is followed again, and so is the last
-    /// way that is left.
+    /// Follows a shadow again that has come to the block at which the sides of its question meet, and so the last way
+    /// that is left.
     #[inline]
     pub(crate) fn follow_again(&mut self, frames: &CallStack, is_last: bool) {
         let Some(meeting) = self.shadow.until else {

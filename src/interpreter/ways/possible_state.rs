@@ -60,15 +60,15 @@ impl Serialize for PossibleStates {
 }
 
 impl PossibleStates {
-    /// The words of the ways to a state, as seen from a file: `if V.E.A == 2 (line 12), or if skip level 1
-    /// is on`, or `only if V.E.A changes between lines 1 and 9`; `None` where it is the state otherwise, or
-    /// not possible.
+    /// Returns the words of the ways to a state, as seen from a file:
+    /// `if V.E.A == 2 (line 12), or if skip level 1 is on`, or `only if V.E.A changes between lines 1 and 9`; `None`
+    /// where it is the state otherwise, or not possible.
     pub fn ways_to(&self, state: State, file: &str) -> Option<String> {
         let found = self.states.iter().find(|it| it.state == state)?;
         found.words(file)
     }
 
-    /// The states in words, as seen from a file: `inactive if V.E.A == 2 (line 12), else active`.
+    /// Returns the states in words, as seen from a file: `inactive if V.E.A == 2 (line 12), else active`.
     pub fn in_words(&self, file: &str) -> String {
         let named = self.states.iter().map(|state| match state.words(file) {
             Some(words) => format!("{} {words}", state.state),
@@ -81,8 +81,8 @@ impl PossibleStates {
         named.collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns the condition for a state, as seen from a file: `if skip level 1 is on`, or `unless
-    /// …` for the state on all other ways.
+    /// Returns the condition for a state, as seen from a file: `if skip level 1 is on`, or `unless …` for the state on
+    /// all other ways.
     pub(crate) fn when(&self, is_it: impl Fn(State) -> bool, file: &str) -> Option<String> {
         let (those, others): (Vec<_>, Vec<_>) = self.states.iter().partition(|it| is_it(it.state));
         let those = those.first()?;
@@ -105,20 +105,20 @@ impl PossibleStates {
         }
     }
 
-    /// Whether the states depend only on what programs that only the machine has leave.
+    /// Returns whether the states depend only on what programs that only the machine has leave.
     pub(crate) fn rests_on_calls(&self) -> bool {
         let is_call = |condition: &WayCondition| matches!(condition, WayCondition::Call { .. });
         let named = self.states.iter().flat_map(|state| &state.ways);
         named.flatten().flatten().all(is_call)
     }
 
-    /// Whether a state is possible only if a value of the machine changes between two conditions.
+    /// Returns whether a state is possible only if a value of the machine changes between two conditions.
     pub fn needs_change(&self, state: State) -> bool {
         let found = self.states.iter().find(|it| it.state == state);
         found.is_some_and(PossibleState::needs_change)
     }
 
-    /// The ways to a state; `None` where it is the state otherwise.
+    /// Returns the ways to a state; `None` where it is the state otherwise.
     pub(crate) fn ways(&self, state: State) -> Option<&[Vec<WayCondition>]> {
         let found = self.states.iter().find(|it| it.state == state)?;
         found.ways.as_deref()
@@ -151,18 +151,18 @@ impl PossibleStates {
         copy
     }
 
-    /// Whether there are more ways than can be named.
+    /// Returns whether there are more ways than can be named.
     pub(crate) fn is_widened(&self) -> bool {
         self.states.iter().any(PossibleState::is_always)
     }
 
-    /// Whether one condition decides.
+    /// Returns whether one condition decides.
     fn rests_on_one_condition(&self) -> bool {
         let mut named = self.states.iter().flat_map(|state| &state.ways);
         named.all(|ways| matches!(ways.as_slice(), [way] if way.len() == 1))
     }
 
-    /// Whether a state is possible.
+    /// Returns whether a state is possible.
     pub fn has(&self, state: State) -> bool {
         self.states.iter().any(|it| it.state == state)
     }
@@ -179,7 +179,7 @@ impl PossibleState {
         Some(unless(ways, self.more, file))
     }
 
-    /// Whether there are too many ways to name any.
+    /// Returns whether there are too many ways to name any.
     fn is_always(&self) -> bool {
         self.ways.as_ref().is_some_and(Vec::is_empty)
     }
@@ -259,7 +259,7 @@ fn named(state: State, ways: &WaySet, conditions: &[Condition]) -> PossibleState
     }
 }
 
-/// The ways with the texts of their conditions; none where one of them only needs values to stay as the program
+/// Returns the ways with the texts of their conditions; none where one of them only needs values to stay as the program
 /// set them: it is taken for granted, and the others are exceptions (R2.99).
 pub(crate) fn ways_of(ways: &WaySet, conditions: &[Condition]) -> Vec<Vec<WayCondition>> {
     let mut all: Vec<Vec<WayCondition>> = Vec::new();
@@ -292,7 +292,7 @@ pub(crate) fn ways_of(ways: &WaySet, conditions: &[Condition]) -> Vec<Vec<WayCon
     all
 }
 
-/// The change without which a condition has only the answer that the program set.
+/// Returns the change without which a condition has only the answer that the program set.
 pub(crate) fn change_since(kept: &KeptAnswer) -> WayChange {
     let names: Vec<String> = kept.names.iter().map(ToString::to_string).collect();
     WayChange {
@@ -435,7 +435,7 @@ impl CarriedWays {
         }
     }
 
-    /// Whether no state has more than one way to it.
+    /// Returns whether no state has more than one way to it.
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
     }
@@ -449,7 +449,7 @@ impl CarriedWays {
             && states.all(|it| machine.find(&it.axis).is_some() && it.ways.fits(conditions))
     }
 
-    /// The conditions, and the states of those kinds that are unknown.
+    /// Returns the conditions, and the states of those kinds that are unknown.
     pub(crate) fn into_parts(
         self,
         machine: &Machine,

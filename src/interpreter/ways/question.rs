@@ -30,22 +30,22 @@ pub(crate) enum ConditionKind {
     Case,
     /// The target of a jump.
     Jump,
-    /// Whether a loop is repeated.
+    /// Repetition of a loop.
     Loop,
     /// A skip level.
     Skip(u8),
     /// The signal of a probe.
     Probe,
-    /// Whether a program that only the machine has leaves a kind selected on an axis; the texts are the
-    /// names of the program and of the axis.
+    /// Selection of a kind on an axis by a program that only the machine has; the texts are the names of the program
+    /// and of the axis.
     Call(Kind),
-    /// Whether the program finds a kind selected on an axis, with its state then; the text is the name of the axis.
+    /// Selection of a kind on an axis as the program finds it, with its state then; the text is the name of the axis.
     Found(Kind, State),
-    /// Whether a block search executes the commands that it passes.
+    /// Execution of the commands that a block search passes.
     Search,
-    /// Whether `#ERROR` without a remedy class ends the program (R2.100).
+    /// End of the program at `#ERROR` without a remedy class (R2.100).
     Stop,
-    /// Whether the control is restarted after an error, not only reset (R2.100).
+    /// Restart of the control after an error, not only a reset (R2.100).
     Restart,
 }
 
@@ -120,7 +120,7 @@ pub(crate) struct Condition {
 }
 
 impl Condition {
-    /// A condition that is asked for the first time.
+    /// Returns a condition that is asked for the first time.
     pub(crate) fn new(
         kind: ConditionKind,
         place: Place,
@@ -150,19 +150,19 @@ impl Condition {
         copy
     }
 
-    /// Whether some answers hold unless the machine changes what the program wrote.
+    /// Returns whether some answers hold unless the machine changes what the program wrote.
     pub(crate) fn keeps(&self, sides: u64) -> bool {
         self.kept
             .as_ref()
             .is_some_and(|kept| sides & !kept.sides == 0)
     }
 
-    /// Whether each of its answers has a bit.
+    /// Returns whether each of its answers has a bit.
     pub(crate) fn fits(&self) -> bool {
         self.texts.len() < MAX_ANSWERS
     }
 
-    /// Whether it is the same question at the same place, at any time.
+    /// Returns whether it is the same question at the same place, at any time.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.place.first_line == other.place.first_line
             && self.place.span == other.place.span
@@ -188,7 +188,7 @@ pub(crate) struct ImpliedValues {
 }
 
 impl ImpliedValues {
-    /// A variable for which no value gives both answers.
+    /// Returns a variable for which no value gives both answers.
     fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a Location> {
         let differs = |(target, value): &&(Location, Value)| {
             let mut known = other.is.iter();
@@ -229,7 +229,7 @@ impl RememberedCondition {
         }
     }
 
-    /// The pairs of answers of this condition and a later one that no value gives.
+    /// Returns the pairs of answers of this condition and a later one that no value gives.
     fn clashes(&self, later: &Self) -> Vec<Clash> {
         let named = |name: String, answers| Clash {
             earlier: self.condition,
@@ -258,7 +258,7 @@ impl RememberedCondition {
         found
     }
 
-    /// The variables that it reads, or what it asks for.
+    /// Returns the variables that it reads, or what it asks for.
     fn names(&self) -> String {
         if let ConditionSubject::Unknown(unknown) = &self.meaning.subject {
             return unknown.to_string();
@@ -287,7 +287,7 @@ impl RememberedConditions {
         self.0.is_empty()
     }
 
-    /// A condition is asked: the answers that contradict earlier ones.
+    /// Adds a condition that is asked, and returns the answers that contradict earlier ones.
     pub(crate) fn ask(&mut self, reading: RememberedCondition) -> Vec<Clash> {
         let earlier = self.0.iter();
         let clashes = earlier.flat_map(|it| it.clashes(&reading)).collect();
@@ -298,7 +298,8 @@ impl RememberedConditions {
         clashes
     }
 
-    /// The program waits for values to change, or may: it asks again in a loop.
+    /// Drops the conditions that read a value for whose change the program waits; without a condition that asks for it,
+    /// all of them.
     pub(crate) fn wait_for(&mut self, asking: Option<&Asking>) {
         match asking {
             None => self.0.clear(),
@@ -315,7 +316,7 @@ impl RememberedConditions {
         }
     }
 
-    /// The program writes a value.
+    /// Drops the conditions that read a value that the program writes.
     pub(crate) fn write(&mut self, location: &Location) {
         match location {
             Location::Elements(_) | Location::Parameters => {
@@ -325,17 +326,17 @@ impl RememberedConditions {
         }
     }
 
-    /// The control does something: moves, changes tools.
+    /// Drops the conditions that an action of the control may change: a motion, a tool change.
     pub(crate) fn act(&mut self) {
         self.0.retain(|it| it.writer != Writer::Control);
     }
 
-    /// Some values differ from here on.
+    /// Drops the conditions that read any of the values that differ from here on.
     pub(crate) fn havoc(&mut self, is_other: impl Fn(&Location) -> bool) {
         self.0.retain(|it| !it.meaning.reads.iter().any(&is_other));
     }
 
-    /// Whether each answer of each has a bit.
+    /// Returns whether each answer of each has a bit.
     pub(crate) fn fit(&self) -> bool {
         self.0.iter().all(|it| it.answers.len() <= MAX_ANSWERS)
     }
@@ -348,7 +349,7 @@ impl RememberedConditions {
         self.0.iter().map(|it| it.condition)
     }
 
-    /// Two ways meet: a condition that only one of them asked counts if the other names no answer to it.
+    /// Merges another way: a condition that only one of them asked counts if the other names no answer to it.
     pub(crate) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
         let [mine, theirs] = named;
         let is_only_mine = |it: &Arc<RememberedCondition>| !theirs.contains(&it.condition);
@@ -364,7 +365,7 @@ impl RememberedConditions {
     }
 }
 
-/// The clash of an answer with an earlier one of the same way, the nearest of them.
+/// Returns the clash of an answer with an earlier one of the same way, the nearest of them.
 pub(crate) fn clash<'a>(
     answer: &WayAnswer,
     way: &Way,
@@ -389,7 +390,7 @@ pub(crate) fn clash<'a>(
     })
 }
 
-/// Whether a condition can contradict another one: a loop waits for its value to change.
+/// Returns whether a condition can contradict another one: a loop waits for its value to change.
 pub(crate) fn is_compared(kind: ConditionKind) -> bool {
     matches!(
         kind,

@@ -39,17 +39,17 @@ impl Default for WaySet {
 }
 
 impl WaySet {
-    /// Every way.
+    /// Returns the set of all ways.
     pub(crate) fn always() -> Self {
         Self(vec![Vec::new()])
     }
 
-    /// No way.
+    /// Returns a set without ways.
     pub(crate) fn never() -> Self {
         Self(Vec::new())
     }
 
-    /// The ways on which a condition has an answer.
+    /// Returns the ways on which a condition has an answer.
     pub(crate) fn of(answer: WayAnswer) -> Self {
         if answer.is_any() {
             Self::always()
@@ -70,18 +70,18 @@ impl WaySet {
         &self.0
     }
 
-    /// The conditions that the ways name.
+    /// Returns the conditions that the ways name.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.0.iter().flatten().map(|answer| answer.condition)
     }
 
-    /// The number of its answers that are compared with each of its ways.
+    /// Returns the number of its answers that are compared with each of its ways.
     pub(crate) fn pairs(&self) -> u64 {
         let answers: usize = self.0.iter().map(|way| 1 + way.len()).sum();
         (answers as u64).saturating_mul(self.0.len() as u64)
     }
 
-    /// The ways on which both hold; ways that contradict each other are dropped.
+    /// Returns the ways on which both hold; ways that contradict each other are dropped.
     pub(crate) fn and(&self, other: &Self) -> Self {
         if other.is_always() {
             return self.clone();
@@ -100,7 +100,7 @@ impl WaySet {
         Self(both.ways)
     }
 
-    /// The ways on which a condition has an answer, without naming it.
+    /// Returns the ways on which a condition has an answer, without naming it.
     pub(crate) fn given(&self, answer: WayAnswer) -> Self {
         if let [way] = self.0.as_slice()
             && let [only] = way.as_slice()
@@ -114,7 +114,7 @@ impl WaySet {
         given
     }
 
-    /// Whether each of the ways is one of others.
+    /// Returns whether each of the ways is one of others.
     pub(crate) fn is_within(&self, others: &Self) -> bool {
         let is_one = |way: &Way| {
             let mut others = others.0.iter();
@@ -123,7 +123,7 @@ impl WaySet {
         self.0.iter().all(is_one)
     }
 
-    /// Whether no way is one of both sets.
+    /// Returns whether no way is one of both sets.
     pub(crate) fn is_apart_from(&self, other: &Self) -> bool {
         let is_apart = |way: &Way| other.0.iter().all(|other| contradict(way, other));
         self.0.iter().all(is_apart)
@@ -139,7 +139,7 @@ impl WaySet {
         Self(ways.map(|way| way.iter().map(answer).collect()).collect())
     }
 
-    /// Those of the ways that do not contradict others, as they are.
+    /// Returns the ways that do not contradict others, unchanged.
     pub(crate) fn within(&self, others: &Self) -> Self {
         let ways = self.0.iter();
         let agree = |way: &&Way| others.0.iter().any(|other| !contradict(way, other));
@@ -163,7 +163,7 @@ impl WaySet {
         self
     }
 
-    /// The ways on which at least one of both holds.
+    /// Adds the ways on which the other one holds.
     pub(crate) fn or(&mut self, other: &Self) {
         if !self.is_always() {
             let mut either = Reduction::of_reduced(std::mem::take(&mut self.0));
@@ -191,9 +191,9 @@ impl WaySet {
 /// The relation of a way to another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Relation {
-    /// The other one contains it.
+    /// Way that the other one contains.
     Contained,
-    /// The other one contains it except for one answer, by which it can be widened.
+    /// Way that the other one contains except for one answer, by which it can be widened.
     Adjacent,
     Neither,
 }
@@ -203,9 +203,9 @@ enum Relation {
 struct WayRelations {
     /// The conditions that it names, a bit each; conditions may share one.
     named: u64,
-    /// Those that contain it.
+    /// The ways that contain it.
     contained: u64,
-    /// Those that it can be widened by.
+    /// The ways that it can be widened by.
     adjacent: u64,
 }
 
@@ -317,7 +317,7 @@ fn without(bits: u64, place: usize) -> u64 {
     (bits & below) | (bits >> 1 & !below)
 }
 
-/// The condition that most ways name.
+/// Returns the condition that most ways name.
 fn most_named(ways: &[Way]) -> Option<u32> {
     let answers = ways.iter().flatten();
     let mut named: Vec<u32> = answers.map(|answer| answer.condition).collect();
@@ -353,7 +353,7 @@ fn relation(inner: &Way, outer: &Way) -> Relation {
     }
 }
 
-/// The first answer of a way that differs from that of one that contains the rest of it, and the sides that the
+/// Returns the first answer of a way that differs from that of one that contains the rest of it, and the sides that the
 /// other one adds.
 fn adjacent(inner: &Way, outer: &Way) -> Option<(usize, u64)> {
     let mut theirs = outer.iter().peekable();
@@ -364,7 +364,7 @@ fn adjacent(inner: &Way, outer: &Way) -> Option<(usize, u64)> {
     })
 }
 
-/// Both ways together; `None` where they contradict each other.
+/// Returns both ways together; `None` where they contradict each other.
 fn together(mine: &Way, theirs: &Way) -> Option<Way> {
     if contradict(mine, theirs) {
         return None;
@@ -379,7 +379,7 @@ fn together(mine: &Way, theirs: &Way) -> Option<Way> {
     Some(both)
 }
 
-/// Whether two ways have different answers to a condition.
+/// Returns whether two ways have different answers to a condition.
 fn contradict(mine: &Way, theirs: &Way) -> bool {
     let mut rest = mine.iter().peekable();
     theirs.iter().any(|theirs| {

@@ -21,15 +21,15 @@ pub enum WayCondition {
     Condition(BlockCondition),
     /// A case of a `$SWITCH`.
     Case(BlockCondition),
-    /// Whether a loop is repeated.
+    /// Repetition of a loop.
     Loop(BlockCondition),
-    /// Whether a probe answers.
+    /// Answer of a probe.
     Probe(BlockCondition),
     /// The switch of a skip level.
     Skip {
         /// The level.
         level: u8,
-        /// Whether its blocks are executed.
+        /// Whether the blocks are executed.
         executed: bool,
         /// The file of its first block.
         file: Arc<str>,
@@ -53,7 +53,7 @@ pub enum WayCondition {
         axis: Arc<str>,
         /// The kind of compensation.
         compensation: Kind,
-        /// Whether it is selected after the call.
+        /// Whether the kind is selected after the call.
         on: bool,
     },
     /// The reading of a block search (R2.96).
@@ -65,7 +65,7 @@ pub enum WayCondition {
         /// Whether the search executes the commands that it passes.
         executed: bool,
     },
-    /// Whether something ends the program: `#ERROR` without a remedy class (R2.100), a feed move without a feed (R2.110).
+    /// End of the program by an error: `#ERROR` without a remedy class (R2.100), a feed move without a feed (R2.110).
     Stop {
         /// The file of the block.
         file: Arc<str>,
@@ -74,10 +74,10 @@ pub enum WayCondition {
         /// The error in words.
         #[serde(serialize_with = "as_text")]
         text: Arc<str>,
-        /// Whether it ends the program.
+        /// Whether the error ends the program.
         stops: bool,
     },
-    /// What follows an error with the remedy class 7 (R2.100).
+    /// Start after an error with the remedy class 7 (R2.100).
     Restart {
         /// The file of the command.
         file: Arc<str>,
@@ -108,7 +108,7 @@ pub struct BlockCondition {
     /// The text of the condition.
     #[serde(serialize_with = "as_text")]
     pub text: Arc<str>,
-    /// Whether it holds.
+    /// Whether the condition holds.
     pub holds: bool,
     /// The change that the way needs.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -138,7 +138,7 @@ pub(crate) fn ways_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
     in_words(&ways[..named], ways.len() - named, ", or if ", file)
 }
 
-/// The words after `if`, or after `only if` where a value of the machine must change on each way.
+/// Returns the words after `if`, or after `only if` where a value of the machine must change on each way.
 pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
     let named = ways.len().min(MAX_NAMED);
     after_if(&ways[..named], ways.len() - named, file)
@@ -147,7 +147,7 @@ pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
 /// Adds to a message the ways on which it applies (R14.5). One that is not an error and applies only if a
 /// value of the machine changes in between is information only (R14.1).
 pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
-    // That the program goes on goes without saying.
+    // A program that continues is the usual case and is not named.
     let goes_on = |it: &WayCondition| matches!(it, WayCondition::Stop { stops: false, .. });
     let mut ways = Cow::Borrowed(ways);
     if ways.iter().flatten().any(goes_on) {
@@ -164,8 +164,8 @@ pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
     }
 }
 
-/// Whether each of some ways needs a value of the machine to change between two conditions. The ways
-/// that need no change come before the others.
+/// Returns whether each of some ways needs a value of the machine to change between two conditions. The ways that need
+/// no change come before the others.
 pub(crate) fn all_need_change(ways: &[Vec<WayCondition>]) -> bool {
     !ways.is_empty() && ways.iter().all(|way| needs_change(way))
 }
@@ -179,7 +179,7 @@ pub(crate) fn after_if(ways: &[Vec<WayCondition>], more: usize, file: &str) -> S
     format!("{only}if {}", in_words(ways, more, ", or if ", file))
 }
 
-/// The words for all other ways.
+/// Returns the words for all other ways.
 pub(crate) fn unless(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     format!("unless {}", in_words(ways, more, ", or ", file))
 }
@@ -195,7 +195,7 @@ fn in_words(ways: &[Vec<WayCondition>], more: usize, or: &str, file: &str) -> St
     words
 }
 
-/// One way in words; two conditions between which a value changes are named as that change.
+/// Returns one way in words; two conditions between which a value changes are named as that change.
 fn way_in_words(way: &[WayCondition], file: &str) -> String {
     let changes = way.iter().filter_map(WayCondition::changed);
     let is_earlier = |condition: &WayCondition| {
@@ -211,7 +211,7 @@ fn way_in_words(way: &[WayCondition], file: &str) -> String {
 }
 
 impl WayChange {
-    /// `V.E.A changes between lines 1 and 9`.
+    /// Returns `V.E.A changes between lines 1 and 9`.
     pub(crate) fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
         let Self {
             name, line: since, ..
@@ -234,7 +234,7 @@ pub(crate) fn seen_from((of, line): (&str, u32), file: &str) -> String {
 }
 
 impl WayCondition {
-    /// The condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
+    /// Returns the condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
     pub fn in_words(&self, file: &str) -> String {
         if let Some((change, (of, line))) = self.changed().zip(self.place()) {
             return change.in_words((of, line), file);
@@ -327,7 +327,7 @@ impl WayCondition {
 }
 
 impl WayCondition {
-    /// The condition that holds where this one of a block does not.
+    /// Returns the condition that holds where this one of a block does not.
     pub(crate) fn affirmed(&self) -> Option<Self> {
         let mut affirmed = self.clone();
         let (Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked)) = &mut affirmed else {
@@ -338,7 +338,7 @@ impl WayCondition {
         is_denied.then_some(affirmed)
     }
 
-    /// The change of a value without which it contradicts an earlier condition of its way.
+    /// Returns the change of a value without which it contradicts an earlier condition of its way.
     fn changed(&self) -> Option<&WayChange> {
         match self {
             Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) | Self::Probe(asked) => {
@@ -377,7 +377,7 @@ impl BlockCondition {
 /// Limit of the axes that a message names.
 const MAX_NAMED_AXES: usize = 8;
 
-/// The name of a kind of several axes in a message.
+/// Returns the name of a kind of several axes in a message.
 pub(crate) fn of_axes(kind: Kind, axes: &[&str]) -> String {
     let mut shown: Vec<String> = axes
         .iter()

@@ -50,7 +50,7 @@ impl Executor {
         Ok(())
     }
 
-    /// P-ERR-20933: a `V.CYC.` variable of an outer level is deleted (R2.102).
+    /// Reports P-ERR-20933: a `V.CYC.` variable of an outer level is deleted (R2.102).
     fn refuse_outer(
         &mut self,
         name: &VariableName,
@@ -69,7 +69,7 @@ impl Executor {
         Ok(())
     }
 
-    /// P-ERR-21772: a `V.I.` array is declared with other dimensions than it has (R2.102).
+    /// Reports P-ERR-21772: a `V.I.` array is declared with other dimensions than it has (R2.102).
     fn refuse_other_shape(
         &mut self,
         name: &VariableName,
@@ -160,7 +160,8 @@ impl Executor {
         Ok(())
     }
 
-    /// The value that a declaration without one gives. A `V.I.` variable may exist, and then keeps its own (R2.102).
+    /// Returns the value that a declaration without one gives. A `V.I.` variable may exist, and then keeps its own
+    /// (R2.102).
     fn default_of(&self, name: &VariableName, kind: ValueType) -> Value {
         if name.family() != VariableFamily::Internal {
             return kind.default();
@@ -169,7 +170,7 @@ impl Executor {
         held.unwrap_or_else(|| Value::Unknown(Unknown::text(name.array())))
     }
 
-    /// FC328: a `V.I.` variable that may exist is declared with a value (R2.102).
+    /// Reports FC328: a `V.I.` variable that may exist is declared with a value (R2.102).
     fn warn_kept(
         &mut self,
         name: &VariableName,
@@ -185,7 +186,7 @@ impl Executor {
         }
     }
 
-    /// P-ERR-20909: a variable is declared again in its level (R2.102).
+    /// Reports P-ERR-20909: a variable is declared again in its level (R2.102).
     fn refuse_second(
         &mut self,
         name: &VariableName,
@@ -210,7 +211,7 @@ impl Executor {
         }
     }
 
-    /// The value that a variable of a type has after an assignment (R2.101).
+    /// Returns the value that a variable of a type has after an assignment (R2.101).
     pub(crate) fn typed(
         &mut self,
         kind: ValueType,
@@ -262,15 +263,15 @@ impl Executor {
 }
 
 impl RunState {
-    /// Something is declared or deleted.
+    /// Records that something is declared or deleted.
     fn write_anything(&mut self) {
         let (control, track) = (&mut self.control, &mut self.track);
         track.write_anything(&mut control.memory);
     }
 }
 
-/// The name of the element at a place in row order; `None` where an unknown dimension decides which it
-/// is. The first dimension does not.
+/// Returns the name of the element at a place in row order; `None` where an unknown dimension decides which it is. The
+/// first dimension does not.
 fn element(
     name: &VariableName,
     dimensions: &[Result<u32, Value>],
@@ -291,7 +292,7 @@ fn element(
     Some(name.at(subscripts.into_iter().rev().collect()))
 }
 
-/// Only the program's own variables can be declared (TF5200 Diagnosis, error 20908).
+/// Refuses the declaration of anything but the program's own variables (TF5200 Diagnosis, error 20908).
 fn refuse_declaration(declaration: &Declaration, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
     let name = declared_name(declaration, at);
     let family = name.family();
@@ -332,7 +333,7 @@ enum OwnVariable {
 }
 
 impl Executor {
-    /// The value of an operand.
+    /// Returns the value of an operand.
     pub(crate) fn value(
         &mut self,
         operand: Operand,
@@ -472,12 +473,12 @@ impl Executor {
         }
     }
 
-    /// Whether the value of a variable follows from the state of the run.
+    /// Returns whether the value of a variable follows from the state of the run.
     pub(crate) fn is_own(&self, name: &VariableName) -> bool {
         self.own_variable(name).is_some()
     }
 
-    /// The kind of an axis whose state a variable shows.
+    /// Returns the kind of an axis whose state a variable shows.
     pub(crate) fn active_variable(&self, name: &VariableName) -> Option<(AxisIndex, Kind)> {
         match self.own_variable(name)? {
             OwnVariable::Active(axis, kind) => Some((axis, kind)),
@@ -485,7 +486,7 @@ impl Executor {
         }
     }
 
-    /// The variable of an axis whose value follows from the state of the run.
+    /// Returns the variable of an axis whose value follows from the state of the run.
     fn own_variable(&self, name: &VariableName) -> Option<OwnVariable> {
         let (variable, axis) = name.of_axis()?;
         let axis = match axis {
@@ -510,7 +511,7 @@ impl Executor {
         }
     }
 
-    /// FC322: the effect of an assignment to such a variable is not known.
+    /// Reports FC322: the effect of an assignment to such a variable is not known.
     pub(crate) fn warn_own(&mut self, place: Option<&Denoted>, span: Span, at: &BlockContext<'_>) {
         let Some(name) = place.and_then(Denoted::variable) else {
             return;
@@ -535,7 +536,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// Something may have written such a variable: its value is not known any more.
+    /// Makes such a variable unknown, since something may have written it.
     fn havoc_own(&mut self, own: OwnVariable) {
         match own {
             OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
@@ -573,7 +574,7 @@ impl Executor {
         Ok(())
     }
 
-    /// A value as the variable that it is assigned to takes it (R2.101, R2.102).
+    /// Returns a value as the variable that it is assigned to takes it (R2.101, R2.102).
     pub(crate) fn as_declared(
         &mut self,
         place: Option<&Denoted>,
@@ -613,7 +614,7 @@ impl Executor {
         Ok(value)
     }
 
-    /// FC328: no program of the run declares a `V.I.` variable (R2.102).
+    /// Reports FC328: no program of the run declares a `V.I.` variable (R2.102).
     fn miss_internal(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         let what = format!("no program of this run declares `{name}`");
         self.may_refuse(20392, &what, span, at);
@@ -666,7 +667,7 @@ impl Executor {
         }
     }
 
-    /// A variable with a value from the user that the program counts on from there: the user's value was its
+    /// Returns a variable with a value from the user that the program counts on from there: the user's value was its
     /// first one, and is not what the PLC writes.
     fn counts_given(
         &self,
@@ -680,7 +681,7 @@ impl Executor {
         (is_given && reads_itself(assignment, name, at)).then(|| name.clone())
     }
 
-    /// The number that an operand is, if it is known; FC312 for a string (R2.37).
+    /// Returns the number that an operand is, if it is known; FC312 for a string (R2.37).
     pub(crate) fn number(
         &mut self,
         operand: Operand,
@@ -690,7 +691,7 @@ impl Executor {
         numeric(&self.value(operand, at)?, span)
     }
 
-    /// The number that an argument of a command means; `None` where it is not known.
+    /// Returns the number that an argument of a command means; `None` where it is not known.
     pub(crate) fn argument_number(
         &mut self,
         argument: &Argument,
@@ -699,7 +700,7 @@ impl Executor {
         self.operand_number(argument.value?, at)
     }
 
-    /// The number of a value; `None` where it is not known.
+    /// Returns the number of a value; `None` where it is not known.
     pub(crate) fn operand_number(&mut self, value: Operand, at: &BlockContext<'_>) -> Option<f64> {
         match self.value(value, at) {
             Ok(Value::Number(number)) => Some(number),
@@ -709,8 +710,8 @@ impl Executor {
 }
 
 impl Executor {
-    /// FC412, FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and a `V.E.`
-    /// variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
+    /// Reports FC412 or FC328: the control may refuse to read the state of a compensation under G41 or G42 (R1.42), and
+    /// a `V.E.` variable under these and under a spline, unless it is not synchronous (P-EXTV-00005, R2.111).
     fn read_flushes(&mut self, name: &VariableName, at: &BlockContext<'_>) {
         // One answer holds for all elements of an array.
         let written = name.array().to_owned();
@@ -735,7 +736,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// Whether the call gave an own parameter (R2.79).
+    /// Returns as a value whether the call gave an own parameter (R2.79); `None` where that is not known.
     fn is_given(&self, index: u32) -> Option<Value> {
         let frame = self.frames.running()?;
         let name = VariableName::own_parameter(index);
@@ -744,7 +745,7 @@ impl ControlState {
     }
 }
 
-/// The number in `V.G.@P[1].VALID`.
+/// Returns the number in `V.G.@P[1].VALID`.
 fn given_parameter(name: &VariableName) -> Option<u32> {
     match name.subscripts().as_slice() {
         [Subscript::Number(index), Subscript::Field(field)]
@@ -760,7 +761,7 @@ fn compensation_kind(name: &str) -> Option<Kind> {
     name.parse().ok().filter(|kind| *kind != Kind::Backlash)
 }
 
-/// Whether the value of an assignment is computed from the variable that it writes.
+/// Returns whether the value of an assignment is computed from the variable that it writes.
 fn reads_itself(assignment: Assignment, name: &VariableName, at: &BlockContext<'_>) -> bool {
     let Operand::Expression(value) = assignment.value else {
         return false;
@@ -771,7 +772,7 @@ fn reads_itself(assignment: Assignment, name: &VariableName, at: &BlockContext<'
     texts.any(|text| VariableName::read(text) == *name)
 }
 
-/// Whether an assignment counts: `P1 = P1 + 1`.
+/// Returns whether an assignment counts: `P1 = P1 + 1`.
 pub(crate) fn only_counts(
     assignment: Assignment,
     location: &Location,

@@ -73,7 +73,7 @@ impl Executor {
         }
     }
 
-    /// The name of a called program.
+    /// Returns the name of a called program.
     fn called_name(&mut self, name: CallName, at: &BlockContext<'_>) -> Result<Value, Box<Fault>> {
         Ok(match name {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
@@ -228,7 +228,7 @@ impl Executor {
         })
     }
 
-    /// FC329: other files have the name of the called program (R2.108).
+    /// Reports FC329: other files have the name of the called program (R2.108).
     fn tell_others(
         &mut self,
         wanted: &WantedCall,
@@ -255,7 +255,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// FC902: the program that is called may be another one on the machine (R2.108).
+    /// Reports FC902: the program that is called may be another one on the machine (R2.108).
     fn call_unknown(&mut self, wanted: &WantedCall, why: &str, at: &BlockContext<'_>) {
         let cause = Unknown::Program(wanted.missing());
         self.havoc_by_call(&cause);
@@ -268,7 +268,8 @@ impl Executor {
         self.tell_once(&cause, "call", fault, at);
     }
 
-    /// P-ERR-21381: a cycle is called while a modal one is in force (R2.104). Returns whether that stops the program.
+    /// Reports P-ERR-21381: a cycle is called while a modal one is in force (R2.104). Returns whether that stops the
+    /// program.
     fn is_refused_in_cycle(&mut self, span: Span, at: &BlockContext<'_>) -> bool {
         let cycles = self.state.control.cycles.known();
         if cycles.is_empty() {
@@ -291,7 +292,7 @@ impl Executor {
         true
     }
 
-    /// A program that only the machine has (R2.83): whatever it may change is unknown after it.
+    /// Passes over a program that only the machine has (R2.83): whatever it may change is unknown after it.
     fn pass_over_external(&mut self, wanted: WantedCall, at: &BlockContext<'_>) {
         let program = wanted.missing();
         let name = wanted.name;
@@ -335,7 +336,7 @@ impl Executor {
         }
     }
 
-    /// FC325: no program is known for a word that calls one; once per word and program (R2.94).
+    /// Reports FC325: no program is known for a word that calls one; once per word and program (R2.94).
     fn warn_without_program(&mut self, word: &str, then: &str, span: Span, at: &BlockContext<'_>) {
         if !self.state.is_new_word(word) {
             return;
@@ -354,8 +355,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// The calls of a block with the modal cycle after them, unless the block is one of the
-    /// cycle's.
+    /// Returns the calls of a block with the modal cycle after them, unless the block is one of the cycle's.
     pub(crate) fn repetition(
         &mut self,
         step: Option<ControlStep>,
@@ -382,7 +382,7 @@ impl Executor {
         (!calls.is_empty()).then_some(ControlStep::Call(calls))
     }
 
-    /// A modal cycle after a block that made some calls.
+    /// Returns a modal cycle after a block that made some calls.
     fn repeat(
         &mut self,
         cycle: Repeated,
@@ -418,7 +418,7 @@ impl Executor {
         })
     }
 
-    /// The blocks that a call asks for; `Err` where they are not in the program.
+    /// Returns the blocks that a call asks for; `Err` where they are not in the program.
     pub(crate) fn passage(
         &mut self,
         wanted: &WantedCall,
@@ -504,7 +504,7 @@ impl Executor {
 }
 
 impl Executor {
-    /// `L SEQUENCE […]`
+    /// Executes `L SEQUENCE […]`.
     pub(crate) fn sequence(
         &mut self,
         sequence: &SequenceCall,
@@ -600,7 +600,7 @@ impl Executor {
         );
     }
 
-    /// `M17 [MAIN [LABEL]]`
+    /// Executes `M17 [MAIN [LABEL]]`.
     pub(crate) fn return_to(
         &mut self,
         back: &Return,
@@ -677,7 +677,7 @@ impl Executor {
     }
 }
 
-/// FC902: a block of a program whose lines are read one after another and not kept.
+/// Returns FC902: a block of a program whose lines are read one after another and not kept.
 fn not_kept(name: &LabelName, span: Span, then: &str) -> Fault {
     let message = format!(
         "`{name}` is in a part of the program that was read line by line and is not kept; {then}, and every axis becomes unknown"
@@ -686,8 +686,8 @@ fn not_kept(name: &LabelName, span: Span, then: &str) -> Fault {
 }
 
 impl BlockScratch {
-    /// FC317: the control warns and returns to the main program (PM/206781707). A subprogram that is
-    /// run by itself is not a main program.
+    /// Reports FC317: the control warns and returns to the main program (PM/206781707). A subprogram that is run by
+    /// itself is not a main program.
     fn warn_too_many_jumps(&mut self, number: u32, here: u32, span: Span, at: &BlockContext<'_>) {
         if here == 0 || number <= here {
             return;

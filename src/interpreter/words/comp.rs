@@ -67,7 +67,7 @@ impl Executor {
         });
     }
 
-    /// FC328: a command in a region of which the manual lists the commands that it allows (R2.109).
+    /// Reports FC328: a command in a region of which the manual lists the commands that it allows (R2.109).
     fn warn_described(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let Some(described) = &self.state.control.described else {
             return;
@@ -78,7 +78,7 @@ impl Executor {
         self.may_refuse(refusal, &what, command.span, at);
     }
 
-    /// FC902: the PLC may skip the command (R2.109).
+    /// Reports FC902: the PLC may skip the command (R2.109).
     fn warn_optional(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         match self.state.control.optional {
             OptionalSection::Outside => return,
@@ -97,7 +97,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(diagnostic);
     }
 
-    /// FC902: a command to an axis that the program gave away, which the control may refuse (R2.70).
+    /// Reports FC902 for a command to an axis that the program gave away, which the control may refuse (R2.70).
     fn switch_released(
         &mut self,
         command: &CompCommand,
@@ -120,7 +120,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(diagnostic);
     }
 
-    /// The refusal of a command that the control does not accept under the selected readings (R1.8, R1.25,
+    /// Returns the refusal of a command that the control does not accept under the selected readings (R1.8, R1.25,
     /// R1.26).
     fn read_as_refused(
         &mut self,
@@ -187,7 +187,8 @@ impl Executor {
         }
     }
 
-    /// The control may refuse a command that is right by itself: on that way the states stay as they are before it.
+    /// Reports that the control may refuse a command that is right by itself: on that way the states stay as they are
+    /// before it.
     fn warn_refusals(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         let compensation = &self.state.control.compensation;
         let is_coupled = compensation.coupling(axis) == Coupling::Perhaps;
@@ -210,7 +211,7 @@ impl Executor {
         }
     }
 
-    /// FC902: the program wrote P-AXIS-00522, so that COMP may be refused (R2.92).
+    /// Reports FC902: the program wrote P-AXIS-00522, so that COMP may be refused (R2.92).
     fn warn_rewritten(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let name = &command.axis;
         let message = format!(
@@ -224,7 +225,8 @@ impl Executor {
         self.perhaps_stop((Unknown::Refused(Some(70495)), scope), command.span, at);
     }
 
-    /// FC902: an axis that may be in a coupling, and COMP be refused (TF5200 Diagnostics, ID 21403; R2.52).
+    /// Reports FC902 for an axis that may be in a coupling, where COMP may be refused (TF5200 Diagnostics, ID 21403;
+    /// R2.52).
     fn warn_coupled(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let name = &command.axis;
         let message = format!(
@@ -242,8 +244,8 @@ impl Executor {
         );
     }
 
-    /// FC411: the control may refuse COMP while a transformation is active; which ones is not
-    /// documented (R1.42).
+    /// Reports FC411: the control may refuse COMP while a transformation is active; which ones is not documented
+    /// (R1.42).
     fn warn_transformed(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let active = self.state.control.modal.transformed.iter();
         let active: Vec<String> = active
@@ -267,7 +269,7 @@ impl Executor {
         self.perhaps_stop((Unknown::Refused(Some(50546)), scope), command.span, at);
     }
 
-    /// FC301: the same axis and kind twice in one block with opposite states.
+    /// Reports FC301: the same axis and kind twice in one block with opposite states.
     fn warn_opposite(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         let on = |selection| matches!(selection, Selection::On(_));
         let opposite = self.scratch.outcomes.iter().find_map(|earlier| {
@@ -304,7 +306,7 @@ impl Executor {
         }
     }
 
-    /// FC305: a kind that the configured build does not support (R1.10).
+    /// Reports FC305: a kind that the configured build does not support (R1.10).
     fn warn_build(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let Some(build) = self.machine.build else {
             return;
@@ -332,7 +334,7 @@ impl Executor {
         }
     }
 
-    /// FC303: selected, but nothing to work with (R1.26).
+    /// Reports FC303: selected, but nothing to work with (R1.26).
     fn warn_ineffective(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         let selects =
             matches!(command.selection, Selection::On(kinds) if kinds.contains(Kind::Frict));
@@ -373,7 +375,7 @@ impl Executor {
             .push(at.diagnostic(fault).with_axis(name.clone()));
     }
 
-    /// What the control says of a command that it refuses whatever came before.
+    /// Returns the message on a command that the control refuses in any state.
     pub(crate) fn refusal_of(
         &self,
         command: &CompCommand,
@@ -492,7 +494,7 @@ fn advise_on_axis(machine: &Machine, mut diagnostic: Diagnostic, name: &str) -> 
     diagnostic.with_help(Advice::AddAxis(name.to_owned()))
 }
 
-/// Whether a name is one of a transformation between the coordinates of the program and those of the axes.
+/// Returns whether a name is one of a transformation between the coordinates of the program and those of the axes.
 fn is_transformation(name: &str) -> bool {
     let row = HashCommand::named(name);
     row.is_some_and(|row| row.chain == Some(ChainStep::Coordinates))
@@ -508,8 +510,8 @@ impl Executor {
         }
     }
 
-    /// A restart of the control (R1.29): every kind returns to its start-up state, unless the machine
-    /// is read as keeping what was switched.
+    /// Restarts the control (R1.29): every kind returns to its start-up state, unless the machine is read as keeping
+    /// what was switched.
     pub(crate) fn restart(&mut self) {
         self.state.control.memory.restart();
         if !self.machine.readings.takes_second(Question::Restart) {

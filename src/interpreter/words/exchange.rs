@@ -19,7 +19,7 @@ use crate::syntax::ast::{Argument, BracketArguments, Hash};
 use crate::text::Span;
 
 impl Executor {
-    /// The control does not change a group that is in force.
+    /// Defines a coupling group; the control does not change one that is in force.
     pub(crate) fn define_coupling(
         &mut self,
         by: MembersBy,
@@ -51,7 +51,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Without a group that of the channel list comes into force (PM/207133579).
+    /// Enables a coupling group: the named one, or without a name that of the channel list (PM/207133579).
     pub(crate) fn enable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let mut group = self.group_of(hash, at);
         if group.is_empty() {
@@ -70,7 +70,7 @@ impl Executor {
         self.state.control.enable_coupling(&group, &self.machine);
     }
 
-    /// Without a group the last one that was enabled is released.
+    /// Releases a coupling group: the named one, or without a name the last one enabled.
     pub(crate) fn disable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let group = self.group_of(hash, at);
         self.state.control.disable_coupling(&group);
@@ -108,7 +108,7 @@ impl Executor {
         }
     }
 
-    /// `#GEAR LINK [TARGET=X AX1=Y NUM1=1 DENOM1=2]` (PM/546229387), `#CAXTRACK ON [AX=C]`.
+    /// Links a gear: `#GEAR LINK [TARGET=X AX1=Y NUM1=1 DENOM1=2]` (PM/546229387), `#CAXTRACK ON [AX=C]`.
     fn link_gear(&mut self, arguments: &BracketArguments, switch: OnOff, at: &BlockContext<'_>) {
         let axes = self.axes();
         let after = |key| {
@@ -139,7 +139,7 @@ impl Executor {
         }
     }
 
-    /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531).
+    /// Couples an axis to its master by `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531).
     pub(crate) fn gear_in(
         &mut self,
         axis: AxisIndex,
@@ -155,7 +155,7 @@ impl Executor {
         }
     }
 
-    /// The coupling group that `[1, …]` or `[P1+1]` names; empty without one.
+    /// Returns the coupling group that `[1, …]` or `[P1+1]` names; empty without one.
     fn group_of(&mut self, hash: &Hash, at: &BlockContext<'_>) -> String {
         let Some(group) = hash.brackets.iter().next() else {
             return String::new();
@@ -249,8 +249,7 @@ impl Executor {
         }
     }
 
-    /// Friction compensation of an axis is that of the start of the control, where the machine is read
-    /// so.
+    /// Returns friction compensation of an axis to that of the start of the control, where the machine is read so.
     pub(crate) fn return_to_start(&mut self, axis: AxisIndex) {
         let start = self.machine.compensation();
         let kinds = KindSet::of(Kind::Frict);
@@ -262,7 +261,7 @@ impl Executor {
             .return_to(&start, (axis, kinds), changes);
     }
 
-    /// FC328: an axis or a name is asked for twice, or a name that the channel has (R2.106).
+    /// Reports FC328: an axis or a name is asked for twice, or a name that the channel has (R2.106).
     fn check_request<'n>(
         &mut self,
         name: &'n str,
@@ -289,7 +288,7 @@ impl Executor {
         }
     }
 
-    /// FC902: the axes of the machine have no numbers, so that the meaning of a name is not known (R2.106).
+    /// Reports FC902: the axes of the machine have no numbers, so that the meaning of a name is not known (R2.106).
     fn say_without_number(&mut self, name: &str, at: &BlockContext<'_>) {
         if self.machine.axes.iter().all(|axis| axis.number.is_some()) {
             return;
@@ -308,7 +307,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// The axis that a COMP command switches under the current names.
+    /// Returns the axis that a COMP command switches under the current names.
     pub(crate) fn addressed(&self, name: &str) -> Result<Addressed, CompensationError> {
         Ok(match self.channel_axes.meaning(name) {
             None => Addressed::Axis(self.compensation.resolve(name)?),
@@ -327,7 +326,7 @@ struct NamedInExchange<'a> {
 }
 
 impl<'a> NamedInExchange<'a> {
-    /// The names: of `[X, B]` and `[NAME=X]` of a release, of each bracket of a request.
+    /// Returns the names: of `[X, B]` and `[NAME=X]` of a release, of each bracket of a request.
     fn names(self, exchange: Exchange) -> Vec<&'a str> {
         match exchange {
             Exchange::Release => {
@@ -341,8 +340,8 @@ impl<'a> NamedInExchange<'a> {
         }
     }
 
-    /// The name and the logical number of each bracket, `[X, 1, 0]` or `[NAME=X NR=1 IDX=0]`, unless it holds switches
-    /// for conflicts, `[NAM, NBR, IDX]`.
+    /// Returns the name and the logical number of each bracket, `[X, 1, 0]` or `[NAME=X NR=1 IDX=0]`, unless it holds
+    /// switches for conflicts, `[NAM, NBR, IDX]`.
     fn axes(self) -> impl Iterator<Item = (&'a str, Option<&'a Argument>)> {
         self.arguments.groups().filter_map(move |group| {
             let mut items = group.chunk_by(|one, other| one.item == other.item);
@@ -362,13 +361,13 @@ impl<'a> NamedInExchange<'a> {
         argument.key.is_some_and(|it| it.of(self.text) == key)
     }
 
-    /// The value of a key, `X` of `NAME = X NR = 1`.
+    /// Returns the value of a key, `X` of `NAME = X NR = 1`.
     fn keyed(self, arguments: &[Argument], key: &str) -> Option<&'a str> {
         let argument = arguments.iter().find(|it| self.has_key(it, key))?;
         Some(argument.span.of(self.text))
     }
 
-    /// The text of arguments without commas in between.
+    /// Returns the text of arguments without commas in between.
     fn whole(self, item: &[Argument]) -> &'a str {
         let start = item.first().map(|first| first.key.unwrap_or(first.span));
         let whole = start.zip(item.last());

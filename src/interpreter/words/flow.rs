@@ -30,7 +30,7 @@ struct Count {
 }
 
 impl Executor {
-    /// The condition of `$IF c $GOTO …`; `None` for any other statement.
+    /// Returns the condition of `$IF c $GOTO …`; `None` for any other statement.
     pub(crate) fn one_line_condition(
         &mut self,
         flow: &Flow,
@@ -154,7 +154,7 @@ impl Executor {
         })
     }
 
-    /// `$CONTINUE` in a `$SWITCH` outside a loop is allowed (P-ERR-20244), and no page says what it does.
+    /// Executes `$CONTINUE` in a `$SWITCH` outside a loop: it is allowed (P-ERR-20244), and no page says what it does.
     fn continue_in_switch(
         &mut self,
         rest: Range<EntryIndex>,
@@ -243,8 +243,8 @@ impl Executor {
         })
     }
 
-    /// The branches after the one that was executed are passed over. Without `$ENDIF` there is nothing to be found after
-    /// them.
+    /// Returns the branches after the one that was executed are passed over. Without `$ENDIF` there is nothing to be
+    /// found after them.
     fn skip_other_branches(&mut self, links: Links, after: ControlStep) -> ControlStep {
         if self.position().is_unclosed(links.opener) {
             self.state.control.seek(Seeking::Condition);
@@ -252,7 +252,7 @@ impl Executor {
         after
     }
 
-    /// P-ERR-20375: an `$IF` has no `$ENDIF`.
+    /// Reports P-ERR-20375: an `$IF` has no `$ENDIF`.
     fn warn_unclosed(&mut self, span: Span, at: &BlockContext<'_>) {
         let message = "this `$IF` has no `$ENDIF`: where its condition is true the control goes on with a warning, where it is \
                        false it skips the rest of the text and stops at its end";
@@ -350,7 +350,7 @@ impl Executor {
         })))
     }
 
-    /// `$ENDFOR`: counts, and looks at the end again.
+    /// Executes `$ENDFOR`: counts, and looks at the end again.
     fn next_pass(
         &mut self,
         opener: EntryIndex,
@@ -445,7 +445,7 @@ impl Executor {
         }
     }
 
-    /// P-ERR-21480, FC328: the control refuses a jump within a loop (R2.103).
+    /// Reports P-ERR-21480 or FC328: the control refuses a jump within a loop (R2.103).
     pub(crate) fn check_jump(
         &mut self,
         to: EntryIndex,
@@ -480,8 +480,8 @@ impl ControlState {
     }
 }
 
-/// Whether rounding decides whether a counter has passed its end: its step is not exact in binary, or it comes near
-/// without reaching it (R2.112; PM/206929163).
+/// Returns whether rounding decides whether a counter has passed its end: its step is not exact in binary, or it comes
+/// near without reaching it (R2.112; PM/206929163).
 fn is_last_pass_open(counter: f64, end: f64, step: f64) -> bool {
     /// A step of so many parts of one is exact.
     const EXACT: f64 = 1_048_576.0;
@@ -505,13 +505,13 @@ fn flow_span(block: &Block) -> Span {
         .unwrap_or_default()
 }
 
-/// FC209.
+/// Returns FC209.
 pub(crate) fn missing_label(label: &LabelName, span: Span) -> Fault {
     let message = format!("jump label `{label}` does not exist in this program");
     Fault::new(Code::Fc209, span, message)
 }
 
-/// Whether a label that does not exist is reported before the program begins: it is written in a block.
+/// Returns whether a label that does not exist is reported before the program begins: it is written in a block.
 pub(crate) fn is_reported(target: BlockReference, at: &BlockContext<'_>) -> bool {
     at.macro_depth == 0
         && matches!(

@@ -93,7 +93,8 @@ impl Executor {
         Ok(())
     }
 
-    /// FC328, P-ERR-51081: a command that flushes the channel where the control refuses that (R2.109, R2.111).
+    /// Reports FC328 or P-ERR-51081: a command that flushes the channel where the control refuses that (R2.109,
+    /// R2.111).
     fn check_flushing(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let command = hash.command;
         if command.has(FurtherWord::Continue) {
@@ -110,7 +111,7 @@ impl Executor {
         Ok(())
     }
 
-    /// `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
+    /// Executes `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
     fn skip_backward(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if hash.command.has(FurtherWord::On) && hash.brackets.has("SIMULATE", at.text) {
             let what = "`#OPTIONAL EXECUTION ON` has `APPROACH SIMULATE`";
@@ -125,7 +126,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Whether the section is executed is one question to the machine.
+    /// Asks the machine once whether the section is executed.
     fn begin_optional(&mut self, span: Span, at: &BlockContext<'_>) -> OptionalSection {
         if !self.state.can_ask() {
             return OptionalSection::Inside;
@@ -138,7 +139,7 @@ impl Executor {
         )))
     }
 
-    /// A command that is passed over, apart from its effects on what is followed.
+    /// Passes over a command, apart from its effects on what is followed.
     fn pass_over_command(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let (command, name) = (hash.command, hash.name.as_str());
         self.state.control.modal.hash(command);
@@ -210,7 +211,7 @@ impl Executor {
         }
     }
 
-    /// FC902: the effect of the command is not documented, so states became unknown.
+    /// Reports FC902: the effect of the command is not documented, so states became unknown.
     fn say_undescribed(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let doubted = self.scratch.doubted.iter();
         let names = doubted.map(|(axis, _)| format!("`{}`", self.machine.axis(*axis).name));
@@ -234,7 +235,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// FC314: the whole axis list is transferred again (R2.92).
+    /// Reports FC314: the whole axis list is transferred again (R2.92).
     fn write_machine_data(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let lost = self.transferred(hash, at);
         let enables = enables(&hash.brackets, at.text);
@@ -292,7 +293,8 @@ impl Executor {
         self.scratch.messages.diagnostics.push(diagnostic);
     }
 
-    /// The program writes a parameter of the friction compensation of an axis: what `COMP ON` does from here on is open.
+    /// Makes the effect of `COMP ON` uncertain, since the program writes a parameter of the friction compensation of an
+    /// axis.
     fn rewrite_friction(&mut self, axis: AxisIndex, enables: bool) {
         let compensation = &mut self.state.control.compensation;
         if enables || compensation.is_configured(axis, Kind::Frict) {
@@ -302,7 +304,7 @@ impl Executor {
         }
     }
 
-    /// `#RT WHILE` runs as long as its condition on a real-time variable holds (tf5261, 783727499).
+    /// Passes over a loop `#RT WHILE`, which runs as long as its condition on a real-time variable holds (tf5261, 783727499).
     fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>) {
         let whole = self.position().current_block();
         if !whole.is_empty() {
@@ -313,7 +315,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// The running cycle keeps its changes to G functions and feed.
+    /// Lets the running cycle keep its changes to G functions and feed.
     fn retain_cycle_changes(&mut self) {
         if let Some(frame) = self.frames.cycle_mut() {
             frame.restores = None;
@@ -322,7 +324,8 @@ impl ControlState {
 }
 
 impl Executor {
-    /// The condition holds after the block, and its plain conclusions are held as values that the program set.
+    /// Executes a wait: the condition holds after the block, and its plain conclusions are held as values that the
+    /// program set.
     pub(crate) fn wait_for(
         &mut self,
         hash: &Hash,
@@ -361,7 +364,7 @@ impl Executor {
         Ok(())
     }
 
-    /// FC909: nothing that the condition reads can change while the program waits.
+    /// Reports FC909: nothing that the condition reads can change while the program waits.
     fn wait_for_ever(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let condition = hash.code(at.text);
         let condition = condition.trim();
@@ -402,7 +405,7 @@ impl Executor {
         }
     }
 
-    /// The result of `#FILE EXIST`: 1 for a file that is here. One that is not here may be on the machine.
+    /// Sets the result of `#FILE EXIST`: 1 for a file that is here. One that is not here may be on the machine.
     #[cold]
     pub(crate) fn look_for_file(
         &mut self,
@@ -469,7 +472,7 @@ pub(crate) fn written(arguments: &BracketArguments, text: &str) -> WriteTarget {
 /// The parameters of friction compensation, and P-AXIS-00522 among them.
 const FRICTION_KEYS: [&str; 2] = ["frict_comp", "p-axis-00522"];
 
-/// Whether a command sets P-AXIS-00522 to 1.
+/// Returns whether a command sets P-AXIS-00522 to 1.
 pub(crate) fn enables(arguments: &BracketArguments, text: &str) -> bool {
     let keys = ["P-AXIS-00522", "lr_param.frict_comp"];
     let value = keys.iter().find_map(|key| arguments.after(key, text));
@@ -477,8 +480,8 @@ pub(crate) fn enables(arguments: &BracketArguments, text: &str) -> bool {
 }
 
 impl Executor {
-    /// The axes whose list a command transfers again, with the kinds that NC commands have set there:
-    /// all kinds where it writes a parameter of friction compensation.
+    /// Returns the axes whose list a command transfers again, with the kinds that NC commands have set there: all kinds
+    /// where it writes a parameter of friction compensation.
     pub(crate) fn transferred(
         &mut self,
         hash: &Hash,
@@ -507,7 +510,7 @@ impl Executor {
         lost.filter(|(_, kinds)| !kinds.is_empty()).collect()
     }
 
-    /// The axes that the command may name in blocks that are passed over.
+    /// Returns the axes that the command may name in blocks that are passed over.
     pub(crate) fn perhaps_transferred(
         &self,
         arguments: &BracketArguments,
@@ -523,7 +526,7 @@ impl Executor {
     }
 }
 
-/// The axes with a logical number; those without one may have any.
+/// Returns the axes with a logical number; those without one may have any.
 fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
     let number = number.and_then(|number| u32::try_from(number).ok());
     let has = |wanted: Option<u32>| {
@@ -539,7 +542,8 @@ fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
     }
 }
 
-/// The axis of a name, in either case. A command that names none writes to any axis, unless it is about the channel.
+/// Returns the axis of a name, in either case. A command that names none writes to any axis, unless it is about the
+/// channel.
 fn named(machine: &Machine, arguments: &BracketArguments, text: &str) -> Vec<AxisIndex> {
     match arguments.after("AX", text) {
         Some(argument) => {

@@ -1,5 +1,5 @@
-//! What becomes unknown at once (R2.50, R2.70), and states of which only the machine knows which a kind has, as separate ways
-//! (R14.1): those that a program leaves that only the machine has, and those that a program finds (R10.1).
+//! Simultaneous loss of what is known (R2.50, R2.70), and states known only to the machine, as separate ways (R14.1):
+//! those left by a program that only the machine has, and those found by a program (R10.1).
 
 use std::sync::Arc;
 
@@ -31,8 +31,8 @@ impl Executor {
         }
     }
 
-    /// Everything that a program could change becomes unknown: every kind of every axis, positions and
-    /// modal words, parameters and variables (R2.52).
+    /// Makes everything unknown that a program can change: every kind of every axis, positions and modal words,
+    /// parameters and variables (R2.52).
     pub(crate) fn havoc_all(&mut self, cause: &Unknown) {
         self.havoc_memory(cause);
         self.state.control.memory.havoc_macros(cause, |_, _| false);
@@ -42,21 +42,21 @@ impl Executor {
         self.havoc_compensation();
     }
 
-    /// A part of the block that may call any program: everything becomes unknown, and once more after the
-    /// words of the block, since programs are called after them.
+    /// Makes everything unknown because a part of the block may call any program, and once more after the words of the
+    /// block, since programs are called after them.
     pub(crate) fn havoc_by_call(&mut self, cause: &Unknown) {
         self.havoc_all(cause);
         let calls = &mut self.scratch.read.unknown_call;
         calls.get_or_insert_with(|| cause.clone());
     }
 
-    /// It is not known whether any axis moves.
+    /// Records that every axis possibly moves.
     pub(crate) fn perhaps_move_all(&mut self) {
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         self.scratch.moves.perhaps_move_all(axes);
     }
 
-    /// Every parameter and variable becomes unknown.
+    /// Makes every parameter and variable unknown.
     pub(crate) fn havoc_memory(&mut self, cause: &Unknown) {
         self.scratch.read.plc_acts = true;
         self.scratch.wrote = true;
@@ -67,7 +67,7 @@ impl Executor {
         self.note_use(VariableUse::write_anything);
     }
 
-    /// Every kind of every axis becomes unknown.
+    /// Makes every kind of every axis unknown.
     pub(crate) fn havoc_compensation(&mut self) {
         self.state.control.history.close_all();
         for position in 0..self.machine.axes.len() {
@@ -79,7 +79,7 @@ impl Executor {
         }
     }
 
-    /// A COMP command switched kinds of an axis, but it is not known which axis.
+    /// Makes the kinds of all axes unknown, since it is not known which one a COMP command switched.
     pub(crate) fn havoc_any_axis(&mut self, kinds: KindSet) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
             self.havoc(axis, kinds);
@@ -88,7 +88,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// The blocks up to the end describe geometry.
+    /// Begins a description of geometry by the blocks up to the end.
     pub(crate) fn describe(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         if self.described.is_none() {
             self.described = Some(Box::new(Description {
@@ -99,7 +99,7 @@ impl ControlState {
         }
     }
 
-    /// A command ends the description that it belongs to, where that is open. Returns whether it does.
+    /// Ends the description that a command belongs to, where that is open. Returns whether it does.
     pub(crate) fn end_description(&mut self, end: &str) -> bool {
         let open = self
             .described
@@ -110,7 +110,7 @@ impl ControlState {
         open.is_some()
     }
 
-    /// FC208: the program ends inside a description.
+    /// Returns FC208: the program ends inside a description.
     pub(crate) fn open_description(&mut self) -> Option<Diagnostic> {
         let open = self.described.take()?;
         let end = open.opener.until?;
@@ -121,7 +121,7 @@ impl ControlState {
 }
 
 impl Executor {
-    /// Each configured kind of each axis is selected after the call, or is not.
+    /// Leaves open for each configured kind of each axis whether it is selected after the call.
     #[cold]
     pub(crate) fn leave_open(&mut self, left: &LeftOpen) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
@@ -145,8 +145,8 @@ impl Executor {
         }
     }
 
-    /// The next program finds a kind of an axis selected or not. Returns the number of the condition, of which the first
-    /// answer is that it is; `None` where too many are asked.
+    /// Opens whether the next program finds a kind of an axis selected. Returns the number of the condition, of which
+    /// the first answer is that it is; `None` where too many are asked.
     pub(crate) fn find_open(&mut self, axis: AxisIndex, kind: Kind) -> Option<u32> {
         let name: Arc<str> = self.machine.axis(axis).name.as_str().into();
         let compensation = &mut self.state.control.compensation;

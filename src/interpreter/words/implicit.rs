@@ -21,7 +21,7 @@ use crate::syntax::{Fault, VariableName};
 use crate::text::Span;
 
 impl Executor {
-    /// An M, T or D word. A number that is not known offline may be any number.
+    /// Executes an M, T or D word. A number that is not known offline may be any number.
     pub(crate) fn function_word(&mut self, word: FunctionWord, span: Span, at: &BlockContext<'_>) {
         let FunctionWord { letter, number } = word;
         if letter == b'M' {
@@ -68,7 +68,7 @@ impl Executor {
         true
     }
 
-    /// FC328: a second implicit call in the block (R2.104).
+    /// Reports FC328: a second implicit call in the block (R2.104).
     fn check_implicit(&mut self, letter: u8, span: Span, at: &BlockContext<'_>) {
         if self.scratch.actions.implicit.replace(letter).is_some() {
             let what = "two words of this block call programs";
@@ -77,7 +77,7 @@ impl Executor {
         }
     }
 
-    /// A G function outside the groups: whether it calls a program.
+    /// Executes a G function outside the groups, and returns whether it calls a program.
     pub(crate) fn g_program(&mut self, number: u32, span: Span, at: &BlockContext<'_>) -> bool {
         if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at) {
             return true;
@@ -133,7 +133,7 @@ impl Executor {
         Ok(())
     }
 
-    /// A word whose program is not known calls one of the machine, which may change anything, unless the
+    /// Calls a program of the machine for a word whose program is not known: it may change anything, unless the
     /// configuration says that it changes nothing but positions (R2.94). Where the channel list is read it calls none
     /// (R2.104).
     fn call_without_program(
@@ -158,7 +158,7 @@ impl Executor {
         Ok(())
     }
 
-    /// FC210: a G function that is in no public list; once per word and program (R2.94).
+    /// Reports FC210: a G function that is in no public list; once per word and program (R2.94).
     fn warn_unknown_g(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         let word = format!("G{number}");
         if !self.state.is_new_word(&word) {
@@ -175,7 +175,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
+    /// Names programs for words: `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
     pub(crate) fn name_programs(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let messages = hash.brackets.after("MSG", at.text);
         if let Some(file) = messages.and_then(|file| file.quoted(at.text)) {
@@ -193,7 +193,7 @@ impl Executor {
 }
 
 impl ControlState {
-    /// The text of a variable, or the cause why it is unknown.
+    /// Returns the text of a variable, or the cause why it is unknown.
     fn named_elsewhere(&mut self, name: &str) -> Value {
         match self.memory.variable(&VariableName::read(name)) {
             Some(value @ Value::Text(_)) => value,
@@ -203,7 +203,7 @@ impl ControlState {
 }
 
 impl Executor {
-    /// The program for a word, `G80`, `M6`, else for its letter.
+    /// Returns the program for a word, `G80`, `M6`, else for its letter.
     pub(crate) fn configured(&self, word: FunctionWord) -> Configured {
         let letter = char::from(word.letter);
         let word = word.number.map(|number| format!("{letter}{number}"));
@@ -222,13 +222,13 @@ impl Executor {
         Configured::None
     }
 
-    /// Whether any word calls a program.
+    /// Returns whether any word calls a program.
     #[inline]
     pub(crate) fn calls_by_words(&self) -> bool {
         !self.machine.programs.words.is_empty() || !self.state.control.named.is_empty()
     }
 
-    /// A word with an unknown number: it may call any program.
+    /// Executes a word with an unknown number: it may call any program.
     pub(crate) fn unknown_word(&mut self, letter: &str, span: Span, at: &BlockContext<'_>) {
         let cause = Unknown::text(letter);
         self.havoc_by_call(&cause);
@@ -259,7 +259,7 @@ impl Executor {
         self.tell_unknown(what, "the call is passed over", cause, span, at);
     }
 
-    /// FC210: calls in the block of a jump, a program end or a return. Whether the control makes them is not
+    /// Reports FC210: calls in the block of a jump, a program end or a return. Whether the control makes them is not
     /// documented, so that everything that a program could change is unknown (R2.52).
     pub(crate) fn pass_over_calls(&mut self, at: &BlockContext<'_>) {
         let calls = std::mem::take(&mut self.scratch.actions.calls);
@@ -277,7 +277,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// FC902: `what` depends on a value that only the machine knows.
+    /// Reports FC902: `what` depends on a value that only the machine knows.
     pub(crate) fn tell_unknown(
         &mut self,
         what: &str,
@@ -294,7 +294,8 @@ impl Executor {
         self.tell_once(cause, "call", fault.with_help(cause.advice()), at);
     }
 
-    /// A harmless implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
+    /// Passes over a harmless implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved
+    /// axes.
     fn pass_over_implicit(&mut self, number: u32) {
         self.state.control.modal.havoc_positions();
         self.perhaps_move_all();

@@ -98,7 +98,7 @@ impl Executor {
         }
     }
 
-    /// The rest of the block is to the right of what the control refuses. `Break` where it stops there.
+    /// Refuses the rest of the block, to the right of what the control refuses. `Break` where it stops there.
     #[cold]
     fn refuse_from(&mut self, limit: &mut u32, at: &BlockContext<'_>) -> ControlFlow<()> {
         if self.options.stop == StopPolicy::FirstError {
@@ -137,7 +137,7 @@ impl Executor {
         }
     }
 
-    /// Whether the control stops at a message about the block.
+    /// Returns whether the control stops at a message about the block.
     #[inline]
     pub(crate) fn is_halted(&self) -> bool {
         self.options.stop == StopPolicy::FirstError
@@ -245,8 +245,8 @@ impl Executor {
         }
     }
 
-    /// A condition that cannot be computed: what depends on it is unknown, and is not reported again
-    /// (R2.51, R2.71).
+    /// Reports a condition that cannot be computed: what depends on it is unknown, and is not reported again (R2.51,
+    /// R2.71).
     fn undecidable(&mut self, fault: Fault, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if self.options.stop == StopPolicy::FirstError {
             return Err(Box::new(fault));
@@ -256,7 +256,7 @@ impl Executor {
         Ok(())
     }
 
-    /// A macro in place of words: its code is a separate block, executed here (R2.35).
+    /// Executes the code of a macro in place of words, as a separate block (R2.35).
     fn expand(&mut self, span: Span, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         let name = unquoted(span.of(at.text));
         let code = match self.state.control.memory.macro_code(name) {
@@ -392,7 +392,7 @@ impl Executor {
         Err(Box::new(fault))
     }
 
-    /// A macro with unknown code, which may do anything (R2.51).
+    /// Returns a macro with unknown code, which may do anything (R2.51).
     fn lost_macro(
         &mut self,
         span: Span,

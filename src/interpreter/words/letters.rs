@@ -59,7 +59,7 @@ impl Executor {
         Ok(())
     }
 
-    /// A word whose address is not one of the letters that all axes and functions have.
+    /// Executes a word whose address is not one of the letters that all axes and functions have.
     fn named_word(&mut self, word: &Word, number: Option<f64>, at: &BlockContext<'_>) {
         let name = match word.address {
             Address::Name(name) => {
@@ -90,7 +90,7 @@ impl Executor {
         self.pass_over(&name, word.span, at);
     }
 
-    /// `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
+    /// Reports an axis name in lower case, `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
     fn lower_axis(&mut self, letter: u8, span: Span, at: &BlockContext<'_>) {
         let upper = letter.to_ascii_uppercase();
         let axis = self.axes().letter(upper);
@@ -125,7 +125,7 @@ impl Executor {
         true
     }
 
-    /// FC210: a word of an axis that the program gave away; once per axis and program (R2.70).
+    /// Reports FC210: a word of an axis that the program gave away; once per axis and program (R2.70).
     fn say_released(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         self.pass_over(name, span, at);
         if !self.state.is_new_word(name) {
@@ -139,7 +139,7 @@ impl Executor {
         self.scratch.messages.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// A word of an axis that the machine does not have.
+    /// Records a word of an axis that the machine does not have.
     fn lack_axis(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         let exchanged = &self.state.control.channel_axes;
         let is_exchanged = exchanged.is_doubtful() || exchanged.has(name);
@@ -150,7 +150,7 @@ impl Executor {
         self.pass_over(name, span, at);
     }
 
-    /// FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
+    /// Reports FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
     #[cold]
     pub(crate) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         for (name, span) in self.scratch.moves.take_lacking() {
@@ -172,7 +172,7 @@ impl Executor {
         }
     }
 
-    /// FC210: an unknown word, which may do anything (R2.70).
+    /// Reports FC210: an unknown word, which may do anything (R2.70).
     fn unread_word(&mut self, span: Span, at: &BlockContext<'_>) {
         let text = span.of(at.text);
         self.havoc_by_call(&Unknown::text(text));
@@ -217,7 +217,7 @@ impl Executor {
         self.scratch.moves.take_word(axis, span, value);
     }
 
-    /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
+    /// Reports FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
     pub(crate) fn refuse_repeated_axes(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         let modal = &self.state.control.modal;
         let absolute = modal.functions.absolute && modal.is_known(Group::Distance);
@@ -320,7 +320,7 @@ impl Executor {
         Ok(())
     }
 
-    /// The feed at the end of the block; FC327 for one that is not above 0 (R2.113).
+    /// Sets the feed at the end of the block; reports FC327 for one that is not above 0 (R2.113).
     fn end_feed_word(&mut self, feed: Option<f64>, span: Span, at: &BlockContext<'_>) {
         self.scratch.moves.geometry().end_feed = Some(feed);
         if let Some(feed) = feed.filter(|feed| *feed <= 0.0) {
@@ -398,7 +398,7 @@ impl Executor {
         Ok(())
     }
 
-    /// A G function without a bearing on the compensation, G61 and the like; a configured cycle has one.
+    /// Executes a G function without a bearing on the compensation, G61 and the like; a configured cycle has one.
     fn further_g(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         if self.g_program(number, span, at) {
             return;
@@ -466,7 +466,7 @@ impl Executor {
         }
     }
 
-    /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
+    /// Reports FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
         let circular = self.state.control.modal.functions.is_arc();
         let ends = self.scratch.moves.ends(&self.state.control.modal);

@@ -1,4 +1,4 @@
-//! What the words of a block do, by construct.
+//! Execution of the words of a block, by construct.
 
 pub(super) mod assignment;
 pub(super) mod calls;

@@ -32,7 +32,7 @@ use crate::syntax::ast::{
 use crate::text::Span;
 
 impl Executor {
-    /// A command in the bracket of an axis.
+    /// Executes a command in the bracket of an axis.
     pub(crate) fn move_by_bracket(&mut self, bracket: AxisBracket<'_>, at: &BlockContext<'_>) {
         let Some(axis) = self.axes().named(bracket.name) else {
             return;
@@ -58,7 +58,7 @@ impl Executor {
         });
     }
 
-    /// A `#` command that moves axes at once.
+    /// Executes a `#` command that moves axes at once.
     pub(crate) fn command_motion(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let row = hash.command.motion;
         let Some(row) = row.filter(|row| row.moves == Moves::NamedOrAll) else {
@@ -80,15 +80,15 @@ impl Executor {
         }
     }
 
-    /// `#ROTATION ON [ANGLE=30]`: whether a motion along one axis of the plane certainly moves the other
-    /// one, too.
+    /// Executes `#ROTATION ON [ANGLE=30]`: determines whether a motion along one axis of the plane certainly moves the
+    /// other one, too.
     pub(crate) fn rotate(&mut self, arguments: &BracketArguments, at: &BlockContext<'_>) {
         let angle = arguments.after("ANGLE", at.text);
         let angle = angle.and_then(|angle| self.argument_number(angle, at));
         self.state.control.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
     }
 
-    /// How the block moves, and what that depends on.
+    /// Returns the motion of the block and the state it depends on.
     fn moves(&mut self) -> (&mut BlockMotion, MotionSetting<'_>) {
         let control = &self.state.control;
         let axes = AxisLookup {
@@ -125,7 +125,7 @@ impl Executor {
         }
     }
 
-    /// I, J, K or R of a circle.
+    /// Executes I, J, K or R of a circle.
     pub(crate) fn circle_word(&mut self, letter: u8, value: Option<f64>, span: Span) {
         let metric = self.state.control.modal.is_known(Group::Unit);
         let inch = self.state.control.modal.functions.inch;
@@ -150,7 +150,7 @@ impl Executor {
         }
     }
 
-    /// `G04 P1`: the parameter holds the seconds (PM/206132747).
+    /// Executes `G04 P1`: the parameter holds the seconds (PM/206132747).
     pub(crate) fn dwell_parameter(&mut self, index: Option<f64>) {
         let index = index
             .and_then(rounded)
@@ -202,7 +202,7 @@ impl Executor {
         }
     }
 
-    /// `G163=50`: the radius of circles, as R (R2.45). Returns whether there is a value.
+    /// Executes `G163=50`: the radius of circles, as R (R2.45). Returns whether there is a value.
     pub(crate) fn radius_word(&mut self, span: Span, at: &BlockContext<'_>) -> bool {
         let Some(value) = at.block.second_value(span) else {
             return false;
@@ -212,7 +212,7 @@ impl Executor {
         true
     }
 
-    /// `G129=70` (PM/206578955)
+    /// Executes `G129=70` (PM/206578955).
     pub(crate) fn weigh_rapid(&mut self, span: Span, at: &BlockContext<'_>) {
         let value = at.block.second_value(span);
         let percent = value.and_then(|value| self.operand_number(value, at));
@@ -250,7 +250,7 @@ impl Executor {
         }
     }
 
-    /// A command in the bracket of an axis or spindle, `X[OVERRIDE FEED_FACT=20]`, `S[REV1200 M3]`.
+    /// Executes a command in the bracket of an axis or spindle, `X[OVERRIDE FEED_FACT=20]`, `S[REV1200 M3]`.
     pub(crate) fn bracket(&mut self, bracket: AxisBracket<'_>, at: &BlockContext<'_>) {
         let AxisBracket { name, command, .. } = bracket;
         let axis = self.axes().named(name);
@@ -275,7 +275,7 @@ impl Executor {
         }
     }
 
-    /// The words in the bracket of the main spindle.
+    /// Executes the words in the bracket of the main spindle.
     fn spindle_words(&mut self, words: &[SpindleWord], at: &BlockContext<'_>) {
         for word in words {
             match *word {
@@ -323,7 +323,7 @@ impl Executor {
         }
     }
 
-    /// The F word of the block is 0 or negative.
+    /// Reports an F word of the block that is 0 or negative.
     #[cold]
     fn feed_not_positive(&mut self, feed: f64, at: &BlockContext<'_>) {
         let span = feed_word(at.block).unwrap_or(Span::new(0, at.text.trim_end().len()));
@@ -341,7 +341,7 @@ impl Executor {
         }
     }
 
-    /// The block has no F word, and its mode of F may have no feed.
+    /// Reports a block without F word whose mode of F may have no feed.
     #[cold]
     fn move_without_feed(&mut self, at: &BlockContext<'_>) {
         if !self.moves_at_feed() {
@@ -387,7 +387,7 @@ impl Executor {
         self.state.control.modal.functions.give_feed();
     }
 
-    /// FC327: the feed in force is 0.
+    /// Reports FC327: the feed in force is 0.
     fn refuse_feed_of_zero(&mut self, span: Span, at: &BlockContext<'_>) {
         let message =
             format!("the feed of this move is 0; the control may refuse it (20008) {PLC}");
@@ -400,7 +400,7 @@ impl Executor {
         );
     }
 
-    /// Whether the block moves along its axis words at the feed in force.
+    /// Returns whether the block moves along its axis words at the feed in force.
     fn moves_at_feed(&self) -> bool {
         self.scratch.actions.axis_words == AxisWords::Motion
             && self.state.control.described.is_none()
@@ -408,8 +408,8 @@ impl Executor {
             && !self.is_halted()
     }
 
-    /// Whether a block that comes next, or a program that it calls, may be a feed move without a feed: what the control
-    /// does then depends on how the text ends.
+    /// Returns whether a block that comes next, or a program that it calls, may be a feed move without a feed: what the
+    /// control does then depends on how the text ends.
     #[inline]
     pub(crate) fn may_begin_without_feed(&self, block: &Block) -> bool {
         self.state.control.modal.functions.has_no_feed() && self.may_move_or_call(block)
@@ -447,7 +447,7 @@ impl Executor {
     }
 }
 
-/// The place of the F word of a block.
+/// Returns the place of the F word of a block.
 fn feed_word(block: &Block) -> Option<Span> {
     let is_feed = |word: &&Word| word.address == Address::Letter(b'F');
     block.all_words().find(is_feed).map(|word| word.span)
@@ -475,7 +475,7 @@ impl Executor {
         }
     }
 
-    /// The state in which the block moves an axis (R1.9).
+    /// Returns the state in which the block moves an axis (R1.9).
     fn state_in_motion(&self, axis: AxisIndex, kind: Kind) -> State {
         let mut changes = self.scratch.changes.iter();
         let first = changes.find(|change| (change.axis, change.kind) == (axis, kind));
@@ -486,7 +486,7 @@ impl Executor {
         }
     }
 
-    /// P-ERR-70435: an axis moves without a compensation that it requires.
+    /// Reports P-ERR-70435: an axis moves without a compensation that it requires.
     pub(crate) fn check_required(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         if !self.any_required {
             return;
@@ -523,7 +523,7 @@ impl Executor {
         }
     }
 
-    /// P-ERR-70435 on some ways only: they end, and the others continue (R14.5). Returns whether that is so.
+    /// Reports P-ERR-70435 on some ways only: they end, and the others continue (R14.5). Returns whether that is so.
     #[cold]
     fn end_ways_without(
         &mut self,
@@ -553,7 +553,7 @@ impl Executor {
     }
 }
 
-/// P-ERR-70435: an axis moves without a compensation that it requires.
+/// Returns P-ERR-70435: an axis moves without a compensation that it requires.
 fn moves_without(name: &str, kind: Kind, span: Span, at: &BlockContext<'_>) -> Diagnostic {
     let keyword = kind.as_str();
     let fault = Fault::new(

@@ -30,17 +30,17 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, BlockReference, Expression, Flow, Item, Operand};
 use crate::text::{Place, Span};
 
-/// Where the jump of a condition goes.
+/// Target of the jump of a condition.
 enum ConditionalJump {
-    /// There is no jump, or it is reported before the program begins.
+    /// No jump, or one that is reported before the program begins.
     Nowhere,
-    /// Its label does not exist.
+    /// Jump to a label that does not exist.
     Missing(LabelName, Span),
     To(Goal, Span),
 }
 
 impl Executor {
-    /// The run parts at a condition: where it holds and where it does not. Whether it can.
+    /// Parts the run at a condition: where it holds and where it does not. Returns whether it can be parted.
     pub(crate) fn part_at(
         &mut self,
         condition: Operand,
@@ -82,7 +82,7 @@ impl Executor {
         self.part(question, vec![yes, no], at)
     }
 
-    /// The question whether a condition holds.
+    /// Returns the question whether a condition holds.
     fn question_of(
         &self,
         condition: Expression,
@@ -108,7 +108,7 @@ impl Executor {
         }
     }
 
-    /// The state that a condition asks for, where it is unknown because ways differ.
+    /// Returns the state that a condition asks for, where it is unknown because ways differ.
     fn tested_state(
         &self,
         condition: Operand,
@@ -137,8 +137,8 @@ impl Executor {
         None
     }
 
-    /// Whether a condition may say what a value is: one that the program and the machine hold, and
-    /// that does not follow from something else.
+    /// Returns whether a condition may say what a value is: one that the program and the machine hold, and that does
+    /// not follow from something else.
     fn may_conclude(&self, target: &Location) -> bool {
         match target {
             Location::Variable(name) => !name.family().is_of_level() && !self.is_own(name),
@@ -147,7 +147,7 @@ impl Executor {
         }
     }
 
-    /// The same where the counter of a `$FOR` decides.
+    /// Parts the run in the same way where the counter of a `$FOR` decides.
     pub(crate) fn part_at_count(
         &mut self,
         (cause, statement): (&Unknown, &str),
@@ -166,7 +166,7 @@ impl Executor {
         self.part(question, goals.into(), at)
     }
 
-    /// The run parts at `$IF … $GOTO`.
+    /// Parts the run at `$IF … $GOTO`.
     pub(crate) fn part_at_jump(
         &mut self,
         condition: Operand,
@@ -208,7 +208,7 @@ impl Executor {
         self.part_at(condition, doubt, asked, [goal, Goal::block(next)], at)
     }
 
-    /// The run parts at a `$IF … $GOTO` whose condition cannot be computed.
+    /// Parts the run at a `$IF … $GOTO` whose condition cannot be computed.
     pub(crate) fn part_at_undecided_jump(
         &mut self,
         (cause, place): (Unknown, Span),
@@ -221,7 +221,7 @@ impl Executor {
         }
     }
 
-    /// The run parts at a question of which only the value that decides is known.
+    /// Parts the run at a question of which only the value that decides is known.
     fn part_by_cause(
         &mut self,
         kind: ConditionKind,
@@ -240,7 +240,7 @@ impl Executor {
         self.part(question, goals, at);
     }
 
-    /// The run parts at a `$SWITCH` whose cases are not known, or at such a case: it may go on at each of them.
+    /// Parts the run at a `$SWITCH` whose cases are not known, or at such a case: it may go on at each of them.
     pub(crate) fn part_at_unknown_case(
         &mut self,
         flow: &Flow,
@@ -274,7 +274,8 @@ impl Executor {
         self.part_by_cause(ConditionKind::Case, (cause, span), sides, at);
     }
 
-    /// The blocks of the cases of a `$SWITCH`, whichever values they have, each with its name, and the block after it.
+    /// Returns the blocks of the cases of a `$SWITCH`, whichever values they have, each with its name, and the block
+    /// after it.
     fn each_case(
         &mut self,
         unit: usize,
@@ -308,14 +309,14 @@ impl Executor {
         (goals, texts)
     }
 
-    /// Whether the jump after a condition goes back, so that its condition is that of a loop.
+    /// Returns whether the jump after a condition goes back, so that its condition is that of a loop.
     pub(crate) fn jumps_back(&mut self, place: Span, at: &BlockContext<'_>) -> bool {
         let next = self.position().next_block();
         let jump = self.jump_after(place, at);
         matches!(jump, ConditionalJump::To(goal, _) if goal.labels.is_none() && goal.to < next)
     }
 
-    /// The run parts where a jump computes its target: one way for each label that it may mean.
+    /// Parts the run where a jump computes its target: one way for each label that it may mean.
     pub(crate) fn part_at_target(
         &mut self,
         target: &BlockReference,
@@ -371,7 +372,7 @@ impl Executor {
         self.part(question, goals, at);
     }
 
-    /// FC902: a jump that may go to any label of its program, on ways that are not told apart.
+    /// Reports FC902: a jump that may go to any label of its program, on ways that are not told apart.
     fn tell_any_label(&mut self, cause: &Unknown, span: Span, at: &BlockContext<'_>) {
         if self.scratch.read.unread.get() {
             return;
@@ -384,7 +385,7 @@ impl Executor {
         self.tell_once(cause, "label", fault, at);
     }
 
-    /// The run parts where a probe answers, or does not (R2.91).
+    /// Parts the run where a probe answers, or does not (R2.91).
     pub(crate) fn part_at_probe(&mut self, place: Span, at: &BlockContext<'_>) {
         let Some((goal, span)) = self.possible_jump(place, at) else {
             return;
@@ -401,7 +402,8 @@ impl Executor {
         self.part(question, goals, at);
     }
 
-    /// An M function of which only the machine knows the number may end the program or return from it.
+    /// Parts the run at an M function of which only the machine knows the number: it may end the program or return from
+    /// it.
     pub(crate) fn part_at_unknown_m(&mut self, span: Span, at: &BlockContext<'_>) {
         let question = |what: &str| MachineQuestion {
             kind: ConditionKind::Stop,
@@ -422,7 +424,8 @@ impl Executor {
         }
     }
 
-    /// The jump at a place of a block or after it, before its next condition; `None` where its label does not exist.
+    /// Returns the jump at a place of a block or after it, before its next condition; `None` where its label does not
+    /// exist.
     fn jump_after(&mut self, place: Span, at: &BlockContext<'_>) -> ConditionalJump {
         let mut items = at.block.items.iter();
         let after = items
@@ -470,7 +473,8 @@ impl Executor {
         }
     }
 
-    /// The jump after a condition of which the answer does not say what it is about: a missing label may end the program.
+    /// Returns the jump after a condition of which the answer does not say what it is about: a missing label may end
+    /// the program.
     fn possible_jump(&mut self, place: Span, at: &BlockContext<'_>) -> Option<(Goal, Span)> {
         match self.jump_after(place, at) {
             ConditionalJump::To(goal, span) => Some((goal, span)),
@@ -529,7 +533,7 @@ impl Executor {
         self.part(question, goals, at)
     }
 
-    /// The cases of the `$SWITCH` being executed, with their values, and the target of everything else.
+    /// Returns the cases of the `$SWITCH` being executed, with their values, and the target of everything else.
     fn cases(&mut self, at: &BlockContext<'_>) -> Option<(Vec<(EntryIndex, Value)>, Goal)> {
         let unit = self.state.control.frames.running()?.unit;
         let whole = self.position().current_block();
@@ -642,7 +646,7 @@ impl Executor {
         true
     }
 
-    /// Whether blocks at another place also ask for a level, and a selected reading decides whether its switch
+    /// Returns whether blocks at another place also ask for a level, and a selected reading decides whether its switch
     /// may have changed in between.
     fn is_level_read_again(&self, level: u8, here: &Place) -> bool {
         let mut conditions = self.state.conditions.iter();
@@ -669,7 +673,7 @@ impl ControlState {
     }
 }
 
-/// The condition that a case applies.
+/// Returns the condition that a case applies.
 fn compared(subject: &str, case: &Flow, block: (&Block, &str)) -> Arc<str> {
     let value = match case {
         Flow::Case(operand) => operand_text(*operand, block),
@@ -686,7 +690,7 @@ fn operand_text(operand: Operand, (block, text): (&Block, &str)) -> String {
 }
 
 impl Executor {
-    /// Whether the jump of a block waits for the signal of a probe (R2.91).
+    /// Returns whether the jump of a block waits for the signal of a probe (R2.91).
     pub(crate) fn jump_is_probed(&mut self, at: &BlockContext<'_>) -> bool {
         if self.scratch.actions.probes {
             return true;
@@ -705,8 +709,9 @@ impl Executor {
     }
 }
 
-/// G310 measures, and `$GOTO` in its block is taken if the probe answers (TF5200 Programming manual,
-/// 206197003). Its effect with the other measuring functions is not documented; they wait for the probe, too.
+/// Returns whether a G function measures. With G310, `$GOTO` in its block is taken if the probe answers (TF5200
+/// Programming manual, 206197003). Its effect with the other measuring functions is not documented; they wait for the
+/// probe, too.
 fn measures(number: f64) -> bool {
     GFunction::of_value(number).is_some_and(GFunction::is_measuring)
 }

@@ -54,11 +54,11 @@ enum WideEffect {
     PlcActs,
     JumpsAnywhere,
     Returns,
-    /// An error of the control may end the program.
+    /// Possible end of the program by an error of the control.
     Refusal,
 }
 
-/// What blocks could do, by their text.
+/// Possible effects of blocks, judged by their text.
 #[derive(Default)]
 struct PossibleEffects {
     wide: BTreeSet<WideEffect>,
@@ -323,7 +323,7 @@ impl EffectReader<'_> {
         }
     }
 
-    /// A word of an axis, or one that stays in force.
+    /// Adds the effect of an axis word, or of a word that stays in force.
     fn axis_word(&mut self, name: &str) {
         let control = &self.run.state.control;
         match self.run.axes().named(name) {
@@ -361,7 +361,7 @@ impl EffectReader<'_> {
         }
     }
 
-    /// The code of a macro, once however often it is used: macros that use each other would be read endlessly.
+    /// Adds the code of a macro, once however often it is used: macros that use each other would be read endlessly.
     fn expand(&mut self, used: Span, at: &BlockContext<'_>) {
         let name = unquoted(used.of(at.text)).trim().to_owned();
         if !self.effects.used_macros.insert(name.clone()) {
@@ -386,7 +386,7 @@ impl EffectReader<'_> {
         self.block(&at.in_macro(&code, at.in_block(used), &shown));
     }
 
-    /// The name of a called program; `None` where only the machine knows it.
+    /// Returns the name of a called program; `None` where only the machine knows it.
     fn program_name(&self, name: CallName, at: &BlockContext<'_>) -> Option<String> {
         match name {
             CallName::Literal(span) => Some(span.of(at.text).trim().to_owned()),
@@ -401,7 +401,7 @@ impl EffectReader<'_> {
         }
     }
 
-    /// The possible targets of an assignment. A place that has to be computed may be different each time.
+    /// Adds the possible targets of an assignment. A place that has to be computed may be different each time.
     fn assigns(&mut self, place: Expression, at: &BlockContext<'_>) {
         let Some(root) = place.end.checked_sub(1) else {
             return;
@@ -528,7 +528,7 @@ impl Executor {
         blocks.end
     }
 
-    /// The run may go on at another block than the one after those that are passed over.
+    /// Lets the run possibly go on at another block than the one after those that are passed over.
     fn perhaps_leave(&mut self, exit: EntryIndex, after: EntryIndex, unit: usize) {
         let mut way = Path {
             control: self.state.control.clone(),
@@ -729,7 +729,7 @@ impl Executor {
         ends
     }
 
-    /// The program may end at a block in the state in which it goes on.
+    /// Lets the program possibly end at a block in the state in which it goes on.
     fn may_end_at(&mut self, place: Option<Place>, by: EndedBy) {
         if by == EndedBy::Error && self.options.stop == StopPolicy::KeepGoing {
             return;
@@ -750,7 +750,7 @@ impl Executor {
         self.version += 1;
     }
 
-    /// The program ends at the block on some ways.
+    /// Ends the program at the block on some ways.
     pub(crate) fn end_on(&mut self, ways: WaySet, at: &BlockContext<'_>) {
         let here = (self.state.control.clone(), self.state.track.clone());
         self.state.go_on_with(ways);
@@ -759,14 +759,14 @@ impl Executor {
         (self.state.control, self.state.track) = here;
     }
 
-    /// The kinds of each axis that are unknown.
+    /// Returns the kinds of each axis that are unknown.
     fn unknown_kinds(&self) -> Vec<KindSet> {
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         axes.map(|axis| self.state.control.compensation.unknown(axis))
             .collect()
     }
 
-    /// The kinds that are unknown and were not before, with their axes.
+    /// Returns the kinds that are unknown and were not before, with their axes.
     pub(crate) fn newly_unknown(&self, before: &[KindSet]) -> Vec<String> {
         let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
         for (place, now) in self.unknown_kinds().into_iter().enumerate() {
@@ -780,7 +780,7 @@ impl Executor {
         named.collect()
     }
 
-    /// FC901: a control block that cannot be followed is passed over, which leaves kinds unknown.
+    /// Reports FC901: a control block that cannot be followed is passed over, which leaves kinds unknown.
     fn tell_passed(&mut self, cause: &Unknown, before: &[KindSet], mut said: Diagnostic) {
         let named = self.newly_unknown(before);
         let is_new = !named.is_empty()
@@ -833,7 +833,7 @@ impl OtherPaths {
 }
 
 impl OtherPaths {
-    /// Whether a program calls itself once more on ways of which others wait in two of its calls.
+    /// Returns whether a program calls itself once more on ways of which others wait in two of its calls.
     fn is_open_recursion(&self, running: &CallStack, called: ProgramId) -> bool {
         let depth = running.depth();
         let waits =

@@ -58,7 +58,7 @@ pub(crate) struct MachineQuestion {
 }
 
 impl MachineQuestion {
-    /// The key of equal questions, if only the program writes the values that it reads.
+    /// Returns the key of equal questions, if only the program writes the values that it reads.
     fn key(&self) -> Option<&Arc<ConditionMeaning>> {
         let asking = self.reads.as_ref();
         let asking = asking.filter(|asking| asking.writer == Writer::Nothing)?;
@@ -96,7 +96,7 @@ impl Goal {
         }
     }
 
-    /// A block.
+    /// Returns a block.
     pub(crate) fn block(to: EntryIndex) -> Self {
         Self {
             to,
@@ -107,7 +107,7 @@ impl Goal {
         }
     }
 
-    /// The way continues at any of the jump labels, which stand in the order of the text; `None` without a label.
+    /// Continues the way at any of the jump labels, which stand in the order of the text; `None` without a label.
     pub(crate) fn any(labels: Vec<EntryIndex>) -> Option<Self> {
         let first = *labels.first()?;
         Some(Self {
@@ -117,7 +117,7 @@ impl Goal {
     }
 }
 
-/// The answers to a condition, by their number.
+/// Returns the answers to a condition, by their number.
 pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayAnswer> {
     let of = u8::try_from(count).unwrap_or(u8::MAX);
     (0..count).map(move |place| WayAnswer {
@@ -128,8 +128,8 @@ pub(crate) fn answers(condition: u32, count: usize) -> impl Iterator<Item = WayA
 }
 
 impl Executor {
-    /// The run parts at a question: one way for each answer. A further question of a block is asked where the answers to
-    /// those before it let the run go on. Returns whether it parts; it does not where one way is followed that the
+    /// Parts the run at a question: one way for each answer. A further question of a block is asked where the answers
+    /// to those before it let the run go on. Returns whether it parts; it does not where one way is followed that the
     /// program itself decides, unless the PLC interferes.
     pub(crate) fn part(
         &mut self,
@@ -184,8 +184,8 @@ impl Executor {
         true
     }
 
-    /// The ways on which each goal is reached. Beyond the number of answers that a question may have, the last one stands
-    /// for all others; beyond that of conditions, the ways are not told apart.
+    /// Returns the ways on which each goal is reached. Beyond the number of answers that a question may have, the last
+    /// one stands for all others; beyond that of conditions, the ways are not told apart.
     fn answers_to(
         &mut self,
         question: MachineQuestion,
@@ -223,7 +223,7 @@ impl Executor {
         }
     }
 
-    /// The ways on which the program ends at the block, and those on which it goes on.
+    /// Returns the ways on which the program ends at the block, and those on which it goes on.
     pub(crate) fn part_at_end(
         &mut self,
         question: MachineQuestion,
@@ -246,7 +246,8 @@ impl Executor {
         [ends, goes_on].map(|answer| reach.and(&WaySet::of(answer)))
     }
 
-    /// The answer that was chosen beforehand, or that an earlier one implies; without either, offers the answers.
+    /// Returns the answer that was chosen beforehand, or that an earlier one implies; without either, offers the
+    /// answers.
     fn chosen_among(&mut self, answers: &[WaySet]) -> Option<WaySet> {
         if self.state.track.is_shadow() {
             return None;
@@ -265,7 +266,7 @@ impl Executor {
         None
     }
 
-    /// The number of the condition that a question asks for.
+    /// Returns the number of the condition that a question asks for.
     fn ask(
         &mut self,
         question: MachineQuestion,
@@ -354,7 +355,7 @@ impl Executor {
         }
     }
 
-    /// The states of a kind on the ways that lead here: a test of it tells them apart (R14.1).
+    /// Parts the states of a kind on the ways that lead here: a test of it tells them apart (R14.1).
     pub(crate) fn part_by_state(
         &mut self,
         (axis, kind): (AxisIndex, Kind),
@@ -378,12 +379,12 @@ impl Executor {
 }
 
 impl RunState {
-    /// Whether ways may name a further condition.
+    /// Returns whether ways may name a further condition.
     pub(crate) fn can_ask(&self) -> bool {
         self.conditions.len() + 1 < MAX_CONDITIONS
     }
 
-    /// Whether the condition was asked before at the same place, and its value not written since.
+    /// Returns whether the condition was asked before at the same place, and its value not written since.
     fn is_asked_again(&self, place: usize) -> bool {
         let RunState {
             track, conditions, ..
@@ -398,7 +399,7 @@ impl RunState {
         })
     }
 
-    /// The number of a condition of which no way knows the answer yet.
+    /// Returns the number of a condition of which no way knows the answer yet.
     pub(crate) fn ask_anew(&mut self, wanted: Condition) -> u32 {
         let condition = self.condition_at(wanted);
         self.track.reach.havoc(condition);
@@ -406,7 +407,7 @@ impl RunState {
         condition
     }
 
-    /// The condition of a question: a new one, or one of this place that no way names any more.
+    /// Returns the condition of a question: a new one, or one of this place that no way names any more.
     fn condition_at(&mut self, mut wanted: Condition) -> u32 {
         let mut last = None;
         for (number, known) in (0..).zip(&self.conditions) {
@@ -437,7 +438,7 @@ impl Executor {
         self.state.track.searching.is_some()
     }
 
-    /// FC413: the program ended before the block at which it was to be started.
+    /// Returns FC413: the program ended before the block at which it was to be started.
     pub(crate) fn missed_search(&self) -> Option<Diagnostic> {
         let wanted = self.options.search.filter(|_| self.is_searching())?;
         let start = || {
@@ -512,7 +513,7 @@ impl Executor {
         self.join_earlier(condition, before);
     }
 
-    /// The states are those of an earlier block where a condition does not hold.
+    /// Joins the states of an earlier block where a condition does not hold.
     pub(crate) fn join_earlier(&mut self, condition: u32, earlier: &EarlierStates) {
         let reach = &self.state.track.reach;
         let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
@@ -545,7 +546,7 @@ impl Executor {
         axes.flat_map(of_axis).collect()
     }
 
-    /// FC413: a state that depends on what the block search does.
+    /// Returns FC413: a state that depends on what the block search does.
     fn open_search(
         &self,
         (axis, kind): (AxisIndex, Kind),
@@ -592,7 +593,7 @@ pub(crate) enum Doubt {
 }
 
 impl Doubt {
-    /// The doubt about a value that is not known.
+    /// Returns the doubt about a value that is not known.
     pub(crate) fn of(value: &Value) -> Option<Self> {
         match value {
             Value::Unknown(cause) => Some(Self::Unknown(cause.clone())),
@@ -600,7 +601,7 @@ impl Doubt {
         }
     }
 
-    /// The value that decides.
+    /// Returns the value that decides.
     pub(crate) fn cause(&self) -> Unknown {
         match self {
             Self::Unknown(cause) => cause.clone(),
@@ -611,7 +612,7 @@ impl Doubt {
         }
     }
 
-    /// The answer that the program set, by its place among the answers.
+    /// Returns the answer that the program set, by its place among the answers.
     pub(crate) fn kept_answer(&self, place: impl FnOnce(&Value) -> usize) -> Option<KeptAnswer> {
         let Self::Kept(kept) = self else {
             return None;
@@ -625,7 +626,7 @@ impl Doubt {
 }
 
 impl Executor {
-    /// Whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
+    /// Returns whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
     /// P-CHAN-00041, P-CHAN-00027.
     pub(crate) fn may_acknowledge(&self, letter: u8, number: Option<i64>) -> bool {
         let number = number.and_then(|number| u32::try_from(number).ok());
@@ -640,7 +641,7 @@ impl Executor {
         !is_silent || self.state.control.memory.variable(&set).is_some()
     }
 
-    /// Whether the PLC acts by design at a word that may be executed: an M or H function but an end, a dwell.
+    /// Returns whether the PLC acts by design at a word that may be executed: an M or H function but an end, a dwell.
     pub(crate) fn lets_plc_act_at(&self, letter: u8, number: Option<i64>) -> bool {
         match letter {
             b'M' if matches!(number, Some(2 | 17 | 29 | 30)) => false,
@@ -650,7 +651,7 @@ impl Executor {
         }
     }
 
-    /// The PLC acts by design: every value that the program shares with it may be another one.
+    /// Lets the PLC act by design: every value that the program shares with it may be another one.
     #[inline]
     pub(crate) fn let_plc_act(&mut self) {
         let RunState { control, track, .. } = &self.state;
@@ -660,7 +661,7 @@ impl Executor {
         }
     }
 
-    /// The PLC may write variables.
+    /// Lets the PLC write variables.
     #[cold]
     pub(crate) fn let_plc_write(&mut self, is_it: impl Fn(&VariableName) -> bool) {
         let RunState { control, track, .. } = &mut self.state;
@@ -672,7 +673,7 @@ impl Executor {
         }
     }
 
-    /// The value of a condition, and what the program set that decides it.
+    /// Returns the value of a condition, and what the program set that decides it.
     pub(crate) fn asked_value(
         &mut self,
         condition: Operand,
@@ -708,7 +709,7 @@ impl Executor {
         Ok((value, kept))
     }
 
-    /// The value of the condition of a loop: the PLC may write the variables that it asks for.
+    /// Returns the value of the condition of a loop: the PLC may write the variables that it asks for.
     pub(crate) fn loop_value(
         &mut self,
         condition: Operand,
@@ -727,8 +728,8 @@ impl Executor {
         self.value(condition, at)
     }
 
-    /// A value of the machine has another answer each time: what earlier conditions said of those that this one asks for
-    /// does not decide it (R14.1).
+    /// Asks a condition on a value of the machine anew, which has another answer each time: what earlier conditions
+    /// said of the values that this one asks for does not decide it (R14.1).
     fn ask_anew(&mut self, condition: Operand, at: &BlockContext<'_>) {
         let RunState { control, track, .. } = &mut self.state;
         if let Operand::Expression(expression) = condition
@@ -751,7 +752,7 @@ impl Executor {
 }
 
 impl Executor {
-    /// Whether only the machine has the program.
+    /// Returns whether only the machine has the program.
     pub(crate) fn is_external(&self, wanted: &WantedCall) -> bool {
         wanted.word.is_some()
             || wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)

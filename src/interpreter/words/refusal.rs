@@ -1,6 +1,6 @@
-//! What the control refuses, and the ways that end with it: `#ERROR` (R2.100; PM/207457163), blocks that it may refuse (R2.114),
-//! and errors, each with the state that it leaves (R14.5, R18.10). Unknown values that decide are reported with their origins
-//! (R2.95).
+//! Refusals of the control, and the ways that end with them: `#ERROR` (R2.100; PM/207457163), blocks that it may refuse
+//! (R2.114), and errors, each with the state that it leaves (R14.5, R18.10). Unknown values that decide are reported
+//! with their origins (R2.95).
 
 use std::sync::Arc;
 
@@ -30,19 +30,19 @@ use crate::text::Span;
 /// The remedy class of a system error, after which the control is restarted, or reset (tf5200, 15557035659).
 const SYSTEM_ERROR: f64 = 7.0;
 
-/// What is known of the remedy class.
+/// Knowledge of a remedy class.
 enum RemedyClass {
     Known(f64),
-    /// It is left out, and no default is documented.
+    /// Class left out, for which no default is documented.
     LeftOut,
-    /// Only the machine knows the value that decides.
+    /// Class that depends on a value known only to the machine.
     Unknown(Expression, Doubt),
 }
 
 /// The blocks to which it applies whether an error ends the program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum StopScope {
-    /// This block; each other one asks anew.
+    /// Only this block; each other one is decided anew.
     Block,
     /// This block and all later ones.
     Rest,
@@ -51,7 +51,7 @@ pub(crate) enum StopScope {
 }
 
 impl Executor {
-    /// The program reports an error of its own. With the class 0 it goes on.
+    /// Executes an error that the program reports by itself. With the class 0 it goes on.
     pub(crate) fn report_error(
         &mut self,
         hash: &Hash,
@@ -117,7 +117,7 @@ impl Executor {
         Ok(())
     }
 
-    /// An error ends the program where the first answer to a question is given. Returns whether it ends on all ways.
+    /// Ends the program by an error where the first answer to a question is given. Returns whether it ends on all ways.
     pub(crate) fn refused_where(
         &mut self,
         question: MachineQuestion,
@@ -165,7 +165,7 @@ impl Executor {
         })
     }
 
-    /// An error ends the program at the block, or it goes on, which only the machine knows: both ways are followed.
+    /// Follows both ways where only the machine knows whether an error ends the program at the block.
     pub(crate) fn perhaps_stop(
         &mut self,
         (error, scope): (Unknown, StopScope),
@@ -193,8 +193,8 @@ impl Executor {
         self.perhaps_end(ways, AfterError::Reset, at);
     }
 
-    /// The program ends here on some ways that lead to the block, and goes on on the others. Returns whether it ends on
-    /// all ways.
+    /// Ends the program here on some ways that lead to the block, and lets it go on on the others. Returns whether it
+    /// ends on all ways.
     fn perhaps_end(
         &mut self,
         [ends, goes_on]: [WaySet; 2],
@@ -224,7 +224,7 @@ impl Executor {
     }
 }
 
-/// FC318: the program reports an error of its own, with a remedy class that stops it.
+/// Returns FC318: the program reports an error of its own, with a remedy class that stops it.
 fn error_with(class: &str, span: Span, at: &BlockContext<'_>) -> Diagnostic {
     let message = format!("the control stops here: the program reports an error with {class}");
     let fault = Fault::new(Code::Fc318, span, message)
@@ -235,7 +235,7 @@ fn error_with(class: &str, span: Span, at: &BlockContext<'_>) -> Diagnostic {
 /// An error by which the control may refuse a block.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PossibleRefusal {
-    /// Its number, where that is public.
+    /// Number, where that is public.
     number: Option<u32>,
     /// The question whose readings decide.
     question: Option<Question>,
@@ -257,7 +257,7 @@ impl From<Option<u32>> for PossibleRefusal {
 }
 
 impl PossibleRefusal {
-    /// One about which readings decide.
+    /// Creates a refusal about which the readings of a question decide.
     pub(crate) fn asked(number: impl Into<Option<u32>>, question: Question) -> Self {
         Self {
             number: number.into(),
@@ -267,7 +267,7 @@ impl PossibleRefusal {
 }
 
 impl Executor {
-    /// FC328: the control may refuse the block with an error; once a program for each text.
+    /// Reports FC328: the control may refuse the block with an error; once a program for each text.
     #[cold]
     pub(crate) fn may_refuse(
         &mut self,
@@ -281,7 +281,7 @@ impl Executor {
         self.may_refuse_with(refusal, what, asked, span, at);
     }
 
-    /// FC328: something flushes the channel where the control may refuse that (R2.111).
+    /// Reports FC328: something flushes the channel where the control may refuse that (R2.111).
     pub(crate) fn check_flush(
         &mut self,
         flushes: Flushes,
@@ -308,7 +308,7 @@ impl Executor {
         self.may_refuse_with(refusal, &what, asked, span, at);
     }
 
-    /// FC328 for a variable that no `#VAR` declares: the control has one answer for all of them (R2.102).
+    /// Reports FC328 for a variable that no `#VAR` declares: the control has one answer for all of them (R2.102).
     #[cold]
     pub(crate) fn miss_declaration(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         let what = format!("`{name}` is written without a declaration in `#VAR`");
@@ -398,8 +398,8 @@ impl MentionedUnknowns {
 }
 
 impl Executor {
-    /// An error ends some of the ways that lead to the block: they end the program here. With
-    /// [`StopPolicy::KeepGoing`] nothing does, as if the failing command were not there (R9.20).
+    /// Ends some of the ways that lead to the block by an error, and with them the program. With
+    /// [`StopPolicy::KeepGoing`] they continue, as if the failing command were not there (R9.20).
     #[cold]
     pub(crate) fn stop_on(&mut self, ways: &WaySet, after: AfterError, at: &BlockContext<'_>) {
         if self.options.stop == StopPolicy::KeepGoing {
@@ -441,7 +441,8 @@ impl Executor {
         self.version += 1;
     }
 
-    /// Whether the control executes the COMP commands of a block that it refuses is not documented (R1.24).
+    /// Makes the COMP commands of a refused block uncertain: whether the control executes them is not documented
+    /// (R1.24).
     fn doubt_switches(&mut self) {
         for change in &self.scratch.changes {
             let kind = KindSet::of(change.kind);
@@ -453,8 +454,8 @@ impl Executor {
         }
     }
 
-    /// Where the run goes on after errors, one ends the program on all ways that lead to the block; what follows is
-    /// then executed as if the failing command were not there (R9.20).
+    /// Ends the program by an error on all ways that lead to the block; where the run goes on after errors, what
+    /// follows is executed as if the failing command were not there (R9.20).
     #[cold]
     pub(crate) fn fail(&mut self, after: AfterError, at: &BlockContext<'_>) {
         if self.options.stop == StopPolicy::CheckAll && self.state.track.failed.is_none() {
@@ -465,7 +466,7 @@ impl Executor {
         }
     }
 
-    /// The same where a message on the block is about an error of the control.
+    /// Ends the program in the same way where a message on the block is about an error of the control.
     #[cold]
     pub(crate) fn fail_if_refused(&mut self, at: &BlockContext<'_>) {
         let mut said = self.scratch.messages.diagnostics.iter();
@@ -474,7 +475,7 @@ impl Executor {
         }
     }
 
-    /// The way that leads here ends the program.
+    /// Returns the way that leads here as one on which the program ends.
     pub(crate) fn ended_path(&mut self, by: EndedBy) -> EndedPath {
         let mut path = self.state.leave_path();
         path.track.assumed.undo(&mut path.control.memory);
@@ -487,7 +488,7 @@ impl Executor {
         }
     }
 
-    /// Only after a reset does the next program run (R1.28).
+    /// Resets the control after an error, without which the next program does not run (R1.28).
     pub(crate) fn reset_after_stop(&mut self) {
         let start_up = self.machine.compensation();
         let compensation = &self.state.control.compensation;
@@ -505,8 +506,8 @@ impl Executor {
         self.scratch.changes.truncate(changes);
     }
 
-    /// The ways on which the channel is reset after the error, and those on which the control is restarted, where that
-    /// leaves another state (R1.28, R1.29).
+    /// Returns the ways on which the channel is reset after the error, and those on which the control is restarted,
+    /// where that leaves another state (R1.28, R1.29).
     fn sides_after(
         &mut self,
         ways: &WaySet,
@@ -532,7 +533,7 @@ impl Executor {
     }
 }
 
-/// What comes between an error and the next program.
+/// Action required between an error and the next program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum NextStart {
     Reset,

@@ -1,4 +1,4 @@
-//! What is said about a command at its place: FC402, FC405 and FC408.
+//! Messages on a command at its place: FC402, FC405 and FC408.
 
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
@@ -6,7 +6,8 @@ use crate::interpreter::Executed;
 use crate::lint::linter::{Linter, Taken};
 use crate::lint::memory::place;
 
-/// FC402: a command that repeats an earlier one of the program, or switches off a kind that is not configured (R1.51, R18.3).
+/// Returns FC402: a command that repeats an earlier one of the program, or switches off a kind that is not configured
+/// (R1.51, R18.3).
 pub(super) fn repeated(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
     let command = &taken.outcome.command;
@@ -64,7 +65,7 @@ pub(super) fn repeated(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnos
     })
 }
 
-/// Whether the machine is known to lack a kind on the axis.
+/// Returns whether the machine is known to lack a kind on the axis.
 fn is_unconfigured(linter: &Linter<'_>, taken: &Taken<'_>, kind: Kind) -> bool {
     let compensation = taken.executed.compensation;
     linter.machine.axis(taken.axis).is_described() && !compensation.is_configured(taken.axis, kind)
@@ -80,7 +81,7 @@ fn what(selection: Selection) -> String {
     }
 }
 
-/// FC408: a command to an axis that is not described, whose effect is therefore not known (R1.37, R18.2).
+/// Returns FC408: a command to an axis that is not described, whose effect is therefore not known (R1.37, R18.2).
 pub(super) fn undescribed(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let command = &taken.outcome.command;
     let axis = linter.machine.axis(taken.axis);
@@ -100,7 +101,7 @@ pub(super) fn undescribed(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diag
     )
 }
 
-/// FC405: the command takes effect before the motion of its block (R1.9, R1.55).
+/// Returns FC405: the command takes effect before the motion of its block (R1.9, R1.55).
 pub(super) fn shared_block(executed: &Executed<'_>) -> Option<Diagnostic> {
     if executed.moved.is_empty() {
         return None;

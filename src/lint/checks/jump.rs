@@ -88,7 +88,7 @@ impl Linter<'_> {
     }
 }
 
-/// Whether the current of an axis differs between two states.
+/// Returns whether the current of an axis differs between two states.
 fn matters(from: State, to: State) -> bool {
     from != to
         && (from == State::Active || to == State::Active)
@@ -96,7 +96,7 @@ fn matters(from: State, to: State) -> bool {
         && to != State::Unknown
 }
 
-/// Whether feed moves are modal.
+/// Returns whether feed moves are modal.
 fn is_feed(executed: &Executed<'_>) -> bool {
     executed.modal.functions.is_feed_move()
 }
@@ -108,13 +108,13 @@ enum ArcEnd {
     Last,
 }
 
-/// Whether an axis belongs to the plane of an arc.
+/// Returns whether an axis belongs to the plane of an arc.
 fn is_around(travel: &Travel, axis: AxisIndex) -> bool {
     matches!(travel.form, PathForm::Arc(arc) if arc.axes.contains(&axis))
 }
 
-/// Whether an axis of the plane moves to larger coordinates at an end of an arc; `None` if it reverses there, or the
-/// direction is unknown.
+/// Returns whether an axis of the plane moves to larger coordinates at an end of an arc; `None` if it reverses there,
+/// or the direction is unknown.
 fn tangent(travel: &Travel, axis: AxisIndex, end: ArcEnd) -> Option<bool> {
     let PathForm::Arc(arc) = travel.form else {
         return None;
@@ -154,7 +154,7 @@ fn rises(word: &AxisWord, executed: &Executed<'_>) -> Option<bool> {
     direction(word.from, position(word.axis, executed))
 }
 
-/// Whether an axis moves to larger coordinates; `None` if it is at rest, or the direction is unknown.
+/// Returns whether an axis moves to larger coordinates; `None` if it is at rest, or the direction is unknown.
 fn direction(from: Option<f64>, to: Option<f64>) -> Option<bool> {
     let way = to? - from?;
     (way.abs() > 1e-9).then_some(way > 0.0)

@@ -47,7 +47,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
             let parted = possible.filter(|it| !(is_lost && it.rests_on_calls()));
             let parted = parted.and(away);
             let known = command.filter(|_| end != State::Unknown);
-            // What is passed over may lead away, too.
+            // Blocks that are passed over may lead away, too.
             let doubted = ended.found.history.latest(axis, kind, KindEffect::Doubted);
             let doubted = away
                 .or(doubted)
@@ -83,7 +83,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
     found
 }
 
-/// Whether the program may end elsewhere than in the dry run.
+/// Returns whether the program may end elsewhere than in the dry run.
 fn has_other_ends(ended: &Ended<'_>) -> bool {
     ended.ends.iter().any(|end| end.cause.is_some())
 }
@@ -182,7 +182,7 @@ impl LeftAwayKind<'_> {
         Some((possible, states.find(|state| *state != start_up)?))
     }
 
-    /// Whether it is left away only if a machine value changes in the meantime (R14.1).
+    /// Returns whether it is left away only if a machine value changes in the meantime (R14.1).
     fn needs_change(&self) -> bool {
         let away = self.state_away();
         away.is_some_and(|(possible, away)| possible.needs_change(away))
@@ -208,7 +208,7 @@ impl LeftAwayKind<'_> {
         format!("{name}[COMP {way} {}]", self.kind.as_str())
     }
 
-    /// Whether the program writes the parameters of the kind, so that no command makes it known.
+    /// Returns whether the program writes the parameters of the kind, so that no command makes it known.
     fn is_rewritten(&self) -> bool {
         self.ends()
             .any(|end| end.compensation.rewritten(self.axis).contains(self.kind))

@@ -66,7 +66,7 @@ pub(crate) fn read_as(
     lowering.finish();
 }
 
-/// A block that is not read: the control may read it, so it may do anything (R2.70).
+/// Gives up a block that is not read: the control may read it, so it may do anything (R2.70).
 fn give_up(fault: Fault, block: &mut Block) {
     block
         .items
@@ -74,14 +74,15 @@ fn give_up(fault: Fault, block: &mut Block) {
     block.faults.push(fault);
 }
 
-/// The parser took too many steps, or too much of the stack.
+/// Returns the fault of a parser that took too many steps, or too much of the stack.
 fn too_much_to_read(span: Span) -> Fault {
     let message = "the block is not understood: reading it takes more steps than frictcomp allows";
     Fault::new(Code::Fc913, span, message).with_help("split the block into several")
 }
 
 impl BlockLowering<'_> {
-    /// A skip mark with a level that does not exist skips nothing: it is a mistake regardless of the switches (R2.3).
+    /// Reads a skip mark; one with a level that does not exist skips nothing: it is a mistake regardless of the
+    /// switches (R2.3).
     fn skip_mark(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let level = pair.into_inner().next();
         let named = level.map_or("1", |level| level.as_str());
@@ -175,7 +176,7 @@ pub(super) struct BlockLowering<'a> {
 }
 
 impl BlockLowering<'_> {
-    /// A label comes before everything else; a bracket after words is not a label (R2.70).
+    /// Reads a label, which comes before everything else; a bracket after words is not a label (R2.70).
     pub(super) fn label(&mut self, name: Span, span: Span) {
         if self.block.words.is_empty() && self.block.items.is_empty() {
             self.block.items.push(Item::Label(name));
@@ -184,7 +185,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// Text with the form of the language, but no known meaning (R2.70).
+    /// Records text with the form of the language, but no known meaning (R2.70).
     pub(super) fn unread(&mut self, effect: Effect, span: Span) {
         self.block.faults.push(not_known(span.of(self.code), span));
         self.block.items.push(Item::Unread(effect, span));
@@ -204,7 +205,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// Nothing follows a call in its block (TF5200 Diagnosis, error 21542).
+    /// Refuses whatever follows a call in its block (TF5200 Diagnosis, error 21542).
     fn refuse_after_call(&mut self) {
         let mut items = self.block.items.iter();
         let Some(Item::Call(call)) = items.find(|item| matches!(item, Item::Call(_))) else {
@@ -282,7 +283,7 @@ pub(super) fn span_of(pair: &Pair<'_, Rule>) -> Span {
     Span::new(span.start(), span.end())
 }
 
-/// The span without the blanks that pest leaves at its end.
+/// Returns the span without the blanks that pest leaves at its end.
 pub(super) fn trimmed(span: Span, code: &str) -> Span {
     let text = span.of(code);
     let length = text.trim_end_matches(is_blank).len();

@@ -36,7 +36,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// Only a skip mark may be before `#IF` and its parts (R2.73).
+    /// Refuses anything but a skip mark before `#IF` and its parts (R2.73).
     fn refuse_before_hash(&mut self, word: &str, span: Span) {
         let first = self.block.items.first();
         let label = first.filter(|item| matches!(item, Item::Label(_)));
@@ -131,7 +131,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// A condition that cannot be read: its control block opens all the same (R2.71).
+    /// Returns a condition that cannot be read: its control block opens all the same (R2.71).
     fn unread_condition(&mut self, rest: Span, word: &str) -> Expression {
         let rest = trimmed(rest, self.code);
         let shown = rest.of(self.code).trim();
@@ -154,15 +154,15 @@ impl BlockLowering<'_> {
         expression::unread(rest, self.block)
     }
 
-    /// P-ERR-20839: what follows `$GOTO` is no label (R2.103).
+    /// Returns P-ERR-20839: what follows `$GOTO` is no label (R2.103).
     fn no_target(&self, span: Span) -> Fault {
         let shown = span.of(self.code).trim();
         let message = format!("`{shown}` follows `$GOTO`, where only `[`, `N` or `V.E.` may stand");
         *Fault::refused(Code::PErr20839, span, message)
     }
 
-    /// An unknown statement: for the pairing, a misspelt one counts as the one that it means; any other
-    /// could be anything (R2.70).
+    /// Returns an unknown statement: for the pairing, a misspelt one counts as the one that it means; any other could
+    /// be anything (R2.70).
     fn unknown_statement(&mut self, word: &str, span: Span) -> Option<Flow> {
         let near = nearest(word, FLOW_WORDS);
         let Some(first) = near.first().filter(|_| word.len() > 1) else {
@@ -181,7 +181,7 @@ impl BlockLowering<'_> {
     }
 }
 
-/// The statement that a word opens, closes or parts, with a condition that could not be read.
+/// Returns the statement that a word opens, closes or parts, with a condition that could not be read.
 fn meant(word: &str, place: Expression, span: Span) -> Flow {
     let value = Operand::Expression(place);
     match word {
@@ -393,7 +393,7 @@ impl BlockLowering<'_> {
         }));
     }
 
-    /// `N10`, `[LABEL]`.
+    /// Returns `N10`, `[LABEL]`.
     fn jump_target(&mut self, pair: Pair<'_, Rule>) -> BlockReference {
         let is_label = pair.as_rule() == Rule::target_label;
         let inner = pair.into_inner().next();

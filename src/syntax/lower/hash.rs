@@ -36,7 +36,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// A command that may be among words.
+    /// Adds a command that may be among words.
     pub(super) fn hash_word(&mut self, span: Span) {
         self.hash(span);
         if let Some(Item::Hash(hash)) = self.block.items.last_mut() {
@@ -110,7 +110,7 @@ impl BlockLowering<'_> {
         }));
     }
 
-    /// The arguments at the start of the text after the words of a command.
+    /// Returns the arguments at the start of the text after the words of a command.
     fn arguments(&self, command: HashWords, behind: Span) -> Span {
         let is_argument = |pair: &Pair<'_, Rule>| match pair.as_rule() {
             Rule::hash_coordinate => command.arguments == HashArguments::Coordinates,
@@ -125,7 +125,7 @@ impl BlockLowering<'_> {
         trimmed(Span::new(start, start + length), self.code)
     }
 
-    /// Text in the same block as a command, which must be alone there (R2.47): the control may execute it.
+    /// Reports text in the same block as a command, which must be alone there (R2.47): the control may execute it.
     fn beside(&mut self, what: &str, span: Span) {
         let text = span.of(self.code);
         let from = span.start as usize + text.len() - text.trim_start_matches(is_blank).len();
@@ -149,7 +149,7 @@ impl BlockLowering<'_> {
             .push(Item::Unread(Effect::Everything, span));
     }
 
-    /// The command that ends a region must be alone, too.
+    /// Checks that the command that ends a region is alone, too.
     fn region_end(&mut self, region: Span) {
         let text = region.of(self.code);
         let Some(start) = text.rfind('\n') else {
@@ -165,7 +165,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// A `#` command that is in no table: it could do anything (R2.70).
+    /// Records a `#` command that is in no table: it could do anything (R2.70).
     fn unknown_hash(&mut self, name: &str, length: usize, span: Span) {
         let mut fault = not_known(name, span);
         let start = span.start as usize;
@@ -190,7 +190,7 @@ impl BlockLowering<'_> {
             .collect()
     }
 
-    /// The value of `RC` among the words of `#ERROR`.
+    /// Returns the value of `RC` among the words of `#ERROR`.
     fn remedy_class(&mut self, rest: Span) -> Option<Operand> {
         let words = NcParser::parse(Rule::error_words, rest.of(self.read)).ok()?;
         let mut words = words.flat_map(Pair::into_inner);
@@ -199,7 +199,7 @@ impl BlockLowering<'_> {
         Some(expression::lower(value, rest.start, self.block))
     }
 
-    /// The parameters and variables that a text names.
+    /// Returns the parameters and variables that a text names.
     fn places_in(&mut self, rest: Span) -> Vec<Target> {
         let text = rest.of(self.read);
         let mut places = Vec::new();
@@ -293,7 +293,7 @@ impl BlockLowering<'_> {
         })
     }
 
-    /// Initial values in row order; nested brackets only group them.
+    /// Adds initial values in row order; nested brackets only group them.
     fn initial(&mut self, pair: Pair<'_, Rule>, base: u32, values: &mut Vec<Operand>) {
         for part in pair.into_inner() {
             match part.as_rule() {

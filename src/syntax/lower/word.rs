@@ -43,7 +43,7 @@ impl BlockLowering<'_> {
         self.block.number = Some(BlockNumber { value, label, span });
     }
 
-    /// FC212: `X1E2` is X1 and a feed of 2 at the end of the block (R2.113; PM/206811147).
+    /// Reports FC212: `X1E2` is X1 and a feed of 2 at the end of the block (R2.113; PM/206811147).
     fn note_exponent(&mut self, span: Span) {
         let start = span.start as usize;
         let bytes = self.code.as_bytes();
@@ -97,7 +97,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// `N10` before plain words.
+    /// Reads `N10` before plain words.
     fn plain_number(&mut self, span: Span) {
         let value = self.plain_value(span);
         self.block.number = Some(BlockNumber {
@@ -107,7 +107,7 @@ impl BlockLowering<'_> {
         });
     }
 
-    /// A letter with a number after it.
+    /// Reads a letter with a number after it.
     pub(super) fn plain_word(&mut self, span: Span) {
         let letter = span.of(self.code).bytes().next().unwrap_or_default();
         let value = self.plain_value(span);
@@ -118,7 +118,7 @@ impl BlockLowering<'_> {
         });
     }
 
-    /// The number after the letter of a plain word.
+    /// Returns the number after the letter of a plain word.
     fn plain_value(&mut self, word: Span) -> Operand {
         let number = Span::new(word.start as usize + 1, word.end as usize);
         expression::lower_number(number.of(self.code), number, self.block)
@@ -300,7 +300,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// `S.POS180`
+    /// Reads `S.POS180`.
     pub(super) fn spindle_word(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let mut name = span;
         let mut value = None;
@@ -325,7 +325,7 @@ impl BlockLowering<'_> {
     }
 }
 
-/// The words of a bracket, separated by blanks.
+/// Returns the words of a bracket, separated by blanks.
 fn words(code: &str, body: Span) -> Vec<Span> {
     let text = body.of(code);
     let mut words = Vec::new();
@@ -362,7 +362,7 @@ fn invalid_keyword(span: Span, word: &str) -> Fault {
 }
 
 impl BlockLowering<'_> {
-    /// The arguments in a part of the block.
+    /// Returns the arguments in a part of the block.
     pub(super) fn arguments_in(&mut self, part: Span) -> BracketArguments {
         let mut arguments = Vec::new();
         let (mut group, mut item) = (0, 0);
@@ -408,7 +408,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// The value of an argument; none where it cannot be read.
+    /// Returns the value of an argument; none where it cannot be read.
     fn value_of(&mut self, pair: Pair<'_, Rule>, base: u32) -> Option<Operand> {
         let (said, nodes) = (self.block.faults.len(), self.block.nodes.len());
         let value = expression::lower(pair, base, self.block);
@@ -421,7 +421,7 @@ impl BlockLowering<'_> {
         None
     }
 
-    /// The words in the bracket of a spindle that are followed: `REV1200`, `REV=P1`, `M3`.
+    /// Returns the words in the bracket of a spindle that are followed: `REV1200`, `REV=P1`, `M3`.
     pub(super) fn spindle_words(&mut self, arguments: &BracketArguments) -> Vec<SpindleWord> {
         let mut words = Vec::new();
         for argument in arguments.iter() {
@@ -443,7 +443,7 @@ impl BlockLowering<'_> {
         words
     }
 
-    /// The value of a text that is one expression.
+    /// Returns the value of a text that is one expression.
     fn lone_value(&mut self, span: Span) -> Option<Operand> {
         let read = NcParser::parse(Rule::lone_expression, span.of(self.read)).ok()?;
         let value = read.flat_map(Pair::into_inner).next()?;
@@ -451,7 +451,7 @@ impl BlockLowering<'_> {
     }
 }
 
-/// The text after some letters, in either case.
+/// Returns the text after some letters, in either case.
 fn after_letters<'a>(word: &'a str, letters: &str) -> Option<&'a str> {
     let (start, rest) = word.split_at_checked(letters.len())?;
     start.eq_ignore_ascii_case(letters).then_some(rest)

@@ -1,4 +1,4 @@
-//! What lists give to motion and to later loads, and lists that are too long for a document.
+//! Use of lists in motion and in later loads, and lists that are too long for a document.
 
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::FeedUnit;

@@ -7,7 +7,7 @@ use super::program::{AXES, KINDS, Program};
 /// A message: program, executed block, line, code, axis.
 pub(crate) type Said = (usize, u64, u32, &'static str, &'static str);
 
-/// Whether the machine has a kind on an axis.
+/// Returns whether the machine has a kind on an axis.
 fn has(axis: usize, kind: usize) -> bool {
     matches!(
         (AXES[axis], KINDS[kind]),
@@ -15,7 +15,7 @@ fn has(axis: usize, kind: usize) -> bool {
     )
 }
 
-/// The state at the start of the control: CROSS has manual activation.
+/// Returns the state at the start of the control: CROSS has manual activation.
 fn start_up(axis: usize, kind: usize) -> bool {
     has(axis, kind) && KINDS[kind] != "CROSS"
 }

@@ -13,8 +13,8 @@ pub(crate) const AXES: &[&str] = Profile::EXECUTED.axes;
 /// Kinds that commands name.
 pub(crate) const KINDS: &[&str] = Profile::EXECUTED.kinds;
 
-/// The machine of the other tests, where X has all three kinds, of which CROSS is switched off at program
-/// end, and Z has LEAD.
+/// Returns the machine of the other tests, where X has all three kinds, of which CROSS is switched off at program end,
+/// and Z has LEAD.
 pub(crate) fn machine_text() -> String {
     let x = "compensations = [\"FRICT\", \"LEAD\", \"CROSS\"]\nmanual_activation = [\"CROSS\"]";
     MACHINE
@@ -22,7 +22,7 @@ pub(crate) fn machine_text() -> String {
         .replace("name = \"Z\"", "name = \"Z\"\ncompensations = [\"LEAD\"]")
 }
 
-/// The machine of the other tests, read.
+/// Returns the machine of the other tests, read.
 pub(crate) fn machine() -> Machine {
     Machine::from_toml(&machine_text()).expect("the machine")
 }
@@ -38,7 +38,7 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// A program with loops and a local subprogram.
+    /// Returns a program with loops and a local subprogram.
     pub(crate) fn random(choices: &mut Choices<'_>) -> Self {
         let mut tree = NcProgram::choose(&Profile::EXECUTED, choices);
         let text = tree.write(Style::default());
@@ -49,7 +49,7 @@ impl Program {
     }
 }
 
-/// A block without commands and motions, in whose line nothing can be said.
+/// Returns a block without commands and motions, in whose line nothing can be said.
 fn plain(line: u32) -> Executed {
     (line, CompBlock::default())
 }

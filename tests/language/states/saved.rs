@@ -44,7 +44,7 @@ fn it_says_who_made_a_state() {
     );
 }
 
-/// The output of a resumed session about a changed state.
+/// Returns the output of a resumed session about a changed state.
 fn refusal(change: impl FnOnce(&mut SavedState)) -> String {
     let mut saved = left_off().save();
     change(&mut saved);

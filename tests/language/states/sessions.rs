@@ -103,7 +103,7 @@ fn random_sessions_say_what_the_rules_say() {
     }
 }
 
-/// The records of the last program as bytes, without its number.
+/// Returns the records of the last program as bytes, without its number.
 fn last_records(session: &mut Session, program: (&str, &str)) -> String {
     let mut bytes = Vec::new();
     let view = View::default().with_kinds(KindSet::ALL);

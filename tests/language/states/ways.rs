@@ -29,7 +29,7 @@ impl Sink for Messages {
     }
 }
 
-/// The messages of programs that run one after another, `warning FC401 2 …`.
+/// Returns the messages of programs that run one after another, `warning FC401 2 …`.
 fn said(bench: &Bench, programs: &[&str]) -> String {
     let mut session = bench.session();
     let files = bench.files.clone();
@@ -145,7 +145,7 @@ fn a_state_on_too_many_ways_is_named_without_them() {
     );
 }
 
-/// A machine that alone has the programs `*.ecy`.
+/// Returns a machine that alone has the programs `*.ecy`.
 fn with_external() -> Bench {
     Bench::on(&format!("[machine]\nexternal = [\"*.ecy\"]\n{MACHINE}"))
 }

@@ -33,7 +33,7 @@ fn run(bench: &Bench, program: &str) -> Session {
     session
 }
 
-/// Every combination of values below a number of each variable, and of the skip level.
+/// Returns every combination of values below a number of each variable, and of the skip level.
 fn all_answers(variables: &[(&str, u32)]) -> Vec<Answers> {
     let count: u32 = variables.iter().map(|(_, below)| below).product();
     let answers = (0..2 * count).map(|number| {
@@ -59,7 +59,7 @@ impl Answers {
             .fold(bench, |bench, (name, value)| bench.set(name, *value))
     }
 
-    /// Whether a condition `V.E.A == 1`, or one of several, is true.
+    /// Returns whether a condition `V.E.A == 1`, or one of several, is true.
     #[allow(clippy::float_cmp)] // whole numbers are exact
     fn holds(&self, text: &str) -> bool {
         text.split(" || ").any(|text| {
@@ -87,7 +87,7 @@ impl Answers {
         }
     }
 
-    /// The state to which the ways lead that have these answers.
+    /// Returns the state to which the ways lead that have these answers.
     fn state(&self, possible: &PossibleStates) -> State {
         let leads = |ways: &Vec<Vec<WayCondition>>| {
             let mut ways = ways.iter();

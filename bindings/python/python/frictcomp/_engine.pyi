@@ -175,7 +175,7 @@ class Message:
     def message(self) -> str: ...
     @property
     def help(self) -> list[str]:
-        """What to do."""
+        """Advice."""
     @property
     def ends(self) -> list[End]:
         """The ends of the program that a message about program end refers to."""
@@ -187,7 +187,7 @@ class Message:
         """The main programs that reach the place of the message in a called program, at most 20."""
     @property
     def reached_from_count(self) -> int:
-        """How many main programs reach it."""
+        """Number of main programs that reach it."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -229,7 +229,7 @@ class Messages:
 
 @final
 class ProgramRun:
-    """How a program of a run went."""
+    """Course of a program of a run."""
 
     @property
     def program(self) -> int:
@@ -241,13 +241,13 @@ class ProgramRun:
         """The name after ``%``."""
     @property
     def by(self) -> str | None:
-        """Why it ended: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
+        """Cause of the end: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
 
         None if an interrupt or the end of the session came first.
         """
     @property
     def blocks(self) -> int:
-        """How many blocks were executed."""
+        """Number of executed blocks."""
     @property
     def start(self) -> dict[str, _State]:
         """Friction compensation before its first block, by axis."""
@@ -285,7 +285,7 @@ class Timeline:
     def programs(self) -> list[ProgramRun]: ...
     @property
     def unrun(self) -> int:
-        """How many programs did not run because an earlier one stopped the session."""
+        """Number of programs that did not run because an earlier one stopped the session."""
     @property
     def friction(self) -> dict[str, _State]:
         """Friction compensation of each axis at the end."""
@@ -297,7 +297,7 @@ class Timeline:
         """The state with which the next run starts."""
     @property
     def opaque(self) -> dict[str, int]:
-        """What was accepted and passed over, with its count."""
+        """Elements that were accepted and passed over, with their counts."""
     @property
     def is_assumed(self) -> bool:
         """Whether the states rest on an assumption (FC210, FC325, FC902)."""
@@ -311,7 +311,7 @@ class Timeline:
     def _repr_html_(self) -> str:
         """The state bars of its first programs, for notebooks."""
     def __len__(self) -> int:
-        """How many blocks were executed."""
+        """Number of executed blocks."""
     def __bool__(self) -> Literal[True]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
@@ -339,7 +339,7 @@ class State:
 
 @final
 class Limits:
-    """What a dry run skips and where it ends; the defaults are those of the command line.
+    """Limits of a dry run; the defaults are those of the command line.
 
     ``blocks`` bounds the executed blocks, ``work`` what macros, strings and unknown conditions cost
     beyond them, ``values`` the values that a program keeps; ``calls``, ``nesting`` and ``macros``
@@ -428,7 +428,7 @@ class Currents:
     def axes(self) -> list[str]: ...
     @property
     def messages(self) -> Messages:
-        """What stopped the program or the trace, and what the trace simplifies."""
+        """Causes that stopped the program or the trace, and simplifications of the trace."""
     @property
     def left_out(self) -> int:
         """The number of motions that are not in the trace, because their start or end is not known."""
@@ -443,7 +443,7 @@ class Currents:
         """Iterates over the names of the axes."""
     def __getitem__(self, key: str, /) -> AxisCurrent: ...
     def __len__(self) -> int:
-        """How many cycles there are."""
+        """Number of cycles."""
     def __bool__(self) -> Literal[True]: ...
 
 @final
@@ -510,7 +510,7 @@ class Contour:
         """The feed that is reached, and what the figures rest on: a sentence each."""
     @property
     def messages(self) -> Messages:
-        """What stopped the program or the trace, and what the trace simplifies."""
+        """Causes that stopped the program or the trace, and simplifications of the trace."""
     def svg(self) -> str:
         """The picture of the path with its magnified deviation, as ``frictcomp contour --svg`` draws it."""
     def _repr_html_(self) -> str:

@@ -107,7 +107,7 @@ impl PyCurrents {
             .collect()
     }
 
-    /// What stopped the program or the trace, and what the trace simplifies.
+    /// Causes that stopped the program or the trace, and simplifications of the trace.
     #[getter]
     fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
         self.messages.clone_ref(py)

@@ -40,7 +40,7 @@ pub(crate) use axis::PyAxisCurrent;
 pub(crate) use currents::PyCurrents;
 pub(crate) use recording::current_of_recording;
 
-/// What is computed, independent of Python.
+/// Input of a computation, independent of Python.
 struct ProgramsJob {
     programs: GivenPrograms,
     machine: MachineOptions,

@@ -19,7 +19,7 @@ use crate::identify::given_units;
 use crate::words::{meant, seconds};
 use crate::work::interruptible;
 
-/// What is computed, independent of Python.
+/// Input of a computation, independent of Python.
 struct RecordingJob {
     recording: PathBuf,
     value_list: PathBuf,

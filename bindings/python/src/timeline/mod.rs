@@ -28,7 +28,7 @@ pub(crate) use rows::ShownColumns;
 /// The number of programs that a notebook shows at once.
 const SHOWN: usize = 20;
 
-/// How a program of a run went.
+/// Course of a program of a run.
 #[pyclass(frozen, get_all, name = "ProgramRun", module = "frictcomp")]
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct PyProgramRun {
@@ -37,11 +37,11 @@ pub(crate) struct PyProgramRun {
     file: String,
     /// The name after ``%``.
     name: Option<String>,
-    /// Why it ended: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
+    /// Cause of the end: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
     ///
     /// None if an interrupt or the end of the session came first.
     by: Option<PickledWord>,
-    /// How many blocks were executed.
+    /// Number of executed blocks.
     blocks: u64,
     /// Friction compensation before its first block, by axis.
     start: BTreeMap<String, PickledWord>,
@@ -90,7 +90,7 @@ pub(crate) struct PyTimeline {
 }
 
 impl PyTimeline {
-    /// What was recorded.
+    /// Creates the timeline of a recorded session.
     pub(crate) fn new(
         py: Python<'_>,
         (recorded, table, said): (RecordedSession, ArrowTable, GivenMessages),
@@ -180,7 +180,7 @@ impl PyTimeline {
         self.recorded.state.clone()
     }
 
-    /// What was accepted and passed over, with its count.
+    /// Elements that were accepted and passed over, with their counts.
     #[getter]
     fn opaque(&self) -> BTreeMap<String, u64> {
         self.recorded.opaque.clone()
@@ -192,7 +192,7 @@ impl PyTimeline {
         self.recorded.is_assumed
     }
 
-    /// How many programs did not run because an earlier one stopped the session.
+    /// Number of programs that did not run because an earlier one stopped the session.
     #[getter]
     fn unrun(&self) -> usize {
         self.recorded.unrun

@@ -45,7 +45,7 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    /// Nothing yet.
+    /// Creates an empty recorder.
     pub(crate) fn new(shown: ShownColumns, stop: &Stop) -> Self {
         Self {
             rows: BlockRows::new(shown),
@@ -58,7 +58,7 @@ impl Recorder {
         }
     }
 
-    /// What was recorded, with the state at the end and how many programs did not run.
+    /// Returns what was recorded, with the state at the end and the number of programs that did not run.
     pub(crate) fn finish(
         self,
         end: StateView<'_>,

@@ -33,7 +33,7 @@ pub(crate) struct ShownColumns {
     pub(crate) positions: bool,
 }
 
-/// All blocks so far.
+/// Rows of all blocks so far.
 pub(crate) struct BlockRows {
     shown: ShownColumns,
     files: Files,
@@ -49,7 +49,7 @@ pub(crate) struct BlockRows {
 struct Files {
     names: Vec<String>,
     numbers: HashMap<String, i32>,
-    /// That of the last block: most blocks follow one of the same file.
+    /// File of the last block: most blocks follow one of the same file.
     last: i32,
 }
 
@@ -72,7 +72,7 @@ struct Batch {
     branch: StringBuilder,
 }
 
-/// What the blocks changed.
+/// Changes made by the blocks.
 #[derive(Default)]
 struct Changes {
     ends: Vec<i32>,
@@ -107,7 +107,7 @@ impl Files {
 }
 
 impl BlockRows {
-    /// No block yet.
+    /// Creates empty rows.
     pub(crate) fn new(shown: ShownColumns) -> Self {
         Self {
             shown,
@@ -261,7 +261,7 @@ struct BatchColumns {
     schema: SchemaRef,
     /// The axes that have a column.
     axes: Vec<usize>,
-    /// How many kinds each of them has.
+    /// Number of kinds of each axis.
     kinds: usize,
     positions: bool,
     files: Arc<StringArray>,

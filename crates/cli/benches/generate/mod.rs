@@ -8,7 +8,7 @@ const COMP_EVERY: u32 = 1000;
 /// One block in so many is damaged in a [`Shape::Damaged`] program.
 const DAMAGED_EVERY: u32 = 100;
 
-/// What a program looks like.
+/// Form of a generated program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
     /// Plain motion of X, Y and Z, with a COMP command every 1000 blocks.
@@ -22,7 +22,7 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
-    /// The shape that a name means.
+    /// Returns the shape that a name means.
     pub(crate) fn from_name(name: &str) -> Option<Self> {
         let all = [Self::ThreeAxes, Self::FiveAxes, Self::Damaged, Self::Loop];
         all.into_iter().find(|shape| format!("{shape:?}") == name)
@@ -54,7 +54,7 @@ impl Shape {
     }
 }
 
-/// Four executed blocks a pass.
+/// Writes a loop with four executed blocks a pass.
 fn write_loop(passes: u32, out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
@@ -74,7 +74,7 @@ impl Path {
         }
     }
 
-    /// The next number of a xorshift generator.
+    /// Returns the next number of a xorshift generator.
     fn next(&mut self) -> u64 {
         self.state ^= self.state << 13;
         self.state ^= self.state >> 7;

@@ -70,7 +70,7 @@ pub(crate) struct TorqueChannel {
 }
 
 impl TorqueChannel {
-    /// Whether each axis has a channel of its own.
+    /// Returns whether each axis has a channel of its own.
     pub(crate) fn is_of_each(&self) -> bool {
         self.torque.len() > 1 || self.torque.iter().any(PerAxis::is_pattern)
     }

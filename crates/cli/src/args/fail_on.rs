@@ -60,7 +60,7 @@ impl FailOnWord {
     }
 }
 
-/// What gives exit status 1 (R18.1).
+/// Messages that give exit status 1 (R18.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct FailOn {
     least: Option<Severity>,
@@ -78,7 +78,7 @@ impl FailOn {
         }
     }
 
-    /// Whether this severity gives the status 1.
+    /// Returns whether this severity gives the status 1.
     pub(crate) fn counts(self, severity: Severity) -> bool {
         self.least.is_some_and(|least| severity >= least)
     }

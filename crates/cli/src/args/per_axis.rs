@@ -18,12 +18,12 @@ impl From<OsString> for PerAxis {
 }
 
 impl PerAxis {
-    /// Whether `%` stands for the name of the axis in it.
+    /// Returns whether `%` stands for the name of the axis in it.
     pub(crate) fn is_pattern(&self) -> bool {
         self.0.to_string_lossy().contains('%')
     }
 
-    /// Whether it names an axis.
+    /// Returns whether it names an axis.
     pub(crate) fn is_of(&self, axis: &str) -> bool {
         self.parts().is_some_and(|(name, _)| name == axis)
     }

@@ -13,12 +13,12 @@ pub(crate) struct Meant {
     report: Option<PathBuf>,
 }
 
-/// How the command was started.
+/// Way in which the command was started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Invocation {
-    /// By a shell or another program.
+    /// Start by a shell or another program.
     Typed,
-    /// By a file dropped on it: its console closes with it.
+    /// Start by a file dropped on it: its console closes with it.
     Dropped,
 }
 
@@ -69,7 +69,7 @@ impl Meant {
     }
 }
 
-/// Whether an argument is a file, or looks like the path of one; `run` reports a missing file.
+/// Returns whether an argument is a file, or looks like the path of one; `run` reports a missing file.
 fn is_meant_as_file(path: &Path) -> bool {
     let is_option = path.to_string_lossy().starts_with('-');
     let is_written_so = path.extension().is_some() || path.components().count() > 1;

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use glob::{MatchOptions, glob_with};
 
-/// Upper and lower case are the same, and a wildcard does not match a path separator.
+/// Options that match file names as Windows does: upper and lower case are the same, and a wildcard does not match a
+/// path separator.
 const AS_WINDOWS: MatchOptions = MatchOptions {
     case_sensitive: false,
     require_literal_separator: true,

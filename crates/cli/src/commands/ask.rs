@@ -52,7 +52,7 @@ pub(crate) struct ReadArgs {
     /// The axis of the recordings; by default the first one with P-AXIS-00522 = 1
     #[arg(long, value_name = "AXIS")]
     axis: Option<String>,
-    // That of the additive current, by default `frict_comp.output` of the axis.
+    // The channel of the additive current, by default `frict_comp.output` of the axis.
     #[command(flatten)]
     torque: TorqueChannel,
     #[command(flatten)]

@@ -91,7 +91,7 @@ fn show(args: &ShowArgs, console: Console) -> Result<u8, Failure> {
     })
 }
 
-/// The programs that only the machine has, and what they keep.
+/// Appends the programs that only the machine has, and what they keep.
 fn append_external(output: &mut String, machine: &Machine) {
     let programs = &machine.programs;
     if !programs.external.is_empty() {

@@ -159,7 +159,7 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
     Ok(listing.status())
 }
 
-/// Whether a report is about a single list, not about a configuration.
+/// Returns whether a report is about a single list, not about a configuration.
 fn is_alone(report: &ListsReport) -> bool {
     let mut files = report.files.iter();
     !files.any(|file| is_configuration(Path::new(&**file)))

@@ -116,16 +116,16 @@ pub(crate) struct TuneArgs {
 /// A parameter that may leave its documented range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Free {
-    /// Up to 200 µm.
+    /// Range up to 200 µm.
     #[value(name = "position_delay", alias = "position-delay")]
     PositionDelay,
-    /// Up to 50 cycles.
+    /// Range up to 50 cycles.
     #[value(name = "reversal_lookahead", alias = "reversal-lookahead")]
     ReversalLookahead,
-    /// From 0 to 100 000 µs.
+    /// Range from 0 to 100 000 µs.
     #[value(name = "mp1511")]
     Mp1511,
-    /// Up to 1000 counting steps.
+    /// Range up to 1000 counting steps.
     #[value(name = "mp1512")]
     Mp1512,
 }

@@ -66,7 +66,7 @@ fn in_ascii(letter: char) -> String {
     let sign = match letter {
         '◄' | '⟨' => "<",
         '→' | '⟩' => ">",
-        // Not a word of a program, unlike a full stop.
+        // `~` is not part of any program word, unlike a full stop.
         '…' => "~",
         '─' => "-",
         'Δ' => "D",

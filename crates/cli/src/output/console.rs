@@ -67,10 +67,10 @@ pub(crate) struct DataTarget {
     pub(crate) look: Look,
 }
 
-/// Whether all output was read.
+/// Reception of the output: whole, or broken off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Printed {
-    /// All of it was written.
+    /// All output was read.
     Read,
     /// The pipe was closed.
     Unread,

@@ -1,6 +1,6 @@
 //! The meaning of the exit status (R9.26).
 
-/// No message at or above `--fail-on`.
+/// Success: no message at or above `--fail-on`.
 pub(crate) const CLEAN: u8 = 0;
 
 /// A message at or above `--fail-on`, or a comparison that found a difference.

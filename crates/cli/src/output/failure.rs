@@ -1,4 +1,4 @@
-//! Why the tool could not do its work, or a part of it; the other parts are done nevertheless (R9.77).
+//! Failures of the tool in its work or in a part of it; the other parts are done nevertheless (R9.77).
 
 use std::io;
 use std::path::Path;
@@ -20,10 +20,10 @@ pub(crate) fn shown(path: &Path) -> String {
     visible_line(&shown_path(path)).into_owned()
 }
 
-/// One clear sentence, what to do, and where the reason is in the user's file.
+/// A failure: one clear sentence, what to do, and the place of the reason in the user's file.
 #[derive(Debug, Default)]
 pub(crate) struct Failure {
-    /// One sentence in lower case.
+    /// The failure: one sentence in lower case.
     pub(crate) message: String,
     /// Advice.
     pub(crate) help: Vec<String>,
@@ -257,13 +257,13 @@ impl Failures {
         done
     }
 
-    /// Whether everything was done.
+    /// Returns whether everything was done.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Does work that collects its failures, and reports all of them at the end, even if the work is
-    /// aborted (R9.95).
+    /// Executes work that collects its failures, and reports all of them at the end, even if the work is aborted
+    /// (R9.95).
     pub(crate) fn of(
         console: Console,
         work: impl FnOnce(&mut Self) -> Result<u8, Failure>,

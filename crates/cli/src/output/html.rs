@@ -23,7 +23,7 @@ pub(crate) struct HtmlArgs {
 }
 
 impl HtmlArgs {
-    /// Whether a page is asked for.
+    /// Returns whether a page is asked for.
     pub(crate) fn is_given(&self) -> bool {
         self.html.is_some()
     }

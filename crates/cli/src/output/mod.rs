@@ -1,4 +1,4 @@
-//! What a command shows, and where: results, messages, progress, pages, the exit status.
+//! Output of a command and its destination: results, messages, progress, pages, the exit status.
 
 mod code_page;
 mod console;

@@ -11,7 +11,7 @@ use frictcomp_report::to_json;
 /// A format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum ResultFormat {
-    /// For people.
+    /// Text for people.
     #[default]
     Text,
     /// One JSON document.
@@ -21,7 +21,7 @@ pub(crate) enum ResultFormat {
 /// A format of records of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum RecordsFormat {
-    /// For people.
+    /// Text for people.
     #[default]
     Text,
     /// One JSON document.

@@ -96,7 +96,7 @@ impl FileWatch {
     }
 }
 
-/// Whether an event changes a file; reading does not.
+/// Returns whether an event changes a file; reading does not.
 fn is_change(kind: EventKind) -> bool {
     !matches!(kind, EventKind::Access(_))
 }

@@ -9,7 +9,7 @@ fn caller(called: &str) -> String {
     format!("N10 X[COMP OFF FRICT]\nN20 L {called}\nN30 M30\n")
 }
 
-/// The output on stderr.
+/// Returns the output on stderr.
 fn talk(bench: &Bench, arguments: &[&str]) -> String {
     String::from_utf8(bench.call(arguments).stderr).expect("text")
 }
@@ -79,7 +79,7 @@ N80 M30
     );
 }
 
-/// Main programs that call three levels deep, with findings in them and in what they call.
+/// Returns the main programs that call three levels deep, with findings in them and in what they call.
 fn deep_archive(programs: usize) -> (Bench, Vec<String>) {
     let bench = Bench::new(&[]);
     let mut names = Vec::new();

@@ -5,7 +5,7 @@ use crate::workspace::{files, root};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Command, Stdio};
 
-/// No program of the tests needs more blocks; some never end.
+/// Budget of blocks: enough for every program of the tests that ends.
 const BUDGET: [&str; 2] = ["--max-blocks", "2000"];
 
 fn tool() -> Command {
@@ -14,7 +14,7 @@ fn tool() -> Command {
     command
 }
 
-/// The output of a call with a text on standard input.
+/// Returns the output of a call with a text on standard input.
 fn output(arguments: &[&str], input: &[u8]) -> String {
     let mut child = tool()
         .args(arguments)

@@ -68,7 +68,7 @@ impl Stage for Case {
     }
 }
 
-/// Whether a program can be started. Only Windows may lack one.
+/// Returns whether a program can be started. Only Windows may lack one.
 #[allow(clippy::print_stdout, reason = "what a system cannot try")]
 fn is_here(program: &str) -> bool {
     let is_here = !cfg!(windows) || Command::new(program).arg("--version").output().is_ok();

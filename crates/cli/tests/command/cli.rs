@@ -8,7 +8,7 @@ fn frictcomp(arguments: &[&str]) -> Output {
     call(root(), arguments)
 }
 
-/// The output of a call that must fail with status 2 and print nothing on stdout.
+/// Returns the output of a call that must fail with status 2 and print nothing on stdout.
 fn refused(arguments: &[&str]) -> String {
     let output = frictcomp(arguments);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}");

@@ -81,7 +81,7 @@ fn programs(folder: &Path) -> Vec<String> {
     names
 }
 
-/// The columns of the commanded trace of a program, in mm and mm/s: positions and speeds of X and Y.
+/// Returns the columns of the commanded trace of a program, in mm and mm/s: positions and speeds of X and Y.
 fn driven(folder: &Path, program: &str) -> [Vec<f64>; 4] {
     let axes = ["--axis", "X,Y", "--start", "X30,Y-20", "--cycle-time", "4"];
     let output = call(folder, &[&["current", program], &axes[..]].concat());

@@ -110,12 +110,12 @@ const QUICK: [(usize, &str); 7] = [
     (1, "another machine with 30 % more friction"),
 ];
 
-/// Whether the lists of the last round are accepted.
+/// Returns whether the lists of the last round are accepted.
 fn is_accepted(said: &str) -> bool {
     said.contains("accepted: X m/lists")
 }
 
-/// The verdict on the lists of the last round.
+/// Returns the verdict on the lists of the last round.
 fn verdict(said: &str) -> &'static str {
     match is_accepted(said) {
         true => "accepted",
@@ -124,7 +124,7 @@ fn verdict(said: &str) -> &'static str {
     }
 }
 
-/// A machine of which both stages are recorded without a fault.
+/// Returns a machine of which both stages are recorded without a fault.
 fn recorded(site: Site, recorder: &Recorder) -> Site {
     site.record_all(Stage::Off, recorder);
     let lists = site.provisional();

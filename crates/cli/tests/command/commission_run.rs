@@ -37,12 +37,12 @@ const PLAN: [&str; 13] = planned_circles("2000,3000,4000,5000", "40");
 
 const FEEDS: [f64; 4] = [2000.0, 3000.0, 4000.0, 5000.0];
 
-/// A folder with the machine and the programs of stage 1 in `m`.
+/// Returns a folder with the machine and the programs of stage 1 in `m`.
 fn planned() -> tempfile::TempDir {
     planned_with(&PLAN)
 }
 
-/// A folder with the machine and the programs of another plan.
+/// Returns a folder with the machine and the programs of another plan.
 fn planned_with(plan: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let machine = format!("[[axis]]\nname = \"X\"\n{AXIS}[[axis]]\nname = \"Y\"\n{AXIS}");
@@ -61,7 +61,7 @@ fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     answer(folder, &[&["commission", "run", "m"], arguments].concat())
 }
 
-/// Positions of X and Y in mm and their speeds in mm/s as a program commands them, one row per ms.
+/// Returns positions of X and Y in mm and their speeds in mm/s as a program commands them, one row per ms.
 fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
     let arguments = ["--axis", "X,Y", "--start", "X50,Y0", "--cycle-time", "1"];
     let output = succeeded(folder, &[&["current", program], &arguments[..]].concat());
@@ -77,7 +77,7 @@ fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// A recording of the constant speeds of X or Y, with its friction multiplied.
+/// Returns a recording of the constant speeds of X or Y, with its friction multiplied.
 fn friction(axis: usize, factor: f64) -> String {
     static TRACKS: LazyLock<[Recorded; 2]> = LazyLock::new(|| {
         let folder = planned();
@@ -87,7 +87,7 @@ fn friction(axis: usize, factor: f64) -> String {
     torque(&TRACKS[axis], factor)
 }
 
-/// The constant speeds of X or Y as a program commands them, recorded on a bench.
+/// Returns the constant speeds of X or Y as a program commands them, recorded on a bench.
 fn constant_speeds(folder: &Path, (program, axis): (&str, usize)) -> Recorded {
     let rows = driven(folder, program);
     let speeds: Vec<f64> = rows.iter().map(|it| it[axis + 2]).collect();
@@ -99,7 +99,7 @@ fn constant_speeds(folder: &Path, (program, axis): (&str, usize)) -> Recorded {
     bench.record_along(&speeds)
 }
 
-/// A recording as a file, with its friction multiplied.
+/// Returns a recording as a file, with its friction multiplied.
 fn torque(recorded: &Recorded, factor: f64) -> String {
     let mut text = String::from("t,v,x,torque\n");
     for at in 0..recorded.t.len() {
@@ -114,7 +114,7 @@ fn torque(recorded: &Recorded, factor: f64) -> String {
     text
 }
 
-/// The plant of the circles: a stiff machine with 10 % more mass on X.
+/// Returns the plant of the circles: a stiff machine with 10 % more mass on X.
 fn machine() -> Plant {
     let mut plant = Preset::Stiff.plant();
     plant.x.mass_kg *= 1.1;
@@ -129,7 +129,7 @@ struct Driven {
     lists: Option<[FrictionList; 2]>,
 }
 
-/// Radial deviations in mm over the angle, counter-clockwise and clockwise, with or without a list.
+/// Returns radial deviations in mm over the angle, counter-clockwise and clockwise, with or without a list.
 fn deviations(feed: f64, list: Option<&FrictionList>) -> [Vec<f64>; 2] {
     deviations_of(&Driven {
         plant: machine(),
@@ -191,7 +191,7 @@ impl Default for Recorder {
     }
 }
 
-/// A recording of a program of circles: its commanded path with deviations from the circle.
+/// Returns a recording of a program of circles: its commanded path with deviations from the circle.
 fn circles(folder: &Path, program: &str, deviations: &[Vec<f64>; 2]) -> String {
     circles_of(folder, (program, 40.0), (deviations, Recorder::default()))
 }
@@ -232,7 +232,7 @@ fn circles_of(
     text
 }
 
-/// The list in a file that the command wrote.
+/// Returns the list in a file that the command wrote.
 fn list_in(path: &Path) -> FrictionList {
     let text = std::fs::read_to_string(path).expect("a list");
     let value = |key: &str| {
@@ -259,7 +259,7 @@ fn list_in(path: &Path) -> FrictionList {
     }
 }
 
-/// The provisional list of an axis in `m/lists`.
+/// Returns the provisional list of an axis in `m/lists`.
 fn provisional(folder: &Path, axis: &str) -> String {
     let entries = std::fs::read_dir(folder.join("m/lists")).expect("lists");
     let names = entries.map(|it| {
@@ -322,7 +322,7 @@ fn from_recordings_to_judged_lists() {
     other_recordings(folder);
 }
 
-/// Friction only: provisional lists, and all circles are missing.
+/// Drives the first stage, friction only: provisional lists, and all circles are missing.
 fn first_stage(folder: &Path) {
     let (status, text) = run(folder, &[]);
     assert_eq!(status, Some(1), "{text}");
@@ -352,7 +352,8 @@ fn first_stage(folder: &Path) {
     );
 }
 
-/// The provisional lists are the friction of the machine; circles without and with them are recorded.
+/// Drives the second stage: the provisional lists are the friction of the machine; circles without and with them are
+/// recorded.
 fn second_stage(folder: &Path) {
     let lists = ["X", "Y"].map(|axis| provisional(folder, axis));
     succeeded(folder, &["lists", &lists[0]]);
@@ -386,7 +387,7 @@ fn second_stage(folder: &Path) {
     }
 }
 
-/// At one feed the lists were not active.
+/// Checks that lists without effect at one feed are reported.
 fn one_feed_without_effect(folder: &Path) {
     let path = folder.join("m/recordings/on3000.csv");
     let whole = std::fs::read(&path).expect("a recording");
@@ -407,7 +408,7 @@ fn one_feed_without_effect(folder: &Path) {
     std::fs::write(path, whole).expect("written");
 }
 
-/// Another round, then a recording that changed.
+/// Drives another round, then a recording that changed.
 fn other_recordings(folder: &Path) {
     // Other lists are another round: no recording of round 2 is mistaken for one of round 3.
     let zero = ["--value-list", "X=zero.lis", "--value-list", "Y=zero.lis"];

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use crate::folder::{command, starting, stderr, stdout};
 
-/// Where the commands of a document are called.
+/// Environment in which the commands of a document are called.
 pub(crate) trait Stage {
     /// Takes a heading.
     fn begin(&mut self) {}
@@ -15,16 +15,16 @@ pub(crate) trait Stage {
     /// Takes a block that is not a console.
     fn take(&mut self, _kind: &str, _text: &str) {}
 
-    /// Whether this system has the programs that the commands need.
+    /// Returns whether this system has the programs that the commands need.
     fn is_equipped(&self) -> bool {
         true
     }
 
-    /// The folder in which a command is called.
+    /// Returns the folder in which a command is called.
     fn folder(&mut self, command: &str) -> PathBuf;
 }
 
-/// The document with the current output below each command.
+/// Returns the document with the current output below each command.
 pub(crate) fn replayed(text: &str, stage: &mut impl Stage) -> String {
     let mut fresh = String::new();
     let mut lines = text.split_inclusive('\n');
@@ -69,7 +69,7 @@ struct Typed {
     variables: Vec<(String, String)>,
     words: Vec<String>,
     input: Option<String>,
-    /// Whether its output and its errors go to `/dev/null`.
+    /// Whether the output and the errors of the command go to `/dev/null`.
     is_silent: [bool; 2],
 }
 
@@ -91,7 +91,7 @@ impl Typed {
         typed
     }
 
-    /// What the tool or git prints: stdout, stderr, and `? 1` for an exit status other than 0.
+    /// Returns the output of the tool or git: stdout, stderr, and `? 1` for an exit status other than 0.
     fn printed(&self, folder: &Path, program: fn(&Path, &[&str]) -> Command) -> String {
         let arguments: Vec<&str> = self.words[1..].iter().map(String::as_str).collect();
         let output = starting(|| {
@@ -119,7 +119,7 @@ impl Typed {
     }
 }
 
-/// The words of a line; what is quoted has blanks.
+/// Returns the words of a line; what is quoted has blanks.
 fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut quote = None;
@@ -139,7 +139,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Git in a folder, without the settings of the user.
+/// Returns the command git in a folder, without the settings of the user.
 pub(crate) fn git(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new("git");
     command.current_dir(folder).stdin(Stdio::null());
@@ -156,7 +156,8 @@ pub(crate) fn git(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// What a command shows: the tool, git, or one of the few that a case needs to prepare and to look at its files.
+/// Runs a command line and returns its output: the tool, git, or one of the few commands that prepare and show the
+/// files of a case.
 fn play(line: &str, folder: &Path) -> String {
     let typed = Typed::new(line);
     let [name, files @ ..] = &typed.words[..] else {

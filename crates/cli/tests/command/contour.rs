@@ -54,7 +54,8 @@ fn circle(turn: &str, compensation: &str) -> String {
     )
 }
 
-/// The circle made of chords of 0.25°, which the axis jerk allows at full feed; its second turn is lines 1443 to 2882.
+/// Returns the circle made of chords of 0.25°, which the axis jerk allows at full feed; its second turn is lines 1443
+/// to 2882.
 fn chords(turn: &str) -> String {
     let sense = if turn == "G03" { 1.0 } else { -1.0 };
     let mut text = format!(
@@ -69,7 +70,7 @@ fn chords(turn: &str) -> String {
     text + "M30\n"
 }
 
-/// `F_max` and `F_min` of the circular test on the same plant.
+/// Returns `F_max` and `F_min` of the circular test on the same plant.
 fn figures(side: &str) -> [f64; 2] {
     let bench = bench("M30\n");
     let arguments = [

@@ -10,7 +10,7 @@ use crate::workspace::{agree, copy, files, root};
 use frictcomp::documents::RULES;
 use frictcomp_report::assumptions::{Chapter, chapters};
 
-/// The sources of all packages, with the tests of those in `crates`.
+/// Returns the sources of all packages, with the tests of those in `crates`.
 fn sources() -> Vec<PathBuf> {
     let mut sources = files("src", &["rs"]);
     sources.extend(files("crates", &["rs"]));
@@ -41,7 +41,7 @@ const RECORDED: &str = "programs/demo/recorded";
 /// The demo of a project, which the first command of a document describes for the next ones.
 const PROJECT: &str = "programs/demo/twincat";
 
-/// A folder with a copy of a demo at its place.
+/// Returns a folder with a copy of a demo at its place.
 fn copied(demo: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     copy(demo, folder.path());
@@ -66,7 +66,7 @@ impl Stage for Documents {
     }
 }
 
-/// The rules of a text, in the form `R1.24`.
+/// Returns the rules of a text, in the form `R1.24`.
 fn rules(text: &str) -> BTreeSet<String> {
     let number = |text: &str| text.chars().take_while(char::is_ascii_digit).count();
     let found = text.match_indices('R').filter_map(|(at, _)| {
@@ -81,7 +81,7 @@ fn rules(text: &str) -> BTreeSet<String> {
     found.collect()
 }
 
-/// The rules and contradictions of `docs/rules`, each with its text.
+/// Returns the rules and contradictions of `docs/rules`, each with its text.
 fn listed_rules() -> impl Iterator<Item = (&'static str, &'static str)> {
     let items = RULES.split("\n- **").skip(1);
     items.filter_map(|item| {
@@ -90,7 +90,7 @@ fn listed_rules() -> impl Iterator<Item = (&'static str, &'static str)> {
     })
 }
 
-/// The sources with tests, each with its test part.
+/// Returns the sources with tests, each with its test part.
 fn tests() -> BTreeMap<String, String> {
     let mut parts = BTreeMap::new();
     for path in files("tests", &["rs"]) {
@@ -121,7 +121,7 @@ fn tests() -> BTreeMap<String, String> {
     parts
 }
 
-/// The comments of a source.
+/// Returns the comments of a source.
 fn comments(text: &str) -> String {
     let lines = text.lines().filter_map(|line| line.split_once("//"));
     lines
@@ -130,7 +130,7 @@ fn comments(text: &str) -> String {
         .join("\n")
 }
 
-/// The rows of the table of a document that begins with a heading.
+/// Returns the rows of the table of a document that begins with a heading.
 fn rows<'a>(text: &'a str, heading: &str) -> Vec<&'a str> {
     let (_, table) = text.split_once(heading).expect("the table");
     let rows = table.lines().skip(2);
@@ -180,7 +180,7 @@ fn console_blocks_show_what_the_tool_prints() {
     }
 }
 
-/// The list of assumptions with its tables made from the code; the text above them is prose.
+/// Returns the list of assumptions with its tables made from the code; the text above them is prose.
 fn assumptions(text: &str) -> String {
     let prose = text.split("\n## ").next().unwrap_or_default();
     let mut fresh = prose.trim_end().to_owned();

@@ -3,7 +3,7 @@
 use crate::folder::{call, stderr, stdout};
 use crate::workspace::root;
 
-/// What `explain` prints, and its exit status.
+/// Returns the output of `explain` and its exit status.
 fn explain(word: &str) -> (String, i32) {
     let output = call(root(), &["explain", word]);
     let text = [stdout(&output), stderr(&output)].concat();

@@ -8,7 +8,7 @@ use crate::workspace::root;
 
 const CHANNELS: [&str; 4] = ["--velocity", "SetVelo", "--torque", "ActTorque"];
 
-/// The recording of the demo with its torque multiplied and an offset added.
+/// Returns the recording of the demo with its torque multiplied and an offset added.
 fn recording(factor: f64, more: f64) -> String {
     let demo = std::fs::read_to_string(root().join("programs/demo/recordings/friction_x.csv"));
     let mut text = String::new();

@@ -11,7 +11,7 @@ use std::process::Output;
 /// gives a runner a command.
 const NAME: &str = "a\u{1b}[31m\u{7}\u{9b}31m\u{202e}\u{2028}\r\n::error file=x::boom.nc";
 
-/// One that begins with a command, in the current folder.
+/// Name of a file in the current folder that begins with a command to a runner.
 const COMMAND: &str = "::error file=y::boom.nc";
 
 fn tool(folder: &Path, arguments: &[&str]) -> Output {
@@ -80,7 +80,7 @@ fn prepare(folder: &Path) {
     .unwrap();
 }
 
-/// No output is obeyed by a terminal or a runner.
+/// Checks that a terminal or a runner obeys no part of an output.
 fn is_harmless(output: &Output, arguments: &[&str]) {
     for bytes in [&output.stdout, &output.stderr] {
         let text = std::str::from_utf8(bytes).unwrap();

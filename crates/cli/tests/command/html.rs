@@ -12,7 +12,7 @@ use crate::folder::Bench;
 use crate::workspace::root;
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// The report of programs.
+/// Returns the report of programs.
 fn report_of(bench: &Bench, arguments: &[&str]) -> String {
     let output = bench.call(&[&["run"], arguments, &["--html", "report.html"]].concat());
     let said = String::from_utf8_lossy(&output.stderr);
@@ -86,7 +86,7 @@ fn assert_sound(report: &str) {
     assert!(!report.contains("http://") && !report.contains("https://"));
 }
 
-/// The element with an identifier, as text.
+/// Returns the element with an identifier, as text.
 fn part(report: &str, id: &str) -> String {
     let document = parse(report);
     let node = document
@@ -155,7 +155,7 @@ fn bars_lead_to_the_lines_that_made_them() {
     assert_eq!(leads, ["#f0", "#f0l5", "#f0", "#f0l3", "#f0"]);
 }
 
-/// The markup of a part of the report.
+/// Returns the markup of a part of the report.
 fn section(report: &str, id: &str) -> String {
     let (_, behind) = report
         .split_once(&format!("<section id=\"{id}\""))
@@ -637,7 +637,7 @@ fn the_additive_current_has_a_page() {
     assert!(page.contains(verdict), "{verdict}: {page}");
 }
 
-/// The browser of this machine: `FRICTCOMP_BROWSER`, or what Debian and others call Chromium.
+/// Returns the browser of this machine: `FRICTCOMP_BROWSER`, or what Debian and others call Chromium.
 fn browser() -> Option<PathBuf> {
     if let Some(named) = std::env::var_os("FRICTCOMP_BROWSER") {
         return Some(named.into());
@@ -715,7 +715,7 @@ document.body.setAttribute('data-focus', document.activeElement === bar ? 'bar' 
 document.body.setAttribute('data-wide', document.documentElement.scrollWidth > innerWidth ? 'page' : 'parts');
 </script>";
 
-/// The attributes of the body.
+/// Returns the attributes of the body.
 fn body_tag(dom: &str) -> &str {
     let behind = dom.split_once("<body").map_or("", |(_, rest)| rest);
     behind.split('>').next().unwrap_or_default()

@@ -3,7 +3,7 @@
 use crate::folder::answer;
 use crate::workspace::root;
 
-/// A file for the command, with other bytes in place of some.
+/// Returns a file for the command, with other bytes in place of some.
 fn play(name: &str, text: &[u8], arguments: &[&str]) -> (Option<i32>, String, String) {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join(name), text).expect("written");
@@ -20,7 +20,7 @@ fn play(name: &str, text: &[u8], arguments: &[&str]) -> (Option<i32>, String, St
     )
 }
 
-/// The lines of the demo with other torques.
+/// Returns the lines of the demo with other torques.
 fn with_torques(change: impl Fn(i64) -> i64) -> String {
     let text = std::fs::read_to_string(root().join("programs/demo/recordings/friction_x.csv"))
         .expect("the demo");

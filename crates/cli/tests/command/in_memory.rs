@@ -21,7 +21,7 @@ use frictcomp_report::{TimelineFormat, TimelineOptions, command_line};
 /// The bound on executed blocks for all programs, so that an endless loop is noticed.
 const MAX_BLOCKS: u64 = 5000;
 
-/// Every file below a folder of the repository, by its path from the root.
+/// Returns every file below a folder of the repository, by its path from the root.
 fn texts(folder: &str) -> Vec<OpenText> {
     let mut folders = vec![PathBuf::from(folder)];
     let mut texts = Vec::new();
@@ -56,7 +56,7 @@ impl Write for Written {
     }
 }
 
-/// The records of a program on a disk in memory.
+/// Returns the records of a program on a disk in memory.
 fn records(program: &OpenText, disk: &Disk) -> Result<Vec<u8>, HostError> {
     let input = Input::Open(program.clone());
     let mut machines =

@@ -36,7 +36,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// A machine with its measured friction in `friction-X.lis` and `friction-Y.lis`.
+    /// Returns a machine with its measured friction in `friction-X.lis` and `friction-Y.lis`.
     fn new(machine: PresetMachine, feeds: &'static [f64]) -> Self {
         let bench = Self {
             folder: tempfile::tempdir().expect("a folder"),
@@ -72,7 +72,7 @@ impl Bench {
         read.list
     }
 
-    /// The lists of a round.
+    /// Returns the lists of a round.
     fn lists(&self, round: usize) -> [FrictionList; 2] {
         ["X", "Y"].map(|axis| self.list(&format!("learning/round-{round}/{axis}.lis")))
     }
@@ -98,7 +98,7 @@ impl Bench {
         self.learn(&[&friction[..], lists].concat())
     }
 
-    /// The record of a call.
+    /// Returns the record of a call.
     fn record(&self) -> Value {
         let plant = self.machine.reference.as_str();
         let arguments = [
@@ -132,7 +132,7 @@ impl Bench {
         }
     }
 
-    /// The largest true glitch of X and of Y over feeds with the best lists of a record.
+    /// Returns the largest true glitch of X and of Y over feeds with the best lists of a record.
     fn left_um(&self, record: &Value, feeds: &[f64]) -> [f64; 2] {
         let lists = [0, 1].map(|at: usize| {
             let list = record["axes"][at]["list"].as_str().expect("a list");
@@ -240,7 +240,7 @@ fn recorded_circles_give_the_next_list() {
     refused::changed_after_a_round(&bench);
 }
 
-/// Only its recordings judge the second round, and the better list is handed over.
+/// Checks that the second round is judged by its own recordings only, and that the better list is handed over.
 fn second_round(bench: &Bench, first: &Value) {
     bench.drive(2);
     let second = bench.record();
@@ -319,7 +319,7 @@ fn five_rounds_come_close_to_the_best_known_lists() {
     }
 }
 
-/// The glitches left by lists tuned with knowledge of the machine.
+/// Returns the glitches left by lists tuned with knowledge of the machine.
 fn best_known(machine: &PresetMachine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());

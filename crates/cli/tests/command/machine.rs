@@ -22,7 +22,7 @@ fn write(folder: &Path, files: &[(&str, &str)]) {
     }
 }
 
-/// A start-up list as vendors ship it: it names lists from the control's working folder, one above.
+/// Writes a start-up list as vendors ship it: it names lists from the control's working folder, one above.
 fn vendor(folder: &Path) {
     write(
         folder,

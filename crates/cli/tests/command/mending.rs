@@ -14,7 +14,7 @@ fn status(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String, String) {
     )
 }
 
-/// The bytes of a program after `--fix`.
+/// Returns the bytes of a program after `--fix`.
 fn fixed(bytes: &[u8]) -> Vec<u8> {
     let bench = Bench::new(&[]);
     let path = bench.folder().join("a.nc");

@@ -18,7 +18,7 @@ fn refused(bench: &Bench, arguments: &[&str]) -> String {
     said
 }
 
-/// A folder without a configuration above it.
+/// Returns a folder without a configuration above it.
 fn bare(programs: &[(&str, &str)]) -> Bench {
     let bench = Bench::new(programs);
     fs::remove_file(bench.folder().join("frictcomp.toml")).expect("removed");
@@ -130,7 +130,7 @@ fn colour_is_there_where_it_is_asked_for() {
     }
 }
 
-/// A text as UTF-16 with its byte order mark.
+/// Returns a text as UTF-16 with its byte order mark.
 fn utf16(text: &str, order: fn(u16) -> [u8; 2]) -> Vec<u8> {
     let units = std::iter::once(0xfeff).chain(text.encode_utf16());
     units.flat_map(order).collect()

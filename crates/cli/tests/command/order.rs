@@ -123,7 +123,7 @@ fn random_archives_do_what_they_were_made_to_do() {
     }
 }
 
-/// The lines of a file without their ends, and the ends.
+/// Returns the lines of a file without their ends, and the ends.
 fn lines(bytes: &[u8]) -> Vec<(String, String)> {
     let lines = bytes.split_inclusive(|byte| *byte == b'\n');
     let split = |line: &[u8]| {
@@ -135,7 +135,7 @@ fn lines(bytes: &[u8]) -> Vec<(String, String)> {
     lines.map(split).collect()
 }
 
-/// The blocks that were inserted; everything else has to be what it was.
+/// Returns the blocks that were inserted; everything else has to be what it was.
 fn inserted(before: &[u8], after: &[u8]) -> Vec<String> {
     let (before, after) = (lines(before), lines(after));
     let usual = before.first().map_or("\n", |(_, end)| end.as_str());

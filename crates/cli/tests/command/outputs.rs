@@ -19,7 +19,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// The message of a call that must end with 2 and leave every file as it was.
+/// Returns the message of a call that must end with 2 and leave every file as it was.
 fn refused(bench: &Bench, arguments: &[&str]) -> String {
     let before = contents(bench);
     let output = bench.call(arguments);
@@ -29,7 +29,7 @@ fn refused(bench: &Bench, arguments: &[&str]) -> String {
     said
 }
 
-/// Every file but locks.
+/// Returns the contents of all files except locks.
 fn contents(bench: &Bench) -> Vec<(String, Vec<u8>)> {
     let entries = fs::read_dir(bench.folder()).expect("a folder");
     let mut files: Vec<_> = entries
@@ -252,7 +252,7 @@ mod unix {
             .count()
     }
 
-    /// A run that waits for more of its program, with an output begun.
+    /// Returns a run that waits for more of its program, with an output begun.
     fn waiting(bench: &Bench) -> std::process::Child {
         let mut command = bench.command(&["run", "-", "-o", "a.txt", "--html", "a.html"]);
         let mut child = command
@@ -273,8 +273,8 @@ mod unix {
         assert!(killed.expect("kill starts").success());
     }
 
-    /// Whether these tests run with a signal ignored, as under `nohup` and in background jobs of a shell;
-    /// the tool does not change that.
+    /// Returns whether these tests run with a signal ignored, as under `nohup` and in background jobs of a shell; the
+    /// tool does not change that.
     fn is_ignored(signal: i32) -> bool {
         let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status

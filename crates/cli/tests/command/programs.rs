@@ -55,7 +55,7 @@ fn frictcomp(arguments: &[&str]) -> Output {
     call(root(), arguments)
 }
 
-/// The path from the root of the repository, with forward slashes.
+/// Returns the path from the root of the repository, with forward slashes.
 fn shown(path: &Path) -> String {
     let shown = |below: &Path| below.to_string_lossy().replace('\\', "/");
     if let Ok(below) = path.strip_prefix(root()) {
@@ -80,7 +80,7 @@ fn name(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// The output of a call, as kept in a snapshot.
+/// Returns the output of a call, as kept in a snapshot.
 fn transcript(output: &Output) -> String {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("text");
     let mut all = text(&output.stdout);
@@ -94,7 +94,7 @@ fn transcript(output: &Output) -> String {
     all
 }
 
-/// The code at the start of a file name: `FC202-fric.nc` is about FC202.
+/// Returns the code at the start of a file name: `FC202-fric.nc` is about FC202.
 fn promised(name: &str) -> Option<Code> {
     Code::ALL.iter().copied().find(|code| {
         name.strip_prefix(code.as_str())
@@ -102,7 +102,7 @@ fn promised(name: &str) -> Option<Code> {
     })
 }
 
-/// The codes that a call reports as NDJSON, each with its severity.
+/// Returns the codes that a call reports as NDJSON, each with its severity.
 fn codes(arguments: &[&str]) -> BTreeMap<String, String> {
     let output = frictcomp(arguments);
     let text = String::from_utf8(output.stdout).expect("text");
@@ -116,7 +116,7 @@ fn codes(arguments: &[&str]) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// The codes of a program when everything possible in it is carried out.
+/// Returns the codes of a program when everything possible in it is carried out.
 fn program_codes(path: &Path) -> BTreeMap<String, String> {
     let path_text = shown(path);
     let mut arguments = vec!["run", "--keep-going", "--format", "ndjson"];
@@ -148,7 +148,7 @@ fn forms_of_the_manual_raise_nothing() {
     }
 }
 
-/// The settings of the reviewed snapshots.
+/// Returns the settings of the reviewed snapshots.
 fn reviewed() -> insta::Settings {
     let mut settings = insta::Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);

@@ -25,7 +25,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// The programs of a question, in their order.
+/// Returns the programs of a question, in their order.
 fn programs(bench: &Bench, rule: &str) -> Vec<String> {
     let names = [
         format!("ask/ask-{rule}.nc"),
@@ -38,7 +38,7 @@ fn programs(bench: &Bench, rule: &str) -> Vec<String> {
     there.map(|name| bench.read(name)).collect()
 }
 
-/// The answers of a control that follows a reading, with the notes of its operator.
+/// Returns the answers of a control that follows a reading, with the notes of its operator.
 fn answered(bench: &Bench, rule: &'static str, second: bool) -> String {
     let mut control = Control::new(rule, second);
     for (at, program) in programs(bench, rule).iter().enumerate() {

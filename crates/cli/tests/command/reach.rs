@@ -31,7 +31,7 @@ const WAYS: [&[&str]; 14] = [
     &["current", "--axis", "X", "main.nc"],
 ];
 
-/// A project in a folder next to a secret.
+/// Returns a project in a folder next to a secret.
 fn project(main: &str) -> (tempfile::TempDir, Bench) {
     let around = tempfile::tempdir().expect("a folder");
     fs::write(around.path().join("secret"), SECRET).expect("written");
@@ -43,7 +43,7 @@ fn all(output: &Output) -> String {
     text + &String::from_utf8_lossy(&output.stderr)
 }
 
-/// The output of every command about `main.nc`.
+/// Returns the output of every command about `main.nc`.
 fn everything(bench: &Bench, further: &[&str]) -> String {
     let mut said = String::new();
     for way in WAYS {

@@ -7,7 +7,8 @@ use serde_json::Value;
 use crate::folder::{Bench, json, said};
 use crate::workspace::root;
 
-/// The recording of the demo, its channels for each of some axes; those of the second axis have twice the torque.
+/// Returns the recording of the demo, its channels for each of some axes; those of the second axis have twice the
+/// torque.
 fn recording(axes: &[&str]) -> String {
     let demo = root().join("programs/demo/recordings/friction_x.csv");
     let demo = std::fs::read_to_string(demo).expect("a recording");
@@ -30,7 +31,7 @@ fn recording(axes: &[&str]) -> String {
     text
 }
 
-/// A full turn on a circle of 50 mm at 2000 mm/min, with the channels of a controller.
+/// Returns a full turn on a circle of 50 mm at 2000 mm/min, with the channels of a controller.
 fn circle() -> String {
     let mut text = String::from("t [s],X.ActPos [mm],Y.ActPos [mm],X.SetPos [mm],Y.SetPos [mm]\n");
     for at in 0..12_000 {

@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::folder::{Bench, MACHINE, json};
 use serde_json::Value;
 
-/// The values of a key, in order.
+/// Returns the values of a key, in order.
 fn column<'a>(records: &'a [Value], key: &str) -> Vec<&'a Value> {
     records.iter().map(|record| &record[key]).collect()
 }

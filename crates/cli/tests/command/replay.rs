@@ -21,9 +21,9 @@ N80 M30
 struct Control {
     /// The state at the start.
     active: bool,
-    /// Commands of a block act from right to left.
+    /// Whether commands of a block act from right to left.
     backwards: bool,
-    /// Skip level 1 is on.
+    /// Whether skip level 1 is on.
     skips: bool,
     /// `V.E.A`.
     value: i32,
@@ -40,7 +40,7 @@ const CONTROL: Control = Control {
 };
 
 impl Control {
-    /// The recording of a program: each motion is three samples, each command none.
+    /// Returns the recording of a program: each motion is three samples, each command none.
     fn record(self, program: &str) -> String {
         let mut text = String::from(if self.with_lines {
             "t,line,active_X,pos_X\n"

@@ -35,7 +35,7 @@ fn is_plant(text: &str) -> bool {
     Plant::from_toml(SourceFile::new("plant.toml", text)).is_ok()
 }
 
-/// The TOML files of programs and documents.
+/// Returns the TOML files of programs and documents.
 fn configurations() -> Vec<PathBuf> {
     let mut found = files("programs", &["toml"]);
     found.extend(files("docs", &["toml"]));
@@ -46,7 +46,7 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).expect("text")
 }
 
-/// The example of the documents, which has every key.
+/// Returns the example of the documents, which has every key.
 fn whole() -> String {
     let page = read(&root().join("docs/configuration.md"));
     let (_, rest) = page.split_once("```toml\n").expect("an example");

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::folder::{Bench, MACHINE};
 
-/// Longer than a check takes on a busy machine.
+/// Time limit, longer than a check takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Long enough for output that should not appear.
@@ -57,7 +57,7 @@ impl Watching {
         }
     }
 
-    /// The lines that were printed so far.
+    /// Returns the lines that were printed so far.
     fn printed(&self) -> Vec<String> {
         let mut lines = Vec::new();
         while let Ok(line) = self.printed.recv_timeout(QUIET) {

@@ -53,7 +53,7 @@ fn finding<'a>(records: &'a [Value], name: &str) -> &'a Value {
     axes.find(|it| it["axis"] == name).expect("the axis")
 }
 
-/// The messages of a code in a session of two programs.
+/// Returns the messages of a code in a session of two programs.
 fn said(bench: &Bench, files: &[&str], code: &str) -> Vec<Value> {
     let arguments = [&["run", "--format", "ndjson"], files].concat();
     let text = bench.stdout(&arguments);

@@ -13,20 +13,20 @@ fn wide(width: usize, arguments: &[&str]) -> Output {
     )
 }
 
-/// The output of a command on both channels at a width.
+/// Returns the output of a command on both channels at a width.
 fn said(width: usize, arguments: &[&str]) -> [String; 2] {
     let output = wide(width, arguments);
     [stdout(&output), stderr(&output)]
 }
 
-/// The result of a command at a width.
+/// Returns the result of a command at a width.
 fn printed(width: usize, arguments: &[&str]) -> String {
     let output = wide(width, arguments);
     assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments:?}");
     stdout(&output)
 }
 
-/// The minimum columns of a line: its indent or prefix, and its longest word.
+/// Returns the minimum columns of a line: its indent or prefix, and its longest word.
 fn least(line: &str) -> usize {
     let longest = line
         .split([' ', '\u{a0}'])

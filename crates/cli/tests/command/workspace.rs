@@ -4,13 +4,13 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The root of the repository.
+/// Returns the root of the repository.
 pub(crate) fn root() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.ancestors().nth(2).expect("the workspace")
 }
 
-/// The files below a folder with one of the extensions, or with any if none is given, sorted.
+/// Returns the files below a folder with one of the extensions, or with any if none is given, sorted.
 pub(crate) fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
     let mut folders = vec![root().join(folder)];
     let mut found = Vec::new();
@@ -58,8 +58,8 @@ pub(crate) fn agree(path: &Path, fresh: &str) {
     );
 }
 
-/// A text as it is compared: on Windows with 12 of the 16 digits of figures, since sines and roots of another library
-/// differ in the last ones.
+/// Returns a text as it is compared: on Windows with 12 of the 16 digits of figures, since sines and roots of another
+/// library differ in the last ones.
 fn comparable(text: &str) -> String {
     if !cfg!(windows) {
         return text.to_owned();

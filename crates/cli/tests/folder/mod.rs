@@ -64,14 +64,14 @@ impl Bench {
         String::from_utf8(self.call(arguments).stdout).expect("text")
     }
 
-    /// The lines of `run --format ndjson` with further arguments.
+    /// Returns the lines of `run --format ndjson` with further arguments.
     pub(crate) fn records(&self, arguments: &[&str]) -> Vec<String> {
         let mut all = vec!["run", "--format", "ndjson"];
         all.extend(arguments);
         self.stdout(&all).lines().map(str::to_owned).collect()
     }
 
-    /// The block records, as JSON.
+    /// Returns the block records, as JSON.
     pub(crate) fn blocks(&self, arguments: &[&str]) -> Vec<Value> {
         let records = self.records(arguments);
         let values = records.iter().map(|line| json(line));
@@ -79,7 +79,7 @@ impl Bench {
     }
 }
 
-/// The command in a folder, without an input.
+/// Returns the command in a folder, without an input.
 pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
     command.current_dir(folder).args(arguments);
@@ -88,12 +88,12 @@ pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// The result of the command in a folder.
+/// Returns the result of the command in a folder.
 pub(crate) fn call(folder: &Path, arguments: &[&str]) -> Output {
     starting(|| command(folder, arguments).output())
 }
 
-/// The result of a call that must succeed.
+/// Returns the result of a call that must succeed.
 pub(crate) fn succeeded(folder: &Path, arguments: &[&str]) -> Output {
     let output = call(folder, arguments);
     assert_eq!(
@@ -113,30 +113,30 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("text")
 }
 
-/// The exit status of the command in a folder, and both outputs in one line.
+/// Returns the exit status of the command in a folder, and both outputs in one line.
 pub(crate) fn answer(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     said(&call(folder, arguments))
 }
 
-/// The JSON document that the command prints in a folder.
+/// Returns the JSON document that the command prints in a folder.
 pub(crate) fn document(folder: &Path, arguments: &[&str]) -> Value {
     let output = call(folder, arguments);
     serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", said(&output).1))
 }
 
-/// The exit status, and both outputs in one line.
+/// Returns the exit status, and both outputs in one line.
 pub(crate) fn said(output: &Output) -> (Option<i32>, String) {
     let both = stdout(output) + &stderr(output);
     (output.status.code(), one_line(&both))
 }
 
-/// A text with its blanks and line breaks merged: lines are broken wherever they are too long.
+/// Returns a text with its blanks and line breaks merged: lines are broken wherever they are too long.
 pub(crate) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The result of starting the tool. When it starts many processes at once, Wine refuses a start now and
-/// then with `ERROR_INTERNAL_ERROR`, before the tool has run at all; such a start is tried again.
+/// Returns the result of starting the tool. When it starts many processes at once, Wine refuses a start now and then
+/// with `ERROR_INTERNAL_ERROR`, before the tool has run at all; such a start is tried again.
 pub(crate) fn starting<T>(mut start: impl FnMut() -> io::Result<T>) -> T {
     const ERROR_INTERNAL_ERROR: i32 = 1359;
     for _ in 0..3 {
@@ -152,7 +152,7 @@ pub(crate) fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-/// A state as a file of schema 2, which has no checksum and can be edited.
+/// Returns a state as a file of schema 2, which has no checksum and can be edited.
 pub(crate) fn of_schema_2(state: &str) -> String {
     let (content, _) = state.split_once(",\n  \"checksum\"").expect("a checksum");
     let content = content.replacen("\"schema\": 4", "\"schema\": 2", 1);

@@ -22,7 +22,7 @@ const LEADS: [(&str, usize); 7] = [
     ("(e\u{301}\u{1f980}) ", 6),
 ];
 
-/// How a text reaches the tool.
+/// Way in which a text reaches the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Way {
     /// A file, line by line.
@@ -38,7 +38,7 @@ enum Way {
 const WAYS: [Way; 4] = [Way::Streamed, Way::Whole, Way::Stdin, Way::Called];
 
 impl Way {
-    /// The name of the text in messages about it.
+    /// Returns the name of the text in messages about it.
     fn file(self) -> &'static str {
         match self {
             Self::Streamed | Self::Whole => "a.nc",
@@ -47,7 +47,7 @@ impl Way {
         }
     }
 
-    /// The messages of `check` about a text.
+    /// Returns the messages of `check` about a text.
     fn check(self, text: &[u8], format: &str) -> String {
         let mut text = text.to_owned();
         if self == Self::Whole {
@@ -77,12 +77,12 @@ impl Way {
     }
 }
 
-/// The first column of the mistake, counted in characters from 1 (R9.10).
+/// Returns the first column of the mistake, counted in characters from 1 (R9.10).
 fn column(lead: &str) -> usize {
     lead.chars().count() + 1
 }
 
-/// The columns of `FRIKT`, the word that is wrong.
+/// Returns the columns of `FRIKT`, the word that is wrong.
 fn columns(lead: &str) -> (usize, usize) {
     let start = column(lead) + "X[COMP ON ".len();
     (start, start + "FRIKT".len())

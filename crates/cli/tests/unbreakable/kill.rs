@@ -11,14 +11,14 @@ use fastrand::Rng;
 
 use crate::folder::{Bench, json, starting};
 
-/// Each run counts itself in the state.
+/// Program of which each run counts itself in the state.
 const COUNT: &str = "V.S.RUNS = V.S.RUNS + 1\nX[COMP OFF FRICT]\nM30\n";
 const RUN: [&str; 4] = ["run", "--state", "s.json", "a.nc"];
 
 /// The exit status of a killed run: none, but on Windows the one that its killer sets.
 const KILLED: Option<i32> = if cfg!(windows) { Some(1) } else { None };
 
-/// What happened to the runs so far.
+/// Counts of the runs so far.
 #[derive(Default)]
 struct Tally {
     started: AtomicU64,
@@ -32,7 +32,7 @@ impl Tally {
     }
 }
 
-/// The number of runs that the state has counted; it must be complete.
+/// Returns the number of runs that the state has counted; it must be complete.
 fn counted(bench: &Bench) -> u64 {
     let state = json(&bench.read("s.json"));
     let runs = state["variables"]["V.S.RUNS"]["Number"].as_f64();

@@ -21,7 +21,7 @@ fn said(output: &Output) -> &str {
     std::str::from_utf8(&output.stderr).expect("text")
 }
 
-/// A call in a shell that first takes something away: `ulimit …`.
+/// Returns a call in a shell that first takes something away: `ulimit …`.
 fn limited(bench: &Bench, limit: &str, arguments: &[&str]) -> Command {
     let mut command = Command::new("sh");
     command.current_dir(bench.folder()).stdin(Stdio::null());
@@ -50,7 +50,7 @@ fn write_long_program(path: &Path, blocks: u32, comment: &str) -> u64 {
     file.metadata().expect("a size").len()
 }
 
-/// The tool with an address space of 64 MiB, on a program that is longer.
+/// Runs the tool with an address space of 64 MiB, on a program that is longer.
 fn run_in_64_mebibytes(blocks: u32, comment: &str, calls: &[&[&str]]) {
     let bench = Bench::new(&[]);
     let path = bench.folder().join("long.nc");
@@ -361,7 +361,7 @@ fn a_program_that_is_cut_while_it_is_read_is_refused() {
     assert!(!bench.folder().join("s.json").exists());
 }
 
-/// A call as a user without permissions; `None` if the tests cannot change the user.
+/// Returns a call as a user without permissions; `None` if the tests cannot change the user.
 fn as_nobody(bench: &Bench, arguments: &[&str]) -> Option<Output> {
     let mut command = bench.command(arguments);
     let is_root = fs::metadata("/proc/self").is_ok_and(|it| {
@@ -468,7 +468,7 @@ fn a_file_without_the_right_to_read_is_said() {
     }
 }
 
-/// The KiB of address space in which the tool just starts; it depends on how the tool was built.
+/// Returns the KiB of address space in which the tool just starts; it depends on how the tool was built.
 fn least_space(bench: &Bench) -> u32 {
     let starts = |space: &u32| {
         let limit = format!("ulimit -v {space}");

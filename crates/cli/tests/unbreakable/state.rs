@@ -10,7 +10,7 @@ use crate::folder::{Bench, MACHINE, of_schema_2};
 const LEAVE_OFF: &str = "X[COMP OFF FRICT]\nV.S.PART = 7\nV.S.NAME = \"mill\"\nM30\n";
 const RUN: [&str; 4] = ["run", "--state", "s.json", "a.nc"];
 
-/// A folder with the state that a run left, and its text.
+/// Returns a folder with the state that a run left, and its text.
 fn bench_with_state() -> (Bench, String) {
     let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
     assert_eq!(bench.status(&RUN), Some(0));

@@ -100,7 +100,7 @@ pub(super) struct Evaluate {
     pub(super) expression: String,
 }
 
-/// The arguments of a request.
+/// Returns the arguments of a request.
 ///
 /// # Errors
 /// The arguments do not match the protocol; the reason in words.

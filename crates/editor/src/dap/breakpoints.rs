@@ -1,4 +1,4 @@
-//! What stops a run: breakpoints at lines, changes of a state, values that are not known.
+//! Causes that stop a run: breakpoints at lines, changes of a state, values that are not known.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ struct Breakpoint {
 /// Effect of the breakpoints on a line when a run reaches it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct BreakpointsMet {
-    /// Why the run stops, in words; `None` if it does not stop.
+    /// Reason for the stop in words; `None` if the run does not stop.
     pub(super) stop: Option<String>,
     /// Texts of log points.
     pub(super) logged: Vec<String>,
@@ -115,7 +115,7 @@ impl Breakpoints {
         self.unknown = unknown;
     }
 
-    /// Whether the line of a block has a breakpoint.
+    /// Returns whether the line of a block has a breakpoint.
     pub(super) fn is_on(&mut self, block: &Executed<'_>) -> bool {
         if self.lines.is_empty() {
             return false;
@@ -135,12 +135,12 @@ impl Breakpoints {
         met
     }
 
-    /// Whether values that only the machine knows stop the run where they are read.
+    /// Returns whether values that only the machine knows stop the run where they are read.
     pub(super) fn stops_at_unknown(&self) -> bool {
         self.unknown
     }
 
-    /// Whether a change of state of this axis stops the run.
+    /// Returns whether a change of state of this axis stops the run.
     pub(super) fn watches(&self, axis: &str) -> bool {
         self.changes
             .as_ref()
@@ -166,7 +166,7 @@ fn filled(message: &str, here: &Interpreter) -> String {
     text + rest
 }
 
-/// The lines on which blocks start, from 1.
+/// Returns the lines on which blocks start, from 1.
 fn block_lines(text: &str) -> BTreeSet<u32> {
     let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
     let mut block = Block::default();

@@ -23,7 +23,7 @@ impl Condition {
             .ok_or_else(refused)
     }
 
-    /// Whether it is true at the current block of a run.
+    /// Returns whether it is true at the current block of a run.
     ///
     /// # Errors
     /// It cannot be decided; the reason in words.
@@ -82,7 +82,7 @@ impl HitCount {
         })
     }
 
-    /// Whether a hit counts; the first one is 1.
+    /// Returns whether a hit counts; the first one is 1.
     pub(super) fn includes(self, time: u64) -> bool {
         match self {
             Self::Exactly(number) => time == number,

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 pub(super) struct RealPaths(HashMap<String, PathBuf>);
 
 impl RealPaths {
-    /// The real path of a file; the name itself if the file does not exist.
+    /// Returns the real path of a file; the name itself if the file does not exist.
     pub(super) fn of(&mut self, name: &str) -> &Path {
         self.0.entry(name.to_owned()).or_insert_with(|| real(name))
     }
 }
 
-/// The path of a file with all links resolved.
+/// Returns the path of a file with all links resolved.
 pub(super) fn real(name: &str) -> PathBuf {
     let path = Path::new(name);
     path.canonicalize().unwrap_or_else(|_| path.to_owned())

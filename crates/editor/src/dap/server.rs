@@ -87,7 +87,7 @@ impl DapClient {
         Some(self.waiting.remove(0))
     }
 
-    /// Whether it has sent a request that cannot wait until the run stops by itself.
+    /// Returns whether it has sent a request that cannot wait until the run stops by itself.
     fn interrupts(&mut self) -> bool {
         self.waiting.extend(self.receiver.try_iter());
         self.waiting
@@ -104,7 +104,7 @@ impl DapClient {
         }
     }
 
-    /// The first request that stops a run.
+    /// Returns the first request that stops a run.
     fn stop(&self) -> Option<&Request> {
         self.waiting.iter().find_map(|incoming| match incoming {
             Incoming::Request(request) if is_one_of(incoming, &STOPS) => Some(request),
@@ -132,7 +132,7 @@ struct DapServer<W> {
     breakpoints: Breakpoints,
     stepper: Option<Stepper>,
     stop_on_entry: bool,
-    /// Whether the request moved the run to another block by itself.
+    /// Motion of the run to another block by the request itself.
     moved: Moved,
     /// Whether the client was informed that the run has ended.
     is_over: bool,
@@ -317,7 +317,7 @@ impl<W: Write> DapServer<W> {
         Ok(json!({ "value": wanted.value.trim() }))
     }
 
-    /// The client has set its breakpoints: the run begins.
+    /// Begins the run after the client has set its breakpoints.
     fn begin(&mut self) -> io::Result<()> {
         self.tell_said()?;
         if !self.stop_on_entry {
@@ -443,7 +443,7 @@ impl<W: Write> DapServer<W> {
         self.outgoing.event("output", &body)
     }
 
-    /// The reason for a stop in the words of the protocol, and its description.
+    /// Returns the reason for a stop in the words of the protocol, and its description.
     fn reason(&self, halt: &Halt) -> (&'static str, Option<String>) {
         match halt {
             Halt::Arrived | Halt::Ended(_) => ("step", None),
@@ -474,7 +474,7 @@ impl<W: Write> DapServer<W> {
     }
 }
 
-/// The axes that a condition names.
+/// Returns the axes that a condition names.
 ///
 /// # Errors
 /// One of them is not an axis; the reason in words.
@@ -519,14 +519,14 @@ fn capabilities() -> Value {
     })
 }
 
-/// The sides of the condition of the next block.
+/// Returns the sides of the condition of the next block.
 fn sides(stepper: &Stepper) -> Vec<Value> {
     let sides = stepper.answers().enumerate();
     let sides = sides.map(|(id, words)| json!({ "id": id, "label": words }));
     sides.collect()
 }
 
-/// The calls that led to the next block, the innermost first.
+/// Returns the calls that led to the next block, the innermost first.
 fn stack(stepper: &Stepper) -> Value {
     let sites = match stepper.position() {
         RunPosition::Before(sites) => sites.as_slice(),

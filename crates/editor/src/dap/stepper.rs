@@ -31,7 +31,7 @@ const STRIDE: u64 = 10_000;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct BlockOfCall {
     pub(super) file: Arc<str>,
-    /// From 1.
+    /// Line of the block, from 1.
     pub(super) line: u32,
     pub(super) text: String,
 }
@@ -39,7 +39,7 @@ pub(super) struct BlockOfCall {
 /// Position of the run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum RunPosition {
-    /// Before a block; the last site is that block, those before it the calls that led there.
+    /// Position before a block; the last site is that block, those before it the calls that led there.
     Before(Vec<BlockOfCall>),
     /// The program has ended.
     Ended(EndedBy),
@@ -48,18 +48,18 @@ pub(super) enum RunPosition {
 /// Target of the next part of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RunTarget {
-    /// To the next block.
+    /// The next block.
     Block,
-    /// To the next block of this call depth, or of one above.
+    /// The next block of this call depth, or of one above.
     Depth(usize),
-    /// To the next breakpoint.
+    /// The next breakpoint.
     Breakpoint,
 }
 
-/// Why the run has stopped.
+/// Reason why the run has stopped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Halt {
-    /// It has reached its goal.
+    /// Goal of the run reached.
     Arrived,
     /// The line has a breakpoint; the description of the stop.
     Breakpoint(String),
@@ -80,7 +80,7 @@ pub(super) enum Halt {
 struct Trail {
     /// The last executed block of each call depth.
     sites: Vec<BlockOfCall>,
-    /// Why the program ended.
+    /// Cause of the end of the program.
     ended: Option<EndedBy>,
 }
 
@@ -106,15 +106,15 @@ pub(super) enum OutputText {
 
 /// Reason for the end of a stride before its last block.
 enum Stop {
-    /// Before the block that has just been executed.
+    /// Stop before the block that has just been executed.
     Before(Halt),
-    /// Before it, if the breakpoints on its line stop there; otherwise for another reason.
+    /// Stop before that block, if the breakpoints on its line stop there; otherwise for another reason.
     AtBreakpoint {
         file: Arc<str>,
         line: u32,
         otherwise: Option<Halt>,
     },
-    /// After it.
+    /// Stop after that block.
     After(Halt),
 }
 
@@ -229,7 +229,7 @@ impl Observer for Stride<'_> {
     }
 }
 
-/// Whether the run has moved to another block.
+/// Motion of the run to another block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moved {
     Yes,
@@ -261,7 +261,7 @@ pub(super) struct Stepper {
 }
 
 impl Stepper {
-    /// The run of a program on the machine of its folder, before its first block.
+    /// Returns the run of a program on the machine of its folder, before its first block.
     ///
     /// # Errors
     /// The program or its configuration cannot be read.
@@ -327,12 +327,12 @@ impl Stepper {
         }
     }
 
-    /// The interpreter before the block that is shown.
+    /// Returns the interpreter before the block that is shown.
     pub(super) fn interpreter(&self) -> &Interpreter {
         &self.settled
     }
 
-    /// Whether the machine or the program has an axis of this name.
+    /// Returns whether the machine or the program has an axis of this name.
     pub(super) fn has_axis(&self, name: &str) -> bool {
         self.machine.find(name).is_some() || self.used.contains(name)
     }
@@ -342,12 +342,12 @@ impl Stepper {
         self.is_shown = true;
     }
 
-    /// The names of the values that the shown block reads and only the machine knows.
+    /// Returns the names of the values that the shown block reads and only the machine knows.
     pub(super) fn wanted(&self) -> &BTreeSet<String> {
         &self.wanted
     }
 
-    /// The answers to the condition of the shown block, in words; none where there is nothing to choose.
+    /// Returns the answers to the condition of the shown block, in words; none where there is nothing to choose.
     pub(super) fn answers(&self) -> impl Iterator<Item = String> {
         let file = match &self.position {
             RunPosition::Before(sites) => sites.last().map(|site| &*site.file),
@@ -546,7 +546,7 @@ fn site(block: &Executed<'_>) -> BlockOfCall {
     }
 }
 
-/// The names of the values that a block reads and only the machine knows.
+/// Returns the names of the values that a block reads and only the machine knows.
 pub(super) fn unknown_names(block: &Executed<'_>) -> BTreeSet<String> {
     let notes = block.notes.iter();
     let unknown = notes.filter(|note| note.kind == NoteKind::Unknown);
@@ -559,7 +559,7 @@ fn messages(said: &[Diagnostic]) -> impl Iterator<Item = OutputText> {
         .map(|said| OutputText::Message(Box::new(said)))
 }
 
-/// A message in one line: `P-ERR-70495: ...`.
+/// Returns a message in one line: `P-ERR-70495: ...`.
 pub(super) fn in_words(said: &Diagnostic) -> String {
     format!("{}[{}]: {}", said.severity, said.code, said.message)
 }

@@ -24,7 +24,7 @@ pub(super) struct Request {
 #[derive(Debug)]
 pub(super) enum Incoming {
     Request(Request),
-    /// Something that is not a request; the reason in words.
+    /// Message that is not a request; the reason in words.
     Garbled(String),
 }
 
@@ -47,7 +47,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
     }))
 }
 
-/// The length that the header of the next message announces.
+/// Returns the length that the header of the next message announces.
 fn read_header(input: &mut impl BufRead) -> io::Result<Option<u64>> {
     let mut length = None;
     loop {

@@ -23,11 +23,11 @@ pub(super) enum VariableScope {
     Sides = 5,
 }
 
-/// The handles from here on are those of single axes.
+/// First handle of a single axis.
 const FIRST_AXIS: i64 = 100;
 
 impl VariableScope {
-    /// The scopes at the current block.
+    /// Returns the scopes at the current block.
     pub(super) fn all(stepper: &Stepper) -> Vec<Json> {
         let mut scopes = vec![(Self::Axes, "Axes")];
         if !stepper.wanted().is_empty() {
@@ -91,7 +91,7 @@ pub(super) fn evaluate(stepper: &Stepper, expression: &str) -> Result<Json, Stri
     Ok(json!({ "result": in_words(&value), "variablesReference": 0 }))
 }
 
-/// The states of all axes in one line: `X inactive, Y active`.
+/// Returns the states of all axes in one line: `X inactive, Y active`.
 pub(super) fn states(stepper: &Stepper) -> String {
     let here = stepper.interpreter();
     let state = |axis| {
@@ -135,7 +135,7 @@ fn handle_of(axis: AxisIndex) -> i64 {
     i64::try_from(axis.get()).map_or(i64::MAX, |at| at.saturating_add(FIRST_AXIS))
 }
 
-/// `X: active, at 22`, with more below it.
+/// Returns `X: active, at 22`, with more below it.
 fn axis_line(here: &Interpreter, axis: AxisIndex) -> Json {
     let state = here.compensation().state(axis, Kind::Frict);
     let value = format!("{state}, {}", position(here.position(axis)));

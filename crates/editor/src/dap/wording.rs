@@ -2,7 +2,7 @@
 
 use frictcomp::interpreter::Value;
 
-/// A value as it is shown.
+/// Returns a value as it is shown.
 pub(super) fn in_words(value: &Value) -> String {
     match value {
         Value::Number(number) => number.to_string(),

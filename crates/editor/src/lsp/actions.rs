@@ -16,7 +16,7 @@ use frictcomp::session::allow_here;
 use frictcomp::text::{LineIndex, SourceFile, shown_path};
 use frictcomp_host::read_text;
 
-/// The actions at a place of a text.
+/// Returns the actions at a place of a text.
 pub(super) fn code_actions(
     view: &RequestView,
     params: &CodeActionParams,
@@ -40,7 +40,7 @@ pub(super) fn code_actions(
     Some(actions.into_iter().map(Into::into).collect())
 }
 
-/// Whether a kind of action belongs to a wider kind.
+/// Returns whether a kind of action belongs to a wider kind.
 fn holds(wide: &CodeActionKind, kind: &CodeActionKind) -> bool {
     let (wide, kind) = (wide.as_str(), kind.as_str());
     wide.is_empty()
@@ -67,7 +67,7 @@ fn messages<'a>(view: &'a RequestView, document: &OpenDocument) -> Vec<&'a Diagn
     here.filter(|said| is_new(said)).collect()
 }
 
-/// The fixes of a message, and the comment that silences it.
+/// Returns the fixes of a message, and the comment that silences it.
 fn quick_fixes(
     view: &RequestView,
     document: &OpenDocument,
@@ -126,7 +126,7 @@ fn title(document: &OpenDocument, fix: &Fix) -> String {
     format!("{what} in {}", name.to_string_lossy())
 }
 
-/// The words of a text on one line, at most forty characters.
+/// Returns the words of a text on one line, at most forty characters.
 fn short(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     let words = words.join(" ");
@@ -136,7 +136,7 @@ fn short(text: &str) -> String {
     words.chars().take(39).chain(['\u{2026}']).collect()
 }
 
-/// All changes of a text that are safe to make without a review.
+/// Returns the code action that makes all changes of a text that are safe without a review.
 fn fix_all(view: &RequestView, document: &OpenDocument) -> Option<CodeAction> {
     let fixes = safe_fixes(view, document);
     if fixes.is_empty() {
@@ -150,8 +150,8 @@ fn fix_all(view: &RequestView, document: &OpenDocument) -> Option<CodeAction> {
     })
 }
 
-/// The first safe change of each message about a text. A comment that silences nothing in one run may
-/// be needed in another: it goes only if no run needs it (R9.82).
+/// Returns the first safe change of each message about a text. A comment that silences nothing in one run may be needed
+/// in another: it goes only if no run needs it (R9.82).
 fn safe_fixes(view: &RequestView, document: &OpenDocument) -> Vec<Fix> {
     let name = shown_path(&document.path);
     let mut proposed: HashMap<&Fix, (Code, usize)> = HashMap::new();
@@ -195,7 +195,7 @@ fn workspace_edit<'a>(
     Some(as_edit(view, changes))
 }
 
-/// The edits of a file; `None` if its lines have changed since the fixes were made.
+/// Returns the edits of a file; `None` if its lines have changed since the fixes were made.
 fn text_edits(
     view: &RequestView,
     file: &str,

@@ -28,7 +28,7 @@ pub(super) struct AnalysisJob {
     pub(super) disk: Disk,
     /// The executed blocks that are checked.
     pub(super) max_blocks: u64,
-    /// Whether the text has changed since.
+    /// Mark that the text has changed since.
     pub(super) cancel: Cancel,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Analysis {
     pub(super) version: i32,
     /// Messages about the text and all that it uses.
     pub(super) said: Vec<Diagnostic>,
-    /// Why it could not be checked.
+    /// Reason why the text could not be checked.
     pub(super) failure: Option<Failure>,
     /// The files that were read for it.
     pub(super) reads: Vec<PathBuf>,
@@ -49,7 +49,7 @@ pub(super) struct Analysis {
     pub(super) run: Option<ProgramRun>,
 }
 
-/// Why a text could not be checked.
+/// Reason why a text could not be checked.
 #[derive(Debug)]
 pub(super) struct Failure {
     /// The failure.
@@ -76,7 +76,7 @@ pub(super) struct ProgramRun {
 /// An axis when a program has ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AxisEnd {
-    /// Its position in the machine.
+    /// Position in the machine.
     pub(super) at: usize,
     /// Name of the axis.
     pub(super) axis: String,
@@ -132,7 +132,7 @@ impl AnalysisJob {
         let mut found = survey.findings.diagnostics();
         let is_cut = found.any(|it| it.code == Code::Fc910 && it.is_raised());
         let found = survey.findings.diagnostics();
-        // That the editor stops checking does not mean that a loop is endless.
+        // The end of the check in the editor does not prove that a loop is endless.
         said.extend(
             found
                 .filter(|it| !is_cut || it.code != Code::Fc910)
@@ -181,7 +181,7 @@ impl AnalysisJob {
         }
     }
 
-    /// The build of the machine that a list belongs to, if a configuration names it.
+    /// Returns the build of the machine that a list belongs to, if a configuration names it.
     fn build(&self, disk: &Disk, registry: &FileRegistry) -> Option<CncBuild> {
         let folder = self.document.path.parent()?;
         let mut machines = Machines::new(MachineOptions::default(), registry).on_disk(disk);
@@ -197,8 +197,7 @@ pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions
     loaded.session(run).with_wording(Some(editor))
 }
 
-/// The budgets of a program in an editor: the more blocks are checked, the longer loops and calls may
-/// run, too.
+/// Returns the budgets of a program in an editor: the more blocks are checked, the longer loops and calls may run, too.
 pub(super) fn limits(max_blocks: u64) -> Limits {
     let limits = Limits::brief().with_blocks(max_blocks);
     limits.with_repeats(

@@ -26,7 +26,7 @@ const MOST_SYMBOLS: usize = 500;
 /// Number of programs that a lens names.
 const MOST_NAMED: usize = 5;
 
-/// The position of the program of a URI.
+/// Returns the position of the program of a URI.
 fn position(graph: &CallGraph, uri: &Uri) -> Option<usize> {
     let path = path_of(&uri.0)?;
     let place = Disk::place(&path);
@@ -59,7 +59,7 @@ fn item_of(view: &RequestView, program: &GraphProgram) -> Option<CallHierarchyIt
     path_of_program(program).map(|path| item(view, path))
 }
 
-/// The program at a place: the one that is called there, otherwise that of the text.
+/// Returns the program at a place: the one that is called there, otherwise that of the text.
 pub(super) fn prepare(
     view: &RequestView,
     params: &CallHierarchyPrepareParams,
@@ -73,7 +73,7 @@ pub(super) fn prepare(
     Some(vec![item(view, &path)])
 }
 
-/// The programs that call a program, with the lines of their calls.
+/// Returns the programs that call a program, with the lines of their calls.
 pub(super) fn incoming(
     view: &RequestView,
     params: &CallHierarchyIncomingCallsParams,
@@ -91,7 +91,7 @@ pub(super) fn incoming(
     Some(calls.collect())
 }
 
-/// The programs that a program calls, with the lines of its calls.
+/// Returns the programs that a program calls, with the lines of its calls.
 pub(super) fn outgoing(
     view: &RequestView,
     params: &CallHierarchyOutgoingCallsParams,
@@ -111,7 +111,7 @@ pub(super) fn outgoing(
     Some(calls.collect())
 }
 
-/// The lines on which a program calls another one.
+/// Returns the lines on which a program calls another one.
 fn lines(caller: &GraphProgram, program: usize) -> Vec<Range> {
     let calls = caller.calls.iter();
     let calls = calls.filter(|call: &&FoundCall| call.program == program);
@@ -120,8 +120,7 @@ fn lines(caller: &GraphProgram, program: usize) -> Vec<Range> {
         .collect()
 }
 
-/// The programs of the project and their local subprograms whose names hold some letters: programs
-/// first.
+/// Returns the programs of the project and their local subprograms whose names hold some letters: programs first.
 pub(super) fn symbols(
     view: &RequestView,
     params: &WorkspaceSymbolParams,
@@ -162,8 +161,8 @@ fn symbol(
     }
 }
 
-/// The lens that names the number of programs from which a program is reached; its text is made when the
-/// client asks for it, since the calls of the project may have to be found first.
+/// Returns the lens that names the number of programs from which a program is reached; its text is made when the client
+/// asks for it, since the calls of the project may have to be found first.
 pub(super) fn lens(view: &RequestView, document: &OpenDocument) -> Option<CodeLens> {
     view.calls.are_known().then(|| CodeLens {
         range: whole_line(0),
@@ -185,7 +184,7 @@ pub(super) fn resolved(view: &RequestView, mut lens: CodeLens) -> CodeLens {
     lens
 }
 
-/// The programs from which a program is reached: those at the top, which no program calls.
+/// Returns the programs from which a program is reached: those at the top, which no program calls.
 fn reached(view: &RequestView, uri: &Uri) -> String {
     let none = || "called by no program of the project".to_owned();
     let Some(project) = view.calls.project(&view.documents.disk()) else {
@@ -200,7 +199,7 @@ fn reached(view: &RequestView, uri: &Uri) -> String {
     let is_top = |at: &&usize| programs[**at].called_by.is_empty();
     let mut top: Vec<usize> = reaching.iter().filter(is_top).copied().collect();
     if top.is_empty() {
-        // All of them call each other in a cycle.
+        // No program is uncalled: they call each other in a cycle.
         top = reaching;
     }
     let names = top.iter().take(MOST_NAMED).filter_map(|at| {

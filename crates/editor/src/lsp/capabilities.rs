@@ -13,7 +13,7 @@ use super::commands::COMMANDS;
 use super::pages::SCHEME;
 use super::project_calls::ProjectCalls;
 
-/// The answer to `initialize`.
+/// Returns the answer to `initialize`.
 pub(super) fn offer(client: &LspClient, calls: &ProjectCalls) -> InitializeResult {
     let has_project = calls.are_known().then_some(true);
     let shows_calls = has_project.filter(|_| client.settings.outlines());

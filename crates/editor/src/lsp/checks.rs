@@ -9,12 +9,12 @@ use super::worker::Cancel;
 /// between the changes of one.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Why a text has to be checked.
+/// Reason why a text has to be checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outdated {
-    /// It is new.
+    /// New text.
     Now,
-    /// It was changed, and may be again at once.
+    /// Changed text, which may change again at once.
     ByTyping,
     /// A file that it uses was changed.
     ByOthers,
@@ -120,12 +120,12 @@ impl Checks {
         self.running.as_ref().map(|(uri, _)| uri.as_str())
     }
 
-    /// Whether no check is running or due.
+    /// Returns whether no check is running or due.
     pub(super) fn are_done(&self) -> bool {
         self.running.is_none() && self.due.is_empty()
     }
 
-    /// Whether a check of a text is still to come.
+    /// Returns whether a check of a text is still to come.
     pub(super) fn is_awaited(&self, uri: &str) -> bool {
         self.running() == Some(uri) || self.due.contains_key(uri)
     }

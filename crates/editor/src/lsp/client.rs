@@ -21,7 +21,7 @@ pub(super) struct LspClient {
 }
 
 impl LspClient {
-    /// The client of an `initialize` request, and the settings that cannot be used.
+    /// Returns the client of an `initialize` request, and the settings that cannot be used.
     pub(super) fn new(params: &InitializeParams) -> (Self, Vec<String>) {
         let mut settings = Settings::default();
         let given = params.initialization_options.as_ref();
@@ -39,34 +39,34 @@ impl LspClient {
         (client, wrong)
     }
 
-    /// Whether it reports changed files on request.
+    /// Returns whether it reports changed files on request.
     pub(super) fn watches_files(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let watching = workspace.and_then(|it| it.did_change_watched_files.as_ref());
         watching.and_then(|it| it.dynamic_registration) == Some(true)
     }
 
-    /// Whether it can be asked for its settings.
+    /// Returns whether it can be asked for its settings.
     pub(super) fn gives_settings(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         workspace.and_then(|it| it.configuration) == Some(true)
     }
 
-    /// Whether it refreshes inlay hints on request.
+    /// Returns whether it refreshes inlay hints on request.
     pub(super) fn refreshes_inlay_hints(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let hints = workspace.and_then(|it| it.inlay_hint.as_ref());
         hints.and_then(|it| it.refresh_support) == Some(true)
     }
 
-    /// Whether it refreshes code lenses on request.
+    /// Returns whether it refreshes code lenses on request.
     pub(super) fn refreshes_code_lenses(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let lenses = workspace.and_then(|it| it.code_lens.as_ref());
         lenses.and_then(|it| it.refresh_support) == Some(true)
     }
 
-    /// Whether it pulls messages, and refreshes them on request.
+    /// Returns whether it pulls messages, and refreshes them on request.
     pub(super) fn pulls_diagnostics(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let refreshing = workspace.and_then(|it| it.diagnostics.as_ref());
@@ -75,14 +75,14 @@ impl LspClient {
             && refreshing.and_then(|it| it.refresh_support) == Some(true)
     }
 
-    /// Whether it asks what can be renamed before it asks for a new name.
+    /// Returns whether it asks what can be renamed before it asks for a new name.
     pub(super) fn prepares_renames(&self) -> bool {
         let document = self.capabilities.text_document.as_ref();
         let rename = document.and_then(|it| it.rename.as_ref());
         rename.and_then(|it| it.prepare_support) == Some(true)
     }
 
-    /// Whether changes of files name the version that they are for.
+    /// Returns whether changes of files name the version that they are for.
     pub(super) fn edits_versions(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let edits = workspace.and_then(|it| it.workspace_edit.as_ref());
@@ -90,7 +90,7 @@ impl LspClient {
     }
 }
 
-/// The folder of the project, if the client names one.
+/// Returns the folder of the project, if the client names one.
 #[allow(deprecated, reason = "older clients name nothing else")]
 pub(super) fn project(params: &InitializeParams) -> Option<PathBuf> {
     let folders = params

@@ -30,7 +30,7 @@ pub(super) const SHOW_TIMELINE: &str = "frictcomp.showTimeline";
 /// Name of the command for the HTML report on the order of the programs of a folder.
 const AUDIT: &str = "frictcomp.audit";
 
-/// All commands.
+/// Commands of the server.
 pub(super) const COMMANDS: [&str; 2] = [SHOW_TIMELINE, AUDIT];
 
 /// Subject of a command: its one argument.

@@ -84,7 +84,7 @@ fn split_word(before: &str) -> (&str, &str) {
     before.split_at(before.trim_end_matches(is_name).len())
 }
 
-/// The words that are possible in an open COMP bracket; `None` if none is open.
+/// Returns the words that are possible in an open COMP bracket; `None` if none is open.
 fn comp_words(before: &str) -> Option<Offer<'_>> {
     let code = code_of(before);
     let open = code.rfind('[')?;
@@ -130,7 +130,7 @@ fn comp_words(before: &str) -> Option<Offer<'_>> {
     Some(Offer { typed, items })
 }
 
-/// Whether a bracket after this code belongs to a word of the block and does not hold an index.
+/// Returns whether a bracket after this code belongs to a word of the block and does not hold an index.
 fn is_of_axis(code: &str) -> bool {
     let (above, name) = split_word(code.trim_end());
     name.contains(|letter: char| letter.is_ascii_alphabetic()) && !above.ends_with(['.', '@', '='])
@@ -152,8 +152,8 @@ fn keyword(word: &str, about: &str) -> CompletionItem {
     }
 }
 
-/// The axes of the machine whose names complete the typed letters, where a word of a block may begin. A
-/// word with a digit is an address with its value: `X1` moves X, even if there is an axis X10.
+/// Returns the axes of the machine whose names complete the typed letters, where a word of a block may begin. A word
+/// with a digit is an address with its value: `X1` moves X, even if there is an axis X10.
 fn axes<'t>(view: &RequestView, document: &OpenDocument, before: &'t str) -> Option<Offer<'t>> {
     let run = view.analysis(&document.uri)?.run.as_ref()?;
     let (above, typed) = split_word(before);
@@ -184,13 +184,13 @@ fn axes<'t>(view: &RequestView, document: &OpenDocument, before: &'t str) -> Opt
     })
 }
 
-/// Whether the name of a program is expected: after `L` and `LL`.
+/// Returns whether the name of a program is expected: after `L` and `LL`.
 fn calls(above: &str) -> bool {
     let last = above.split_whitespace().next_back().unwrap_or_default();
     ["L", "LL"].iter().any(|it| last.eq_ignore_ascii_case(it))
 }
 
-/// The parameters that a line of a list may give.
+/// Returns the parameters that a line of a list may give.
 fn list_keys<'t>(document: &OpenDocument, before: &'t str) -> Option<Offer<'t>> {
     let typed = before.trim_start();
     if typed.contains([' ', '\t', '(', '#']) {
@@ -203,7 +203,7 @@ fn list_keys<'t>(document: &OpenDocument, before: &'t str) -> Option<Offer<'t>> 
     })
 }
 
-/// The keys of the table of `frictcomp.toml` that a line belongs to.
+/// Returns the keys of the table of `frictcomp.toml` that a line belongs to.
 fn toml_keys<'t>(document: &OpenDocument, line: u32, before: &'t str) -> Option<Offer<'t>> {
     let (above, typed) = split_word(before);
     if !above.trim().is_empty() {

@@ -62,7 +62,7 @@ pub(super) struct Contour {
     worst: Vec<Worst>,
     /// The verdict, then the figures in sentences and tables.
     report: Value,
-    /// What the contour is based on, and what it lacks.
+    /// Remarks on the basis of the contour, and on what it lacks.
     remarks: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ pub(super) struct Contour {
 struct BlockPath {
     /// The number of its file, from 0.
     file: usize,
-    /// Its line, from 0.
+    /// Line, from 0.
     line: u32,
     /// A line through points of the picture, in its units.
     points: Vec<[f64; 2]>,

@@ -35,13 +35,13 @@ pub(super) struct BlockStates {
     /// The line of the block, from 0; if the place is not in an executed block, that of the last executed
     /// block before it.
     pub(super) line: u32,
-    /// Whether the place is in that block.
+    /// Whether the place is in an executed block.
     pub(super) executed: bool,
     /// Number of executions of the block.
     pub(super) times: u64,
     /// The axes.
     pub(super) axes: Vec<AxisStates>,
-    /// All of it in one short line: `X active, Y inactive → active`.
+    /// States of all axes in one short line: `X active, Y inactive → active`.
     pub(super) text: String,
 }
 
@@ -91,7 +91,7 @@ pub(super) struct Timeline {
 pub(super) struct AxisTimeline {
     /// Name of the axis.
     pub(super) axis: String,
-    /// Its states, from the first line to the last.
+    /// States, from the first line to the last.
     pub(super) segments: Vec<StateSegment>,
 }
 
@@ -107,7 +107,7 @@ pub(super) struct StateSegment {
     pub(super) states: Vec<State>,
 }
 
-/// The states at a place.
+/// Returns the states at a place.
 pub(super) fn states(view: &RequestView, params: &StatesParams) -> Option<BlockStates> {
     let document = view.document(&params.text_document.uri)?;
     let wanted = RequestView::block_at(document, params.position);
@@ -149,7 +149,7 @@ fn add(states: &mut Vec<State>, state: Option<State>) {
     }
 }
 
-/// `X active`, `X active → inactive`, `X active or inactive`.
+/// Returns `X active`, `X active → inactive`, `X active or inactive`.
 fn in_words(axis: &AxisStates) -> String {
     let words = |states: &[State]| {
         let words: Vec<&str> = states.iter().map(|state| state.as_str()).collect();
@@ -162,8 +162,8 @@ fn in_words(axis: &AxisStates) -> String {
     format!("{name} {} \u{2192} {after}", words(&axis.before))
 }
 
-/// The states of a program over its lines. Before the first executed block they are those at its start;
-/// lines that are not executed have those of the block above.
+/// Returns the states of a program over its lines. Before the first executed block they are those at its start; lines
+/// that are not executed have those of the block above.
 pub(super) fn timeline(view: &RequestView, params: &TimelineParams) -> Option<Timeline> {
     let document = view.document(&params.text_document.uri)?;
     let (_, run, name) = view.runs(document).into_iter().next()?;

@@ -72,18 +72,18 @@ impl Delivery {
             && changed.keys().any(|uri| by_other(uri) && is_open(uri));
     }
 
-    /// Whether the client has to ask again; true only once per change.
+    /// Returns whether the client has to ask again; true only once per change.
     pub(super) fn take_outdated(&mut self) -> bool {
         std::mem::take(&mut self.is_outdated)
     }
 
-    /// The messages on each text.
+    /// Returns the messages on each text.
     pub(super) fn shown(&self) -> &MessagesByUri {
         self.published.shown()
     }
 }
 
-/// The messages to push: all, or for a client that pulls, those on texts that it does not have open.
+/// Returns the messages to push: all, or for a client that pulls, those on texts that it does not have open.
 fn pushed(to: Translator<'_>, mut changed: ByText) -> ByText {
     let pulls = to.client.pulls_diagnostics();
     changed.retain(|uri, _| !pulls || to.documents.get(&uri.as_str().into()).is_none());

@@ -20,18 +20,18 @@ pub(super) enum Kind {
     List,
     /// A `frictcomp.toml`.
     Configuration,
-    /// Anything else: it gets no messages (R12.14).
+    /// Any other text, which gets no messages (R12.14).
     Other,
 }
 
 /// A text that the client has open.
 #[derive(Debug, Clone)]
 pub(super) struct OpenDocument {
-    /// Its URI, as the client writes it.
+    /// URI, as the client writes it.
     pub(super) uri: Uri,
     /// The file that it replaces; for a text without one, a name in the folder of the project.
     pub(super) path: PathBuf,
-    /// Whether it is a program, a list or a configuration.
+    /// Kind of the text: a program, a list or a configuration.
     pub(super) kind: Kind,
     /// The version number given by the client.
     pub(super) version: i32,
@@ -56,7 +56,7 @@ impl OpenDocument {
         }
     }
 
-    /// Its text.
+    /// Returns the text of the document.
     pub(super) fn text(&self) -> &str {
         &self.text
     }
@@ -70,13 +70,13 @@ impl OpenDocument {
         }
     }
 
-    /// A line, from 0, without its end; empty past the last one.
+    /// Returns a line, from 0, without its end; empty past the last one.
     pub(super) fn line(&self, line: u32) -> &str {
         let number = self.lines.first().saturating_add(line);
         self.lines.line_span(&self.text, number).of(&self.text)
     }
 
-    /// Its text in place of its file.
+    /// Returns the open text, which takes the place of its file.
     pub(super) fn open_text(&self) -> OpenText {
         OpenText {
             path: self.path.clone(),
@@ -84,8 +84,8 @@ impl OpenDocument {
         }
     }
 
-    /// The line, from 0, on which the block of a line begins: after a line that ends in `\`, a block
-    /// continues on the next one.
+    /// Returns the line, from 0, on which the block of a line begins: after a line that ends in `\`, a block continues
+    /// on the next one.
     pub(super) fn block_line(&self, line: u32) -> u32 {
         let mut first = line;
         while first > 0 && self.line(first - 1).trim_end().ends_with('\\') {
@@ -94,12 +94,12 @@ impl OpenDocument {
         first
     }
 
-    /// The byte offset of a position.
+    /// Returns the byte offset of a position.
     pub(super) fn offset(&self, position: Position, encoding: Encoding) -> usize {
         encoding.place(&self.text, &self.lines, position)
     }
 
-    /// The range of a span.
+    /// Returns the range of a span.
     pub(super) fn range(&self, span: Span, encoding: Encoding) -> Range {
         Range {
             start: encoding.position(&self.text, &self.lines, span.start),
@@ -202,27 +202,27 @@ impl Documents {
         Some(closed)
     }
 
-    /// An open text.
+    /// Returns an open text.
     pub(super) fn get(&self, uri: &Uri) -> Option<&Arc<OpenDocument>> {
         self.open.get(&uri.0)
     }
 
-    /// All open texts.
+    /// Returns all open texts.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Arc<OpenDocument>> {
         self.open.iter().map(|(_, document)| document)
     }
 
-    /// The folder of the project.
+    /// Returns the folder of the project.
     pub(super) fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The disk of the system with the open texts in place of their files.
+    /// Returns the disk of the system with the open texts in place of their files.
     pub(super) fn disk(&self) -> Disk {
         Disk::with_placed(self.texts.clone())
     }
 
-    /// The URI of a file as the client writes it, if the client has the file open.
+    /// Returns the URI of a file as the client writes it, if the client has the file open.
     pub(super) fn uri(&self, path: &Path) -> Uri {
         match self.names.get(path).and_then(BTreeSet::first) {
             Some(name) => Uri(name.clone()),
@@ -230,7 +230,7 @@ impl Documents {
         }
     }
 
-    /// The file of a name in messages, which may be relative to the current folder.
+    /// Returns the file of a name in messages, which may be relative to the current folder.
     pub(super) fn path(name: &str) -> PathBuf {
         Disk::default()
             .absolute(Path::new(name))
@@ -238,7 +238,7 @@ impl Documents {
     }
 }
 
-/// A file name for a text that has no file.
+/// Returns a file name for a text that has no file.
 fn file_name(uri: &str) -> String {
     let name = uri.rsplit(['/', ':']).next().unwrap_or_default();
     let usable = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);
@@ -276,8 +276,8 @@ fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
     }
 }
 
-/// Whether texts of this URI are those of a user: files, and texts that were never saved. Versions that
-/// an editor takes from git, for example, would show every message twice (R12.12).
+/// Returns whether texts of this URI are those of a user: files, and texts that were never saved. Versions that an
+/// editor takes from git, for example, would show every message twice (R12.12).
 pub(super) fn is_of_a_user(uri: &Uri) -> bool {
     let scheme = uri.0.split(':').next().unwrap_or_default();
     ["file", "untitled"]

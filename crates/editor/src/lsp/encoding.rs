@@ -22,7 +22,7 @@ impl Encoding {
         if has_bytes { Self::Utf8 } else { Self::Utf16 }
     }
 
-    /// Its name in the protocol.
+    /// Returns its name in the protocol.
     pub(super) fn kind(self) -> PositionEncodingKind {
         match self {
             Self::Utf8 => PositionEncodingKind::UTF8,
@@ -39,15 +39,15 @@ impl Encoding {
         u32::try_from(units).unwrap_or(u32::MAX)
     }
 
-    /// The column of a byte offset in a line; inside a character, that of its beginning.
+    /// Returns the column of a byte offset in a line; inside a character, that of its beginning.
     pub(super) fn column(self, line: &str, offset: usize) -> u32 {
         let letters = line.char_indices();
         let before = letters.take_while(|(at, letter)| at + letter.len_utf8() <= offset);
         before.map(|(_, letter)| self.units(letter)).sum()
     }
 
-    /// The byte offset of a column in a line: inside a character, that of its beginning; past the
-    /// end of the line, its end.
+    /// Returns the byte offset of a column in a line: inside a character, that of its beginning; past the end of the
+    /// line, its end.
     pub(super) fn offset(self, line: &str, column: u32) -> usize {
         let mut left = column;
         let before = line.chars().take_while(|letter| {
@@ -59,7 +59,7 @@ impl Encoding {
         before.map(char::len_utf8).sum()
     }
 
-    /// The position of a byte offset in a text.
+    /// Returns the position of a byte offset in a text.
     pub(super) fn position(self, text: &str, lines: &LineIndex, offset: u32) -> Position {
         let line = lines.line(offset);
         let span = lines.line_span(text, line);
@@ -70,7 +70,7 @@ impl Encoding {
         }
     }
 
-    /// The byte offset of a position in a text; past its last line, its end.
+    /// Returns the byte offset of a position in a text; past its last line, its end.
     pub(super) fn place(self, text: &str, lines: &LineIndex, position: Position) -> usize {
         let span = lines.line_span(text, lines.first().saturating_add(position.line));
         span.start as usize + self.offset(span.of(text), position.character)
@@ -95,7 +95,7 @@ impl Encoding {
     }
 }
 
-/// The whole of a line, including its end.
+/// Returns the whole of a line, including its end.
 pub(super) fn whole_line(line: u32) -> Range {
     let at = |line| Position { line, character: 0 };
     Range {

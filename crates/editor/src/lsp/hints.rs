@@ -8,7 +8,7 @@ use super::states::Pass;
 use super::view::RequestView;
 use frictcomp::text::shown_path;
 
-/// The hints in a part of a text.
+/// Returns the hints in a part of a text.
 pub(super) fn inlay_hints(view: &RequestView, params: &InlayHintParams) -> Option<Vec<InlayHint>> {
     let document = view.document(&params.text_document.uri)?;
     if document.kind != Kind::Program || !view.client.settings.inlay_hints {
@@ -34,7 +34,7 @@ pub(super) fn inlay_hints(view: &RequestView, params: &InlayHintParams) -> Optio
     Some(hints)
 }
 
-/// A hint at the end of the last line of a block.
+/// Returns a hint at the end of the last line of a block.
 fn hint(view: &RequestView, document: &OpenDocument, line: u32, label: &str) -> InlayHint {
     let mut last = line.saturating_sub(1);
     while document.line(last).trim_end().ends_with('\\') {

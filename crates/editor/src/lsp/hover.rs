@@ -41,7 +41,7 @@ pub(super) fn hover(view: &RequestView, params: &HoverParams) -> Option<Hover> {
     })
 }
 
-/// The states at a block, its COMP commands and its motion.
+/// Returns the states at a block, its COMP commands and its motion.
 fn program(view: &RequestView, document: &OpenDocument, position: Position) -> Option<String> {
     let line = RequestView::block_at(document, position);
     let mut text = String::new();
@@ -71,7 +71,7 @@ fn program(view: &RequestView, document: &OpenDocument, position: Position) -> O
     (!text.is_empty()).then_some(text)
 }
 
-/// The COMP command around an offset of a line.
+/// Returns the COMP command around an offset of a line.
 fn command_at(line: &str, offset: usize) -> Option<CompCommand> {
     let commands = parse_block(line)
         .items
@@ -167,7 +167,7 @@ fn table(rows: &[HoverRow<'_>], passes: &[Pass<'_>]) -> String {
     text
 }
 
-/// Each state with its number of passes, the first one first.
+/// Returns each state with its number of passes, the first one first.
 fn of_all<'a>(
     passes: &[Pass<'a>],
     state: impl Fn(&Pass<'a>) -> Option<String>,

@@ -14,11 +14,11 @@ use super::worker::Worker;
 pub(super) struct RoutedRequest {
     /// The number that the client gives it.
     pub(super) id: RequestId,
-    /// Its handler.
+    /// Handler.
     pub(super) handler: Handler,
-    /// Its parameters.
+    /// Parameters.
     pub(super) params: Value,
-    /// All that is known at the moment of the request.
+    /// State of the server at the moment of the request.
     pub(super) view: RequestView,
 }
 
@@ -63,7 +63,7 @@ impl Lanes {
 }
 
 impl RoutedRequest {
-    /// The answer; `None` if the client has cancelled the request.
+    /// Returns the answer; `None` if the client has cancelled the request.
     fn answer(self) -> Option<Response> {
         if self.view.cancel.is_set() {
             return None;

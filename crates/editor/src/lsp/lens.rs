@@ -14,7 +14,7 @@ use frictcomp::interpreter::Options;
 use frictcomp::text::shown_path;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, MachineOptions, Machines};
 
-/// The lenses over a text.
+/// Returns the lenses over a text.
 pub(super) fn code_lenses(view: &RequestView, params: &CodeLensParams) -> Option<Vec<CodeLens>> {
     let document = view.document(&params.text_document.uri)?;
     if document.kind != Kind::Program || !view.client.settings.code_lens {
@@ -50,8 +50,7 @@ pub(super) fn code_lenses(view: &RequestView, params: &CodeLensParams) -> Option
     Some(lenses)
 }
 
-/// The axes that a program moves in a state that it inherits (R10.1); `None` if that cannot be
-/// determined.
+/// Returns the axes that a program moves in a state that it inherits (R10.1); `None` if that cannot be determined.
 fn inherited(view: &RequestView, document: &OpenDocument) -> Option<String> {
     let disk = view.documents.disk();
     let unheard = FileRegistry::default();

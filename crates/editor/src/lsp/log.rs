@@ -3,7 +3,7 @@
 use gen_lsp_types::{LogMessageNotification, LogMessageParams, MessageType, Notification as _};
 use lsp_server::{Message, Notification};
 
-/// Something that went wrong between client and server.
+/// Creates a message about something that went wrong between client and server.
 pub(super) fn log(message: String) -> Message {
     let params = LogMessageParams {
         kind: MessageType::Warning,

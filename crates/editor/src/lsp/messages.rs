@@ -134,7 +134,7 @@ impl Translator<'_> {
         }
     }
 
-    /// A main program that reaches a message in a called program (R17.1).
+    /// Returns a main program that reaches a message in a called program (R17.1).
     fn reached_from(self, file: &str) -> DiagnosticRelatedInformation {
         DiagnosticRelatedInformation {
             location: self.location(file, whole_line(0)),
@@ -142,7 +142,7 @@ impl Translator<'_> {
         }
     }
 
-    /// The line of a list whose setting the advice is about.
+    /// Returns the line of a list whose setting the advice is about.
     fn list_line(self, advice: &Advice) -> Option<DiagnosticRelatedInformation> {
         let Advice::ConfigureInList { file, line, .. } = advice else {
             return None;

@@ -25,7 +25,7 @@ pub(super) struct AxisMoves {
     pub(super) times: u64,
     /// Number of reversals at the beginning of the block or in it.
     pub(super) reversals: u64,
-    /// Whether a target of it is not known.
+    /// Whether the motion has an unknown target.
     pub(super) is_unsure: bool,
 }
 
@@ -205,7 +205,7 @@ mod tests {
     use frictcomp::comp::AxisIndex;
     use frictcomp::interpreter::{Centre, Turn};
 
-    /// The directions of both axes on an arc around the origin.
+    /// Returns the directions of both axes on an arc around the origin.
     fn arc(turn: Turn, from: [f64; 2], to: [f64; 2]) -> [Vec<Direction>; 2] {
         let axes = [AxisIndex::new(0), AxisIndex::new(1)];
         let arc = CircularArc {

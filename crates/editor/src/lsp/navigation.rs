@@ -50,7 +50,7 @@ fn location(view: &RequestView, document: &OpenDocument, mention: &Mention) -> L
     }
 }
 
-/// The subprograms and labels of a program.
+/// Returns the subprograms and labels of a program.
 #[allow(deprecated, reason = "the type has a field that is left empty")]
 pub(super) fn symbols(
     view: &RequestView,
@@ -82,7 +82,7 @@ pub(super) fn symbols(
     Some(symbols.collect())
 }
 
-/// The lines that a name covers: a subprogram up to the next one, a label with its block.
+/// Returns the lines that a name covers: a subprogram up to the next one, a label with its block.
 fn whole(document: &OpenDocument, outline: &ProgramOutline, mention: &Mention) -> Option<Range> {
     let line_of = |mention: &Mention| {
         let before = document.text().get(..mention.span.start as usize)?;
@@ -126,7 +126,7 @@ pub(super) fn definition(view: &RequestView, params: &DefinitionParams) -> Optio
     Some(location(view, document, mention))
 }
 
-/// The file of the program that is called at a place.
+/// Returns the file of the program that is called at a place.
 pub(super) fn called_at(view: &RequestView, place: &TextDocumentPositionParams) -> Option<PathBuf> {
     let (document, _, found) = at(view, place, Settings::outlines)?;
     match &found.name {
@@ -135,8 +135,8 @@ pub(super) fn called_at(view: &RequestView, place: &TextDocumentPositionParams) 
     }
 }
 
-/// The file of a called program: next to the caller, otherwise the one that the check of the caller
-/// read, wherever the configuration says that programs are.
+/// Returns the file of a called program: next to the caller, otherwise the one that the check of the caller read,
+/// wherever the configuration says that programs are.
 fn called(view: &RequestView, document: &OpenDocument, name: &str) -> Option<PathBuf> {
     let name = name.replace('\\', "/");
     let beside = document.path.parent()?.join(&name);
@@ -163,7 +163,7 @@ pub(super) fn references(view: &RequestView, params: &ReferenceParams) -> Option
     Some(found.map(|it| location(view, document, it)).collect())
 }
 
-/// The lines that can be folded.
+/// Returns the lines that can be folded.
 pub(super) fn folding(
     view: &RequestView,
     params: &FoldingRangeParams,
@@ -177,7 +177,7 @@ pub(super) fn folding(
     Some(folds.collect())
 }
 
-/// The name at a place, if it can be changed.
+/// Returns the name at a place, if it can be changed.
 pub(super) fn prepare_rename(
     view: &RequestView,
     place: &TextDocumentPositionParams,

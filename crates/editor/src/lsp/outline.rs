@@ -52,7 +52,7 @@ pub(super) struct ProgramOutline {
 }
 
 impl ProgramOutline {
-    /// The outline of a text.
+    /// Returns the outline of a text.
     pub(super) fn of(text: &str) -> Self {
         let lines = LineIndex::new(text);
         let mut outline = Self::default();
@@ -107,13 +107,13 @@ impl ProgramOutline {
         outline
     }
 
-    /// The name at an offset of the text.
+    /// Returns the name at an offset of the text.
     pub(super) fn at(&self, offset: usize) -> Option<&Mention> {
         let mut mentions = self.mentions.iter();
         mentions.find(|it| it.span.range().contains(&offset) || it.span.end as usize == offset)
     }
 
-    /// Every place of a name.
+    /// Returns every place of a name.
     pub(super) fn all<'a>(&'a self, name: &'a Name) -> impl Iterator<Item = &'a Mention> {
         self.mentions.iter().filter(move |it| it.name == *name)
     }
@@ -131,14 +131,14 @@ impl ProgramOutline {
     }
 }
 
-/// The places of the definitions of names.
+/// Returns the places of the definitions of names.
 pub(super) fn definitions(outline: &ProgramOutline) -> BTreeMap<&Name, &Mention> {
     let mentions = outline.mentions.iter();
     let defined = mentions.filter(|it| it.role == NameRole::Definition);
     defined.map(|it| (&it.name, it)).collect()
 }
 
-/// The offset in the text of an offset in a block, which drops only the line ends.
+/// Returns the offset in the text of an offset in a block, which drops only the line ends.
 fn place_in(raw: &RawBlock<'_>, at: u32, line_span: impl Fn(u32) -> Span) -> usize {
     let before = &raw.text[..at as usize];
     let Some(end) = before.rfind('\n') else {
@@ -208,7 +208,7 @@ N30: M17
         assert_eq!(definitions(&outline).len(), 5);
     }
 
-    /// The names in the order of the text, definitions with a colon, files with an exclamation mark.
+    /// Returns the names in the order of the text, definitions with a colon, files with an exclamation mark.
     fn mentions(text: &str) -> String {
         let shown = ProgramOutline::of(text).mentions.into_iter().map(|it| {
             let mark = if it.role == Definition { ":" } else { "" };

@@ -13,7 +13,7 @@ use frictcomp::diagnostic::Code;
 /// The scheme of texts that the server itself provides.
 pub(super) const SCHEME: &str = "frictcomp";
 
-/// The page of a code: in the folder that the client names, or a text of the server.
+/// Returns the page of a code: in the folder that the client names, or a text of the server.
 pub(super) fn page_uri(code: Code, settings: &Settings) -> Uri {
     Uri(match &settings.pages {
         Some(folder) => format!("{folder}/{code}.md"),
@@ -38,7 +38,7 @@ pub(super) fn written_pages() -> Option<String> {
     written.ok().map(|()| uri_of(&folder))
 }
 
-/// The folder of the user for what can be made again.
+/// Returns the folder of the user for what can be made again.
 fn cache_folder() -> PathBuf {
     let named = |name: &str| env::var_os(name).filter(|it: &OsString| !it.is_empty());
     let home = || Some(PathBuf::from(named("HOME")?).join(".cache"));
@@ -52,7 +52,7 @@ fn cache_folder() -> PathBuf {
         .unwrap_or_else(env::temp_dir)
 }
 
-/// The text of a page; empty if there is no such code.
+/// Returns the text of a page; empty if there is no such code.
 pub(super) fn content(params: &TextDocumentContentParams) -> TextDocumentContentResult {
     let uri = &params.uri.0;
     let name = uri.rsplit('/').next().unwrap_or_default();

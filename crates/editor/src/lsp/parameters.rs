@@ -34,7 +34,7 @@ fn meaning(field: Field) -> &'static str {
     }
 }
 
-/// The parameters of lists that concern compensation.
+/// Returns the parameters of lists that concern compensation.
 pub(super) fn pages() -> Vec<Page> {
     let fields = Field::ALL.into_iter().map(|field| {
         let unit = match (field.unit(AxisType::Linear), field.unit(AxisType::Rotary)) {
@@ -96,15 +96,15 @@ pub(super) fn pages() -> Vec<Page> {
     fields.chain(points).chain(selectors).collect()
 }
 
-/// The page of the parameter that a line of a list sets.
+/// Returns the page of the parameter that a line of a list sets.
 pub(super) fn page_of(line: &str) -> Option<Page> {
     let key = line.split([' ', '\t', '(']).find(|word| !word.is_empty())?;
     let plain = without_index(key);
     pages().into_iter().find(|page| page.key == plain)
 }
 
-/// The parameters that the beginning of a line of a list may mean. A point of the curve has the typed
-/// index, otherwise the first one that the list does not have.
+/// Returns the parameters that the beginning of a line of a list may mean. A point of the curve has the typed index,
+/// otherwise the first one that the list does not have.
 pub(super) fn pages_for(typed: &str, list: &str) -> Vec<Page> {
     let first_free = || {
         let used = list.lines().filter_map(|line| {

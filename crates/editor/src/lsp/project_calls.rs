@@ -40,7 +40,7 @@ pub(super) struct Project {
 pub(super) struct Subprogram {
     /// The file that holds it.
     pub(super) path: PathBuf,
-    /// Its name.
+    /// Name.
     pub(super) name: String,
     /// The place of the name.
     pub(super) place: Place,
@@ -54,7 +54,7 @@ impl Project {
         }
     }
 
-    /// The local subprograms of all programs, found on first use.
+    /// Returns the local subprograms of all programs, found on first use.
     pub(super) fn subprograms(&self) -> &[Subprogram] {
         self.subprograms.get_or_init(|| {
             let files = self.graph.programs().iter();
@@ -69,7 +69,7 @@ impl Project {
     }
 }
 
-/// The local subprograms of a text.
+/// Returns the local subprograms of a text.
 fn subprograms(path: &Path, text: &str) -> Vec<Subprogram> {
     let mut found = Vec::new();
     let begins = |line: &str| {
@@ -108,7 +108,7 @@ impl ProjectCalls {
         }
     }
 
-    /// Whether there is a folder.
+    /// Returns whether there is a folder.
     pub(super) fn are_known(&self) -> bool {
         self.folder.is_some()
     }
@@ -119,7 +119,7 @@ impl ProjectCalls {
         self.saves.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The programs with their calls, with the open texts in place of their files.
+    /// Returns the programs with their calls, with the open texts in place of their files.
     pub(super) fn project(&self, disk: &Disk) -> Option<Arc<Project>> {
         let folder = self.folder.as_ref()?;
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,20 +1,20 @@
-//! Why a question has no answer.
+//! Refusals of a question.
 
 use lsp_server::{ErrorCode, RequestId, Response};
 
 use frictcomp_host::HostError;
 
-/// Why a question has no answer.
+/// Reason why a question has no answer.
 #[derive(Debug)]
 pub(super) enum Refusal {
-    /// It cannot be understood.
+    /// Parameters that cannot be understood.
     Params(String),
     /// The answer cannot be found.
     Failed(String),
 }
 
 impl Refusal {
-    /// The refusal of a question.
+    /// Returns the refusal of a question.
     pub(super) fn of(self, id: RequestId) -> Response {
         let (code, message) = match self {
             Self::Params(message) => (ErrorCode::InvalidParams, message),

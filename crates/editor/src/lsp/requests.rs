@@ -43,7 +43,7 @@ struct Known {
     handler: Handler,
 }
 
-/// The handler of a request; `None` for an unknown method.
+/// Returns the handler of a request; `None` for an unknown method.
 pub(super) fn handler(method: &str) -> Option<(Needs, Handler)> {
     let known = KNOWN.iter().find(|known| known.method == method)?;
     Some((known.needs, known.handler))

@@ -257,7 +257,7 @@ impl<'c> LspServer<'c> {
         }
     }
 
-    /// Whether nothing new is to be expected about a text.
+    /// Returns whether nothing new is to be expected about a text.
     fn is_checked(&self, uri: &Uri) -> bool {
         self.documents.get(uri).is_none() || !self.checks.is_awaited(&uri.0)
     }
@@ -578,7 +578,7 @@ fn read<P: DeserializeOwned>(params: Value) -> Result<P, serde_json::Error> {
     serde_json::from_value(params)
 }
 
-/// The thread of the checks.
+/// Returns the thread of the checks.
 fn checking(done: Sender<FinishedWork>) -> io::Result<Worker<AnalysisJob>> {
     Worker::new("checks", move |job: AnalysisJob| {
         // The receiver is gone with the server.

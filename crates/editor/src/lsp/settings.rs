@@ -7,19 +7,19 @@ use serde_json::Value;
 /// Executed blocks of a program that are checked as the user types.
 pub(super) const MAX_BLOCKS: u64 = 500_000;
 
-/// Whether an outline, definitions, references, folding and renaming are offered.
+/// Offer of an outline, definitions, references, folding and renaming.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Navigation {
     /// Features that ISG's extension lacks; all of them if the client says that it is absent.
     #[default]
     Auto,
-    /// They are.
+    /// Navigation is offered.
     On,
-    /// They are not.
+    /// Navigation is not offered.
     Off,
 }
 
-/// What drives the contour of a program: the keys below `contour` (R12.17).
+/// Settings for the contour of a program: the keys below `contour` (R12.17).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ContourSettings {
     /// `contour.plant`: the drives, a preset or a file.
@@ -57,7 +57,7 @@ pub(super) struct Settings {
     pub(super) pages: Option<String>,
     /// `languages`: further languages of the editor whose texts are programs, whatever they are called.
     pub(super) languages: Vec<String>,
-    /// What drives a contour.
+    /// Settings for the contour of a program.
     pub(super) contour: ContourSettings,
 }
 
@@ -164,12 +164,12 @@ impl Settings {
         wrong
     }
 
-    /// Whether an outline, folding and renaming are offered, which ISG's extension does not have.
+    /// Returns whether an outline, folding and renaming are offered, which ISG's extension does not have.
     pub(super) fn outlines(&self) -> bool {
         self.navigation != Navigation::Off
     }
 
-    /// Whether definitions and references are offered, which ISG's extension has (R12.12).
+    /// Returns whether definitions and references are offered, which ISG's extension has (R12.12).
     pub(super) fn finds_names(&self) -> bool {
         match self.navigation {
             Navigation::On => true,

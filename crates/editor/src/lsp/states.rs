@@ -38,7 +38,7 @@ impl StateSet {
         }
     }
 
-    /// The states before a block that leaves these.
+    /// Returns the states before a block that leaves these.
     fn before(&self, row: &Row<'_>) -> Self {
         let mut found = self.clone();
         let changes = row.changes.iter().rev();
@@ -49,7 +49,7 @@ impl StateSet {
         found
     }
 
-    /// The state of an axis; `None` where it is not listed.
+    /// Returns the state of an axis; `None` where it is not listed.
     pub(super) fn state(&self, axis: usize) -> Option<State> {
         self.states.get(axis).copied().flatten()
     }
@@ -58,8 +58,8 @@ impl StateSet {
         self.possible.iter().find(|it| it.axis.get() == axis)
     }
 
-    /// The state of an axis in words, as seen from a file: `active`, or `unknown (inactive if V.E.A == 2
-    /// (line 12), else active)`.
+    /// Returns the state of an axis in words, as seen from a file: `active`, or
+    /// `unknown (inactive if V.E.A == 2 (line 12), else active)`.
     pub(super) fn told(&self, axis: usize, file: &str) -> Option<String> {
         let state = self.state(axis)?;
         Some(match self.possible(axis) {
@@ -72,7 +72,7 @@ impl StateSet {
 /// A number for a set of states.
 type SetIndex = u32;
 
-/// No further pass.
+/// Mark for no further pass.
 const NONE: u32 = u32::MAX;
 
 /// Passes through a block with the same states.
@@ -132,7 +132,7 @@ pub(super) struct StateBook {
 }
 
 impl StateBook {
-    /// The states before the first block.
+    /// Takes the states before the first block.
     pub(super) fn begin(&mut self, state: StateView<'_>) {
         if self.axes.is_empty() {
             let axes = state.machine.axes.iter();
@@ -237,24 +237,24 @@ impl StateBook {
             .map_or(&NOTHING, AsRef::as_ref)
     }
 
-    /// The axes of the machine, in the order of a set.
+    /// Returns the axes of the machine, in the order of a set.
     pub(super) fn axes(&self) -> &[String] {
         &self.axes
     }
 
-    /// Whether a block of a file was executed.
+    /// Returns whether a block of a file was executed.
     pub(super) fn has(&self, file: &str) -> bool {
         self.by_name.contains_key(file)
     }
 
-    /// The passes through the block that starts on a line of a file, from 1.
+    /// Returns the passes through the block that starts on a line of a file, from 1.
     pub(super) fn passes(&self, file: &str, line: u32) -> Vec<Pass<'_>> {
         let visits = self.by_name.get(file).map(|at| &self.files[*at]);
         let visits = visits.into_iter().flat_map(|file| file.of(line));
         visits.map(|visit| self.pass(visit)).collect()
     }
 
-    /// The line of the last executed block of a file that starts on a line or before it, from 1.
+    /// Returns the line of the last executed block of a file that starts on a line or before it, from 1.
     pub(super) fn executed_up_to(&self, file: &str, line: u32) -> Option<u32> {
         let lines = &self.files[*self.by_name.get(file)?].lines;
         let end = lines.len().min(line as usize);
@@ -262,7 +262,7 @@ impl StateBook {
         u32::try_from(found + 1).ok()
     }
 
-    /// The lines of the executed blocks of a file, from 1, each with all its passes.
+    /// Returns the lines of the executed blocks of a file, from 1, each with all its passes.
     pub(super) fn executed(&self, file: &str) -> impl Iterator<Item = (u32, Vec<Pass<'_>>)> {
         let file = self.by_name.get(file).map(|at| &self.files[*at]);
         file.into_iter().flat_map(move |file| {
@@ -273,7 +273,7 @@ impl StateBook {
         })
     }
 
-    /// The lines of the blocks of a file that change a state, from 1, each with all its passes.
+    /// Returns the lines of the blocks of a file that change a state, from 1, each with all its passes.
     pub(super) fn switching(&self, file: &str) -> impl Iterator<Item = (u32, Vec<Pass<'_>>)> {
         let file = self.by_name.get(file).map(|at| &self.files[*at]);
         file.into_iter().flat_map(move |file| {
@@ -289,7 +289,7 @@ impl StateBook {
         })
     }
 
-    /// The lines of the blocks of a file before which ways meet, from 1, each with the states that become
+    /// Returns the lines of the blocks of a file before which ways meet, from 1, each with the states that become
     /// unknown there, in words.
     pub(super) fn meeting(&self, file: &str) -> impl Iterator<Item = (u32, String)> {
         let met = self.by_name.get(file).map(|at| &self.files[*at].met);
@@ -327,12 +327,12 @@ impl StateBook {
         }
     }
 
-    /// The states at the end.
+    /// Returns the states at the end.
     pub(super) fn at_end(&self) -> &StateSet {
         self.set(self.now)
     }
 
-    /// The last line of the main program that was reached, from 1.
+    /// Returns the last line of the main program that was reached, from 1.
     pub(super) fn last(&self) -> Option<u32> {
         self.last
     }

@@ -86,7 +86,7 @@ fn read_all(input: &mut dyn BufRead, incoming: &Sender<Message>, complaints: &Se
     }
 }
 
-/// The body of the next message; `None` at the end of the input.
+/// Returns the body of the next message; `None` at the end of the input.
 fn read_body(input: &mut dyn BufRead) -> io::Result<Option<Vec<u8>>> {
     let mut length = None;
     loop {

@@ -26,12 +26,12 @@ const HERE: System = if cfg!(windows) {
     System::Unix
 };
 
-/// The path that a `file:` URI names; `None` for any other URI.
+/// Returns the path that a `file:` URI names; `None` for any other URI.
 pub(super) fn path_of(uri: &str) -> Option<PathBuf> {
     path_on(uri, HERE).map(PathBuf::from)
 }
 
-/// The URI of an absolute path.
+/// Returns the URI of an absolute path.
 pub(super) fn uri_of(path: &Path) -> String {
     uri_on(&path.to_string_lossy(), HERE)
 }

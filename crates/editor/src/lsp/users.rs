@@ -77,23 +77,23 @@ impl Users {
         }
     }
 
-    /// Whether a check read a file.
+    /// Returns whether a check read a file.
     pub(super) fn are_of(&self, path: &Path) -> bool {
         self.readers.contains_key(path)
     }
 
-    /// The texts whose checks read a file.
+    /// Returns the texts whose checks read a file.
     pub(super) fn of(&self, path: &Path) -> impl Iterator<Item = &String> {
         self.readers.get(path).into_iter().flatten()
     }
 
-    /// All texts that were checked.
+    /// Returns all texts that were checked.
     pub(super) fn all(&self) -> impl Iterator<Item = &String> {
         self.noted.keys()
     }
 
-    /// The other texts whose checks may change when a text is opened, changed or closed: those that read
-    /// it, and if it has no file yet, those that may look for it.
+    /// Returns the other texts whose checks may change when a text is opened, changed or closed: those that read it,
+    /// and if it has no file yet, those that may look for it.
     pub(super) fn concerned(&self, edited: &EditedText) -> Uris {
         let mut concerned: Uris = self.of(&edited.path).cloned().collect();
         if !edited.path.is_file() {
@@ -120,7 +120,7 @@ fn remove<K: Ord>(index: &mut BTreeMap<K, Uris>, key: &K, uri: &str) {
     }
 }
 
-/// The name of a file without its extension, in lower case: the control ignores case.
+/// Returns the name of a file without its extension, in lower case: the control ignores case.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default();
     stem.to_string_lossy().to_lowercase()

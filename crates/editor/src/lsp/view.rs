@@ -27,12 +27,12 @@ pub(super) struct RequestView {
     pub(super) shown: MessagesByUri,
     /// Calls between the programs of the project.
     pub(super) calls: ProjectCalls,
-    /// Whether the client still waits for the answer.
+    /// Mark that the client no longer waits for the answer.
     pub(super) cancel: Cancel,
 }
 
 impl RequestView {
-    /// The source of the messages to the client.
+    /// Returns the source of the messages to the client.
     pub(super) fn translator(&self) -> Translator<'_> {
         Translator {
             client: &self.client,
@@ -45,7 +45,7 @@ impl RequestView {
         self.analyses.get(&uri.0).map(AsRef::as_ref)
     }
 
-    /// An open text.
+    /// Returns an open text.
     pub(super) fn document(&self, uri: &Uri) -> Option<&OpenDocument> {
         self.documents.get(uri).map(AsRef::as_ref)
     }
@@ -62,8 +62,8 @@ impl RequestView {
         using
     }
 
-    /// The runs that executed a file, each with the name of the file there: the run of the file itself
-    /// first, then those of programs that call it.
+    /// Returns the runs that executed a file, each with the name of the file there: the run of the file itself first,
+    /// then those of programs that call it.
     pub(super) fn runs(
         &self,
         document: &OpenDocument,
@@ -84,7 +84,7 @@ impl RequestView {
         runs
     }
 
-    /// The line, from 1, of the block at a position.
+    /// Returns the line, from 1, of the block at a position.
     pub(super) fn block_at(document: &OpenDocument, position: Position) -> u32 {
         document.block_line(position.line).saturating_add(1)
     }

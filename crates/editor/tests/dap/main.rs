@@ -99,7 +99,7 @@ impl Client {
         Some(serde_json::from_slice(&body).expect("JSON"))
     }
 
-    /// The next event of a kind; the others before it are dropped.
+    /// Returns the next event of a kind; the others before it are dropped.
     fn event(&mut self, kind: &str) -> Value {
         loop {
             let message = if self.events.is_empty() {
@@ -151,7 +151,7 @@ impl Client {
         self.frames()[0].1
     }
 
-    /// The variables of a scope, as `name = value`.
+    /// Returns the variables of a scope, as `name = value`.
     fn scope(&mut self, name: &str) -> Vec<String> {
         let scopes = self.granted("scopes", &json!({ "frameId": 1 }));
         let scopes = scopes["scopes"].as_array().expect("scopes").clone();

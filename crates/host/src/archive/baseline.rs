@@ -22,7 +22,7 @@ struct BaselineKey {
     code: String,
     severity: String,
     axis: Option<String>,
-    /// With the kind, the state and the ways, without lines and the number of occurrences.
+    /// Text of the message with the kind, the state and the ways, without lines and the number of occurrences.
     message: String,
     /// The text of its block.
     block: String,
@@ -64,12 +64,12 @@ pub struct Baseline {
 /// Purpose of a baseline.
 #[derive(Default, Clone, Copy)]
 enum Purpose {
-    /// No baseline: everything is listed.
+    /// No baseline: all findings are listed.
     #[default]
     None,
     /// Known findings are left out.
     Compare,
-    /// Everything is kept for the file.
+    /// All findings are kept for the file.
     Keep,
 }
 
@@ -86,7 +86,7 @@ pub struct KnownFindings {
 }
 
 impl Baseline {
-    /// A baseline whose file will be `path`: every finding is kept for it, and none is listed.
+    /// Creates a baseline whose file will be `path`: every finding is kept for it, and none is listed.
     pub fn kept_for(path: &Path) -> Self {
         Self {
             purpose: Purpose::Keep,
@@ -158,7 +158,7 @@ impl Baseline {
         false
     }
 
-    /// The name of a file relative to the baseline.
+    /// Returns the name of a file relative to the baseline.
     fn name(&mut self, file: &str) -> String {
         let Self { names, folder, .. } = self;
         let name = || shown_path(&Disk::named_from(Path::new(file), folder));

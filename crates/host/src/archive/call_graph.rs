@@ -27,11 +27,11 @@ pub struct CallGraph {
 pub struct GraphProgram {
     /// The program.
     pub input: Input,
-    /// Its name in outputs.
+    /// Name in outputs.
     pub name: String,
     /// The one path to which all names of its file lead; `None` for standard input.
     pub place: Option<PathBuf>,
-    /// Whether it is one of the requested programs, not only called by one.
+    /// Whether the program is one of the requested ones, not only called by one.
     pub is_named: bool,
     /// The calls of programs that were found, in the order of the text.
     pub calls: Vec<FoundCall>,
@@ -46,7 +46,7 @@ pub struct GraphProgram {
 }
 
 impl GraphProgram {
-    /// Whether it does not call anything.
+    /// Returns whether it does not call anything.
     pub fn is_leaf(&self) -> bool {
         self.calls.is_empty() && self.missing.is_empty() && self.open.is_empty()
     }
@@ -70,7 +70,7 @@ pub struct MissingCall {
     pub name: String,
     /// The line of the call, from 1.
     pub line: u32,
-    /// Why it was not found.
+    /// Reason why it was not found.
     pub why: NoProgram,
 }
 
@@ -134,9 +134,9 @@ impl CallGraph {
         &self.programs
     }
 
-    /// Whether each program is a main program in its own right: no program calls it, it may end a main program,
-    /// or it is called in a circle that no main program reaches (R17.2). The programs that the
-    /// configuration runs around main programs become calls of these.
+    /// Returns whether each program is a main program in its own right: no program calls it, it may end a main program,
+    /// or it is called in a circle that no main program reaches (R17.2). The programs that the configuration runs
+    /// around main programs become calls of these.
     pub fn mains(&mut self, workers: NonZeroUsize) -> Vec<bool> {
         let mut may_end_at = vec![false; self.programs.len()];
         let disk = &self.disk;
@@ -211,7 +211,7 @@ impl CallGraph {
             .collect()
     }
 
-    /// Whether each program is one of `changed`, or reaches one by its calls.
+    /// Returns whether each program is one of `changed`, or reaches one by its calls.
     pub fn reaching(&self, changed: impl Fn(&GraphProgram) -> bool) -> Vec<bool> {
         let mut reached = vec![false; self.programs.len()];
         let programs = self.programs.iter().enumerate();

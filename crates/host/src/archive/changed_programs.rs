@@ -104,7 +104,7 @@ impl ChangedPrograms {
         (changed, errors)
     }
 
-    /// Whether a file is a program, judged by its name.
+    /// Returns whether a file is a program, judged by its name.
     pub fn is_program(&self, path: &Path) -> bool {
         let extensions: Vec<String> = self.extensions.iter().cloned().collect();
         is_program(path, None) || is_program(path, Some(&extensions))
@@ -155,7 +155,7 @@ impl<'a> Changes<'a> {
         }
     }
 
-    /// Whether a program differs, or one of its calls means another program.
+    /// Returns whether a program differs, or one of its calls means another program.
     fn hold(&self, program: &GraphProgram) -> bool {
         let place = program.place.as_deref();
         let misses = |name: &str| {
@@ -167,7 +167,7 @@ impl<'a> Changes<'a> {
             || program.missing.iter().any(|missing| misses(&missing.name))
     }
 
-    /// Whether the machine of a folder differs.
+    /// Returns whether the machine of a folder differs.
     fn hold_machine(&self, folder: &Path, machines: &mut Machines) -> bool {
         let here = Disk::place(folder);
         let olds = self.files.iter().filter_map(|file| file.old.as_ref());

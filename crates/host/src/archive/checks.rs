@@ -33,7 +33,7 @@ pub struct CheckOptions {
     pub run: Options,
     /// The words of a front end for advice.
     pub wording: Option<Wording>,
-    /// What is done with programs that others call.
+    /// Treatment of programs that others call.
     pub called: CalledPrograms,
     /// Number of parallel runs.
     pub workers: NonZeroUsize,
@@ -41,13 +41,13 @@ pub struct CheckOptions {
     pub disk: Disk,
 }
 
-/// What is done with programs that others call.
+/// Treatment of programs that others call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CalledPrograms {
-    /// They are checked in their callers, if they hold no program end and a caller executes them to their end.
+    /// Programs are checked in their callers, if they hold no program end and a caller executes them to their end.
     InCallers,
-    /// They are checked by themselves, too.
+    /// Programs are checked by themselves, too.
     Alone,
 }
 
@@ -57,7 +57,7 @@ pub enum CalledPrograms {
 pub struct CheckedPrograms {
     /// The programs that count on their own.
     pub programs: Vec<CheckedProgram>,
-    /// Their messages, and those on the lists of their machines, each cause once.
+    /// Messages of the programs, and those on the lists of their machines, each cause once.
     pub causes: Causes,
     /// Number of programs that were checked only in their callers.
     pub in_callers: usize,
@@ -67,7 +67,7 @@ pub struct CheckedPrograms {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct CheckedProgram {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The places of its messages among the causes.
     pub said: Vec<usize>,
@@ -147,7 +147,7 @@ impl<'a> ProgramsOnMachines<'a> {
         (mended, errors)
     }
 
-    /// Does work on each program, and returns the results in the order of the programs.
+    /// Executes work on each program, and returns the results in the order of the programs.
     fn each<T: Send>(
         self,
         workers: NonZeroUsize,
@@ -177,7 +177,7 @@ impl<'a> ProgramsOnMachines<'a> {
     }
 }
 
-/// What a check takes from the records of a program.
+/// Collector of the records of a program that a check needs.
 #[derive(Default)]
 struct CheckSink {
     findings: Findings,

@@ -1,5 +1,4 @@
-//! What a folder shows about the machine of its programs, before it has a configuration
-//! (R9.73).
+//! Evidence in a folder on the machine of its programs, before it has a configuration (R9.73).
 
 use std::path::{Path, PathBuf};
 
@@ -55,9 +54,9 @@ pub fn outline_of(
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FoundList {
-    /// Its path.
+    /// Path of the list.
     pub path: PathBuf,
-    /// Its kind; a TwinCAT project, which holds all lists, counts as a start-up list.
+    /// Kind of the list; a TwinCAT project, which holds all lists, counts as a start-up list.
     pub kind: ListKind,
 }
 

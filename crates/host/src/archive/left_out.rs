@@ -1,4 +1,4 @@
-//! What folders hold besides the programs that are taken (R18.5).
+//! Contents of folders besides the programs that are taken (R18.5).
 
 use std::collections::{BTreeMap, HashSet};
 use std::ffi::{OsStr, OsString};
@@ -21,27 +21,27 @@ const FIRST_BYTES: u64 = 64 * 1024;
 const MAX_BYTES: u64 = 1 << 20;
 
 words! {
-    /// Why a file of a folder is not taken as a program.
+    /// Reason why a file of a folder is not taken as a program.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     #[non_exhaustive]
     pub enum WhyLeftOut {
-        /// An ignore file names a folder above it.
+        /// File in a folder that an ignore file names.
         IgnoredFolder = "ignored folder",
-        /// It lies in a hidden folder.
+        /// File in a hidden folder.
         HiddenFolder = "hidden folder",
-        /// It lies in a folder to which a link leads.
+        /// File in a folder to which a link leads.
         LinkedFolder = "linked folder",
-        /// An ignore file names it.
+        /// File that an ignore file names.
         Ignored = "ignored",
-        /// It is hidden.
+        /// Hidden file.
         Hidden = "hidden",
-        /// It is a link.
+        /// Link.
         Link = "link",
-        /// It reads as a program, but has no extension of one.
+        /// File that reads as a program, but has no extension of one.
         Extension = "extension",
-        /// A pattern of the user names it.
+        /// File that a pattern of the user names.
         Excluded = "excluded",
-        /// It does not read as a program.
+        /// File that does not read as a program.
         NoProgram = "no program",
     }
 }
@@ -50,7 +50,7 @@ words! {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LeftOutFile {
-    /// Its path; of what a pattern names, perhaps that of a folder.
+    /// Path; of what a pattern names, perhaps that of a folder.
     pub path: PathBuf,
     /// The reason.
     pub why: WhyLeftOut,
@@ -64,7 +64,7 @@ pub struct LeftOutFile {
 pub struct LeftOutFiles {
     /// The files, in the order of the folders.
     pub files: Vec<LeftOutFile>,
-    /// Whether there were too many entries in ignored and hidden folders to look at all.
+    /// Whether folders hold too many ignored and hidden entries to look at all of them.
     pub is_cut: bool,
 }
 
@@ -97,12 +97,12 @@ impl LeftOutFile {
         Self::new(path, WhyLeftOut::NoProgram)
     }
 
-    /// Whether it is a program that the user may believe to be checked.
+    /// Returns whether it is a program that the user may believe to be checked.
     pub fn is_program(&self) -> bool {
         !matches!(self.why, WhyLeftOut::Excluded | WhyLeftOut::NoProgram)
     }
 
-    /// Whether a list of what is not taken names it, unless all files are asked for.
+    /// Returns whether a list of what is not taken names it, unless all files are asked for.
     pub fn is_listed(&self) -> bool {
         self.why != WhyLeftOut::NoProgram
     }

@@ -121,7 +121,7 @@ fn finish(edges: &[Vec<usize>], start: usize, is_seen: &mut [bool], finished: &m
     }
 }
 
-/// Whether a program may end a main program, or cannot be read.
+/// Returns whether a program may end a main program, or cannot be read.
 pub(crate) fn may_end(input: &Input, disk: &Disk) -> bool {
     match input {
         Input::File(path) => disk
@@ -168,12 +168,12 @@ mod tests {
         assert_eq!(mains(&[("a", "M30", &["s"]), ("s", sub, &[])]), "a");
         // A program that ends itself is a main program.
         assert_eq!(mains(&[("a", "M30", &["b"]), ("b", "M30", &[])]), "a b");
-        // Those that only call each other are.
+        // Programs that only call each other are main programs.
         assert_eq!(
             mains(&[("a", sub, &["b", "a"]), ("b", sub, &["a", "b"])]),
             "a b"
         );
-        // What only they call is not.
+        // A program that only they call is not.
         let circle: &[&str] = &["a", "b", "s"];
         let programs = [
             ("s", sub, &[] as &[&str]),

@@ -33,7 +33,7 @@ struct Walk<'a> {
     folder: &'a Path,
     extensions: Vec<String>,
     filter: Arc<EntryFilter>,
-    /// All entries that were met, taken or not.
+    /// Entries that were met, taken or not.
     met: Arc<HashSet<PathBuf>>,
     links: Vec<PathBuf>,
 }

@@ -24,7 +24,7 @@ use frictcomp_recordings::trace::ChannelSelection;
 /// The usual distance that an axis may move, in mm or degrees.
 pub const TRAVEL: f64 = 10.0;
 
-/// Why a control cannot be asked: one sentence in lower case.
+/// Reason why a control cannot be asked: one sentence in lower case.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum AskError {
@@ -54,9 +54,9 @@ pub enum AskError {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AskedControl<'a> {
-    /// Its machine.
+    /// Machine.
     pub loaded: &'a LoadedMachine,
-    /// Its build, if it is given.
+    /// Build, if it is given.
     pub build: Option<CncBuild>,
 }
 
@@ -68,7 +68,7 @@ pub struct ReadAnswers {
     pub answers: Vec<Answer>,
     /// The configuration that keeps what is decided, if anything is.
     pub written: Option<PathBuf>,
-    /// Whether something is decided that is not confirmed, because the build is not known.
+    /// Whether a decision is not confirmed because the build is not known.
     pub lacks_build: bool,
 }
 
@@ -269,11 +269,11 @@ pub struct RecordedAnswers {
 /// The axis under test.
 #[derive(Debug, Clone)]
 pub struct AskedAxis {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its logical number, P-AXIS-00016; without it axis exchange is not asked.
+    /// Logical number, P-AXIS-00016; without it axis exchange is not asked.
     pub number: Option<u32>,
-    /// Its place among the axes of the channel, from 0.
+    /// Place among the axes of the channel, from 0.
     pub index: usize,
     /// The build of the control.
     pub build: Option<CncBuild>,

@@ -18,11 +18,11 @@ const NO_BUILD: &str = "?";
 /// A program that asks a question.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AskedFile {
-    /// Its question.
+    /// Question.
     pub(super) question: Question,
-    /// Its name.
+    /// Name.
     pub(super) name: String,
-    /// Its text.
+    /// Text.
     pub(super) text: String,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Script {
     /// The programs; if there are two, `between` is what to do in between.
     parts: Vec<String>,
     between: &'static str,
-    /// How to read the answer.
+    /// Instructions for reading the answer.
     read: String,
 }
 

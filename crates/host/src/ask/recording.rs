@@ -24,7 +24,7 @@ use frictcomp_recordings::trace::{
 pub(super) struct RecordedQuestions<'a> {
     /// The axis.
     pub(super) axis: &'a AskedAxis,
-    /// Its machine.
+    /// Machine.
     pub(super) machine: &'a Machine,
     /// The channels named by the user.
     pub(super) selection: &'a ChannelSelection,
@@ -37,10 +37,10 @@ pub(super) struct RecordedQuestions<'a> {
 struct AskedChannels {
     motion: [Option<Pick>; 2],
     current: Option<Pick>,
-    /// Whether it was recorded after its scaling for the drive.
+    /// Whether the torque was recorded after its scaling for the drive.
     is_scaled: bool,
     state: Option<ChannelIndex>,
-    /// Why they cannot be those of the axis.
+    /// Reason why the channels cannot be those of the axis.
     doubt: Option<String>,
 }
 

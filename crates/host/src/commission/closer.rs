@@ -1,4 +1,4 @@
-//! What the commanded positions and the torque of recordings show besides the path (R16.13, R16.14, R16.18).
+//! Evidence in the commanded positions and the torque of recordings besides the path (R16.13, R16.14, R16.18).
 
 use std::path::Path;
 

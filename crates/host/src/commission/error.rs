@@ -1,4 +1,4 @@
-//! Why a commissioning cannot go on.
+//! Failures that stop a commissioning.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use frictcomp::text::shown_path;
 use frictcomp_physics::circle::{CircleError, TooMuchCurrent};
 use frictcomp_recordings::commission::{LearnError, PlanError, PlanFile};
 
-/// Why a commissioning cannot go on: one sentence in lower case.
+/// Reason why a commissioning cannot go on: one sentence in lower case.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CommissionError {
@@ -17,7 +17,7 @@ pub enum CommissionError {
     NotAPlan {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong, in words.
+        /// Fault in words.
         reason: String,
     },
     /// A plan of another version.
@@ -25,7 +25,7 @@ pub enum CommissionError {
     PlanForm {
         /// Path of the file.
         path: PathBuf,
-        /// Its form.
+        /// Form.
         found: u32,
     },
     /// A folder without a plan.

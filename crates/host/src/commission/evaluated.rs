@@ -87,15 +87,15 @@ pub fn motors_of(plans: &[PlanFile]) -> Vec<&str> {
 pub struct Commissioning<'a> {
     /// The folder.
     pub folder: &'a Path,
-    /// Its plans.
+    /// Plans.
     pub plans: &'a [PlanFile],
-    /// Its recordings.
+    /// Recordings.
     pub recordings: &'a [PathBuf],
     /// The reader of the recordings.
     pub reader: CommissionReader<'a>,
     /// The plant as known beforehand, a preset or a file; without one none is fitted.
     pub plant: Option<&'a str>,
-    /// Whether tuned lists may be shaped below 1 mm/s.
+    /// Permission to shape tuned lists below 1 mm/s.
     pub shaping: Shaping,
     /// The build for which lists are written, if it is known.
     pub build: Option<CncBuild>,
@@ -124,7 +124,7 @@ impl Commissioning<'_> {
                 .results((self.plans, self.recordings), &known.recordings, watch)?;
         self.reader
             .take_shares(self.folder, self.plans, (&mut results, self.registry))?;
-        // What one recording shows about another is determined anew each time.
+        // The evidence of one recording on another is determined anew each time.
         let read = results.clone();
         refuse_strangers(&mut results);
         let axes = self.lists(&results, outputs)?;

@@ -17,7 +17,7 @@ use frictcomp_recordings::commission::{
     ValueListUsed,
 };
 
-/// What the files of a plan are called where one cannot be written.
+/// Name of the files of a plan in the message that one cannot be written.
 const NAME: &str = "a file of the plan";
 
 /// Requirements on the plan of a round.
@@ -44,7 +44,7 @@ pub struct Planning<'a> {
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisToMeasure {
-    /// Its name in programs.
+    /// Name in programs.
     pub name: String,
     /// The travel that may be used.
     pub travel: FreeTravel,

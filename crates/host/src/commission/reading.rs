@@ -274,14 +274,14 @@ impl RecordedProgram<'_> {
     }
 }
 
-/// Why a recording of a commissioning is not used: one sentence in lower case.
+/// Reason why a recording of a commissioning is not used: one sentence in lower case.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum UnusedRecording {
-    /// It cannot be read, or lacks channels.
+    /// The recording cannot be read, or lacks channels.
     #[error(transparent)]
     Host(#[from] HostError),
-    /// No friction is found in it.
+    /// No friction was found in the recording.
     #[error("{error}")]
     Friction {
         /// The reason.
@@ -289,7 +289,7 @@ pub enum UnusedRecording {
         /// Findings about its channels.
         findings: Vec<TraceFinding>,
     },
-    /// Its axis does not follow its commands, or the following error is missing.
+    /// The axis does not follow its commands, or the following error is missing.
     #[error(transparent)]
     NotFollowed(#[from] NotFollowed),
     /// A motor of a gantry, with the reason.
@@ -311,13 +311,13 @@ pub enum UnusedRecording {
         /// Name of the first one.
         axis: String,
     },
-    /// Its program moves an axis that the plan does not have.
+    /// The program moves an axis that the plan does not have.
     #[error("its axis is not in the plan")]
     NoAxis,
     /// A number that belongs to no program.
     #[error("it carries the number {0}, which no plan in this folder has")]
     NoProgram(u16),
-    /// No signature, and its program is not named.
+    /// The recording has no signature, and its program is not named.
     #[error("it has no signature")]
     NoSignature {
         /// Name of the file.

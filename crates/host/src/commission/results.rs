@@ -1,4 +1,4 @@
-//! What all recordings of a commissioning show; those of an earlier run are not read again.
+//! Results of all recordings of a commissioning; those of an earlier run are not read again.
 
 use std::path::PathBuf;
 

@@ -26,13 +26,13 @@ pub struct DatedRecordings<'a> {
     pub recordings: &'a [PathBuf],
     /// The name of the axis, if it is given.
     pub axis: Option<String>,
-    /// Its channels.
+    /// Channels.
     pub channels: ChannelSelection,
     /// The CNC cycle in s, if it is known.
     pub cycle_s: Option<f64>,
     /// The kind of the recorded torque, if it is known.
     pub torque_kind: Option<TorqueKind>,
-    /// Whether friction compensation was on, if it is known.
+    /// State of friction compensation, if it is known.
     pub compensation: Option<Switched>,
 }
 

@@ -12,7 +12,7 @@ use frictcomp::readings::Alternative;
 /// The answers of a control, from its `message.txt` and what the operator added.
 #[derive(Debug, Clone, Default)]
 pub struct Answers {
-    /// Whether a kind was active, by query; the last answer counts.
+    /// Answers to queries for the activity of a kind; the last answer counts.
     states: BTreeMap<String, bool>,
     /// The error numbers of a case.
     refusals: BTreeMap<String, Vec<String>>,
@@ -27,13 +27,13 @@ const TOLERANCE: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Compared {
-    /// No answer belongs to it.
+    /// Case without an answer.
     Unanswered,
     /// Every answer is as expected.
     Held,
-    /// It is open, and the control follows this reading.
+    /// Open case in which the control follows this reading.
     Reading(Alternative),
-    /// It is open, and the answers fit both readings or an answer is missing.
+    /// Open case whose answers fit both readings, or of which an answer is missing.
     Undecided,
     /// Answers differ.
     Failed(Vec<Mismatch>),
@@ -80,7 +80,7 @@ impl Answers {
         self.states.len() + self.refusals.len() + self.currents.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -14,14 +14,14 @@ use frictcomp::comp::{Kind, State};
 use frictcomp::readings::{Alternative, Question};
 use frictcomp::text::shown_path;
 
-/// Why a case cannot be run.
+/// Reason why a case cannot be run.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}: {message}", shown_path(.file))]
 #[non_exhaustive]
 pub struct CaseError {
     /// The file of the case.
     pub file: PathBuf,
-    /// What is wrong, in words.
+    /// Fault in words.
     pub message: String,
 }
 
@@ -30,9 +30,9 @@ pub struct CaseError {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct CaseFile {
-    /// Its name, used in calls and lists.
+    /// Name, used in calls and lists.
     pub name: String,
-    /// Its text.
+    /// Text.
     pub text: String,
 }
 
@@ -40,9 +40,9 @@ pub struct CaseFile {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Moment {
-    /// After the last execution of the block that begins on this line.
+    /// Moment after the last execution of the block that begins on this line.
     Line(u32),
-    /// After the end of the program.
+    /// Moment after the end of the program.
     End,
 }
 
@@ -83,9 +83,9 @@ pub enum Expectation {
     Current {
         /// Name of the axis.
         axis: String,
-        /// In units of the list, µm/s or 0.001°/s.
+        /// Velocity in units of the list, µm/s or 0.001°/s.
         velocity: f64,
-        /// In drive units.
+        /// Current in drive units.
         current: f64,
     },
     /// The additive currents of a commanded motion, cycle by cycle (chapter 4).
@@ -96,7 +96,7 @@ pub enum Expectation {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Case {
-    /// Its file.
+    /// File.
     pub file: PathBuf,
     /// Chapter and name, `1/off`.
     pub name: String,

@@ -14,7 +14,7 @@ pub struct ExpectedCycles {
     pub positions: Vec<f64>,
     /// Commanded velocities in µm/s or 0.001°/s.
     pub velocities: Vec<f64>,
-    /// Whether the compensation is on.
+    /// State of the compensation in each cycle.
     pub switched: Vec<Switched>,
     /// The currents in drive units.
     pub currents: Vec<f64>,
@@ -31,7 +31,7 @@ pub(super) struct WrittenCycles {
     pub(super) outputs: Option<Vec<i16>>,
 }
 
-/// Whether a current is the expected one.
+/// Returns whether a current is the expected one.
 pub(super) fn is_near(found: f64, expected: f64, tolerance: f64) -> bool {
     (found - expected).abs() <= tolerance * expected.abs().max(1.0)
 }

@@ -13,9 +13,9 @@ use frictcomp::lists::{ListHead, Points, write_value_list};
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Exported {
-    /// Its path below the export folder.
+    /// Path below the export folder.
     pub path: PathBuf,
-    /// Its text.
+    /// Text.
     pub text: String,
 }
 

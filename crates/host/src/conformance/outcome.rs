@@ -18,7 +18,7 @@ pub struct Mismatch {
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct CaseOutcome {
-    /// Whether the documents leave it open.
+    /// Whether the documents leave the case open.
     pub is_undecided: bool,
     /// Failed expectations; none where the case holds.
     pub failed: Vec<Mismatch>,

@@ -64,8 +64,8 @@ impl FileKind {
     }
 }
 
-/// Whether a file of a folder is a program, judged by its name; `extensions` are those that the configuration of
-/// the folder names.
+/// Returns whether a file of a folder is a program, judged by its name; `extensions` are those that the configuration
+/// of the folder names.
 pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
     match extensions {
         Some(extensions) => has_extension(path, extensions),
@@ -73,29 +73,30 @@ pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
     }
 }
 
-/// Whether a file is one that users write: a program, a list or a configuration, judged by its name.
+/// Returns whether a file is one that users write: a program, a list or a configuration, judged by its name.
 pub fn is_source(path: &Path, extensions: Option<&[String]>) -> bool {
     FileKind::of(path).is_some() || is_program(path, extensions)
 }
 
-/// Whether a file is plainly something else than a program, judged by its name: that of a document, a source, data, or
-/// what a system or an editor leaves beside a file.
+/// Returns whether a file is plainly something else than a program, judged by its name: that of a document, a source,
+/// data, or what a system or an editor leaves beside a file.
 pub(crate) fn is_known_otherwise(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     name.starts_with("._") || name.starts_with(".#") || has_extension(path, OTHER_EXTENSIONS)
 }
 
-/// Whether a file is a list of the control, judged by its name.
+/// Returns whether a file is a list of the control, judged by its name.
 pub(crate) fn is_list(path: &Path) -> bool {
     has_extension(path, &["lis"])
 }
 
-/// Whether a file holds parameters of the control: a list, a TwinCAT project or a part of one, judged by its name.
+/// Returns whether a file holds parameters of the control: a list, a TwinCAT project or a part of one, judged by its
+/// name.
 pub(crate) fn is_parameters(path: &Path) -> bool {
     is_list(path) || is_project(path) || has_extension(path, &["xti"])
 }
 
-/// Whether a file is a TwinCAT project, judged by its name.
+/// Returns whether a file is a TwinCAT project, judged by its name.
 pub(crate) fn is_project(path: &Path) -> bool {
     has_extension(path, &["tsproj"])
 }

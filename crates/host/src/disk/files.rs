@@ -16,7 +16,7 @@ use super::read::{open_regular, read_bytes};
 use super::shared_map::SharedMap;
 use frictcomp::text::{LineSource, TextLines};
 
-/// More bytes than any list or configuration has.
+/// Limit on the size of a file in bytes, beyond any list or configuration.
 const MOST_LIST: u64 = 64 << 20;
 
 /// The disk that a host reads from. By default it is that of the system. File names are looked up
@@ -36,7 +36,7 @@ enum Kind {
     System(SharedMap<PathBuf, Arc<String>>),
     /// The disk of the system, with some of its files as they were in a revision.
     Revision(Arc<RevisedFiles>),
-    /// Only texts in memory.
+    /// Texts in memory only.
     Memory(Arc<MemoryDisk>),
 }
 
@@ -113,7 +113,7 @@ impl Disk {
         }
     }
 
-    /// Whether a file of the system is missing in a revision.
+    /// Returns whether a file of the system is missing in a revision.
     fn is_absent(&self, path: &Path) -> bool {
         match &self.kind {
             Kind::Revision(revised) => revised.absent.contains(&self.place_of(path)),
@@ -170,7 +170,7 @@ impl Disk {
         }
     }
 
-    /// Whether there is a file.
+    /// Returns whether there is a file.
     pub(crate) fn is_file(&self, path: &Path) -> bool {
         self.entry(path)
             .is_ok_and(|entry| entry == FolderEntry::File)

@@ -21,9 +21,9 @@ const STDIN: &str = "<stdin>";
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Naming {
-    /// As the user named them.
+    /// Names as given by the user.
     AsGiven,
-    /// By their last part only, so that the folder does not matter.
+    /// Last parts of the names only, so that the folder does not matter.
     FileName,
 }
 

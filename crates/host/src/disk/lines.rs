@@ -92,13 +92,13 @@ impl<R: Read> LineReader<R> {
         lines
     }
 
-    /// Whether more bytes are needed to find how the text is encoded.
+    /// Returns whether more bytes are needed to find how the text is encoded.
     fn is_undecided(&self) -> bool {
         let first = &self.buffer[self.unread.clone()];
         first.len() < BYTE_ORDER_MARK.len() || first.len() < TELLING && first.contains(&0)
     }
 
-    /// Whether the text is UTF-16.
+    /// Returns whether the text is UTF-16.
     pub(crate) fn is_wide(&self) -> bool {
         wide(&self.buffer[self.unread.clone()]).is_some()
     }

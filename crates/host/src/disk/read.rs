@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 use super::decode::decode;
 use crate::error::HostError;
 
-/// Larger files are not kept in memory.
+/// Size above which files are not kept in memory.
 pub(crate) const MOST_KEPT: usize = 1 << 30;
 
 /// Opens a regular file only: a pipe would block, a device has no end.

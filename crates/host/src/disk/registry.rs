@@ -47,7 +47,7 @@ pub(crate) struct Claim {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Replaces {
-    /// Another result.
+    /// An earlier result.
     #[default]
     Results,
     /// Another result or a value list, since the output is one; no list of another kind.
@@ -96,7 +96,7 @@ impl Claim {
     }
 }
 
-/// Whether a file is an existing list of another kind than a value list, judged by its keys.
+/// Returns whether a file is an existing list of another kind than a value list, judged by its keys.
 fn is_other_list(path: &Path) -> bool {
     let is_there = path.is_file();
     let text = is_there
@@ -183,7 +183,7 @@ impl FileRegistry {
         inputs.files.keys().map(|path| path.to_path_buf()).collect()
     }
 
-    /// Whether a program came from a source that cannot be read again.
+    /// Returns whether a program came from a source that cannot be read again.
     pub fn has_streams(&self) -> bool {
         let inputs = self.inputs();
         inputs.order.iter().any(|path| !path.is_file())

@@ -27,10 +27,10 @@ const MARKS: [&str; 2] = ["CACHEDIR.TAG", "pyvenv.cfg"];
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum IgnoreFiles {
-    /// What they name is not taken.
+    /// Files and folders that they name are not taken.
     #[default]
     Obeyed,
-    /// They have no effect.
+    /// Ignore files have no effect.
     PassedOver,
 }
 
@@ -100,17 +100,17 @@ fn matcher(root: &Path, patterns: &[String]) -> Result<Gitignore, HostError> {
     built.map_err(|_| HostError::Pattern(patterns.join(", ")))
 }
 
-/// Whether the entries below a folder are looked at.
+/// Filter of the entries below a folder.
 pub(crate) struct EntryFilter {
     folder: PathBuf,
     root: PathBuf,
     patterns: Vec<Gitignore>,
-    /// What the patterns left out, and whether it is a folder.
+    /// Entries that the patterns left out, each with whether it is a folder.
     excluded: Mutex<Vec<(PathBuf, bool)>>,
 }
 
 impl EntryFilter {
-    /// Whether an entry is kept; what a pattern names is noted.
+    /// Returns whether an entry is kept; what a pattern names is noted.
     pub(crate) fn keeps(&self, path: &Path, is_folder: bool) -> bool {
         if is_folder && is_never(path) {
             return false;
@@ -124,7 +124,7 @@ impl EntryFilter {
         !is_excluded
     }
 
-    /// Whether a pattern names an entry.
+    /// Returns whether a pattern names an entry.
     pub(crate) fn is_excluded(&self, path: &Path, is_folder: bool) -> bool {
         if self.patterns.is_empty() {
             return false;
@@ -144,13 +144,13 @@ impl EntryFilter {
     }
 }
 
-/// Whether a folder holds no programs of the user, judged by its name.
+/// Returns whether a folder holds no programs of the user, judged by its name.
 fn is_never(folder: &Path) -> bool {
     let name = folder.file_name().unwrap_or_default();
     NEVER.iter().any(|never| name == *never)
 }
 
-/// Whether a tool fills a folder.
+/// Returns whether a tool fills a folder.
 pub(crate) fn is_filled_by_a_tool(folder: &Path) -> bool {
     MARKS.iter().any(|mark| folder.join(mark).exists())
 }

@@ -40,7 +40,7 @@ impl<K, V> Clone for SharedMap<K, V> {
 }
 
 impl<K, V> SharedMap<K, V> {
-    /// Whether the map is empty.
+    /// Returns whether the map is empty.
     pub(crate) fn is_empty(&self) -> bool {
         self.length == 0
     }

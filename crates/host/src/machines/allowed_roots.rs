@@ -13,7 +13,7 @@ pub enum OutsidePolicy {
     /// Called programs are refused, the text of lists is not shown.
     #[default]
     Kept,
-    /// They are treated like any other file.
+    /// Files outside are treated like any other file.
     Allowed,
 }
 
@@ -52,8 +52,8 @@ impl AllowedRoots {
         self
     }
 
-    /// Whether a file may lie here, judged by its name alone. Nothing is looked up: a look at a network
-    /// share would sign in there, and whether a file exists elsewhere must not be disclosed.
+    /// Returns whether a file may lie here, judged by its name alone. Nothing is looked up: a look at a network share
+    /// would sign in there, and whether a file exists elsewhere must not be disclosed.
     pub fn may_hold(&self, path: &Path) -> bool {
         if self.outside_policy == OutsidePolicy::Allowed {
             return true;
@@ -66,7 +66,7 @@ impl AllowedRoots {
         })
     }
 
-    /// Whether a file lies here once all links are resolved.
+    /// Returns whether a file lies here once all links are resolved.
     pub fn holds(&self, path: &Path) -> bool {
         self.outside_policy == OutsidePolicy::Allowed
             || self

@@ -38,7 +38,7 @@ impl AxesOfPrograms {
         self.ahead.expect_more(left);
     }
 
-    /// Whether any program may have an axis.
+    /// Returns whether any program may have an axis.
     pub(crate) fn may_hold(&self, name: &str) -> bool {
         self.ahead.may_hold(name) || self.described.iter().any(|known| known == name)
     }
@@ -59,7 +59,7 @@ pub enum UnusedAxes {
     /// A mistake in writing.
     #[default]
     Refused,
-    /// They have no effect.
+    /// Unused axes have no effect.
     PassedOver,
 }
 
@@ -105,8 +105,8 @@ pub(crate) fn assume_axes<'a>(
     }
 }
 
-/// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
-/// pipes may name axes that cannot be known in advance.
+/// Checks that a program may name an axis, where no machine is described (R9.74). Called programs and pipes may name
+/// axes that cannot be known in advance.
 fn check_occurs(name: &str, programs: Option<&AxesOfPrograms>) -> Result<(), HostError> {
     match programs {
         Some(programs) if !programs.may_hold(name) => {

@@ -18,7 +18,7 @@ pub(crate) struct AxesAhead {
     read: BTreeSet<String>,
     /// Names that may occur in programs of other runs.
     elsewhere: Vec<String>,
-    /// Whether there may be more: in called programs, in blocks with faults, or in programs from a pipe.
+    /// Whether there may be more axes: in called programs, in blocks with faults, or in programs from a pipe.
     is_open: bool,
 }
 
@@ -34,7 +34,7 @@ impl AxesAhead {
         let (mut has_program, mut has_other) = (false, false);
         for input in inputs {
             if input.probe().is_err() {
-                // What it is instead of a program is reported when it is run.
+                // A file that is no program is reported when it is run.
                 has_other = true;
                 continue;
             }
@@ -71,7 +71,7 @@ impl AxesAhead {
         self.elsewhere = usual.chain(left).collect();
     }
 
-    /// Whether an axis may occur.
+    /// Returns whether an axis may occur.
     pub(crate) fn may_hold(&self, name: &str) -> bool {
         let unseen = self.is_open && may_be_axis(name);
         let elsewhere = self.elsewhere.iter().any(|known| known == name);
@@ -79,7 +79,7 @@ impl AxesAhead {
     }
 }
 
-/// Whether a program can name such an axis: in capital letters, and not `ALL`.
+/// Returns whether a program can name such an axis: in capital letters, and not `ALL`.
 pub(crate) fn may_be_axis(name: &str) -> bool {
     name != "ALL" && !name.contains(|letter: char| letter.is_ascii_lowercase())
 }

@@ -26,7 +26,7 @@ pub struct MachineOfVersions {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MachineOwner {
-    /// Both versions; neither has another one.
+    /// Both versions, which have no other machine.
     Both,
     /// The new version; the old one has another configuration.
     NewNotOld(PathBuf),
@@ -37,11 +37,11 @@ pub enum MachineOwner {
 /// Distance of a version from the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Nearness {
-    /// It lies anywhere, like the copies that `git difftool` makes.
+    /// Version anywhere, like the copies that `git difftool` makes.
     OutsidePolicy,
-    /// It lies below the current folder.
+    /// Version below the current folder.
     Here,
-    /// It lies below a configuration.
+    /// Version below a configuration.
     Configured,
 }
 

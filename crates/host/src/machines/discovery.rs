@@ -27,9 +27,9 @@ pub enum ConfigurationChoice {
     /// The nearest `frictcomp.toml` from the folder of the program upwards.
     #[default]
     Nearest,
-    /// This file.
+    /// The given file.
     File(PathBuf),
-    /// None, whatever files exist.
+    /// No configuration, whatever files exist.
     Isolated,
 }
 
@@ -212,7 +212,7 @@ impl Machines {
         let onto = (&mut loaded.machine, loaded.reports.as_mut_slice());
         let names = (options.enable.as_slice(), options.unused_axes);
         let assumed = assume_axes(names, onto, self.ahead.as_ref())?;
-        // What is assumed need not be reported as missing.
+        // Assumed compensation need not be reported as missing.
         loaded.diagnostics.retain(|said| {
             let is_missing = matches!(said.code, Code::Fc135 | Code::Fc303);
             !(is_missing && said.axis.as_deref().is_some_and(|it| assumed.contains(&it)))

@@ -88,7 +88,7 @@ impl ProgramFinder {
         folder.unwrap_or(Path::new("")).to_owned()
     }
 
-    /// The folders in which a program is looked for, in their order.
+    /// Returns the folders in which a program is looked for, in their order.
     fn folders_from(&self, beside: PathBuf) -> Vec<PathBuf> {
         let further = self.folders.iter().cloned();
         std::iter::once(beside).chain(further).collect()

@@ -51,7 +51,7 @@ pub fn find_plant(name: &str, registry: &FileRegistry) -> Result<Plant, HostErro
     })
 }
 
-/// Whether a file is a `frictcomp.toml`, not a list of the control.
+/// Returns whether a file is a `frictcomp.toml`, not a list of the control.
 pub fn is_configuration(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))

@@ -58,11 +58,11 @@ pub(crate) struct AtomicFile {
 
 #[derive(Debug)]
 enum FileStage {
-    /// More data may follow. The file is locked, so that other runs know that it is being written.
+    /// Open file to which more data may follow. The file is locked, so that other runs know that it is being written.
     Open(NamedTempFile),
-    /// It is on the disk. Many files may wait for each other; most of them stay locked.
+    /// File written to the disk under a temporary name. Many files may wait for each other; most of them stay locked.
     Synced(TempPath, Option<Held>),
-    /// It has taken its place.
+    /// File in its final place.
     Done,
 }
 
@@ -337,7 +337,7 @@ pub(crate) fn take_away_left(beside: &AtomicFile, seen: &mut BTreeSet<PathBuf>) 
     }
 }
 
-/// Whether a name has exactly the form that [`create`] gives.
+/// Returns whether a name has exactly the form that [`create`] gives.
 fn is_unfinished(name: &str) -> bool {
     name.strip_prefix(PREFIX)
         .and_then(|rest| rest.strip_suffix(SUFFIX))

@@ -155,7 +155,7 @@ impl OutputFiles {
         }
         // The called programs are known now.
         self.registry.check(&self.claims, self.compared)?;
-        // All are put in place, or none.
+        // Either all files are put in place, or none.
         for file in &self.open {
             if let OutputPlace::Beside(beside) = &*file.place() {
                 beside
@@ -257,7 +257,7 @@ pub(crate) fn json_text(value: &impl Serialize) -> Result<String, HostError> {
     Ok(shown_json(&text.map_err(HostError::Output)?).into_owned() + "\n")
 }
 
-/// Whether a path names something that can only be opened, not replaced: a device, a pipe, or an open file of
+/// Returns whether a path names something that can only be opened, not replaced: a device, a pipe, or an open file of
 /// this process.
 fn is_device(path: &Path) -> bool {
     if cfg!(windows) {

@@ -1,5 +1,5 @@
-//! Why Windows alone refuses a file: another program has it open, so that it cannot be replaced, or its
-//! name belongs to a device.
+//! Reasons why only Windows refuses a file: another program has it open, so that it cannot be replaced, or its name
+//! belongs to a device.
 
 use std::io;
 use std::path::Path;
@@ -13,10 +13,10 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// Time between attempts.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Another program has the file open without sharing it, or has locked a part of it.
+/// Windows error codes: another program has the file open without sharing it, or has locked a part of it.
 const IN_USE: [i32; 2] = [32, 33];
 
-/// Also reported when a file is to be replaced that another program has open.
+/// Windows error code for denied access, also returned when a file is to be replaced that another program has open.
 const ACCESS_DENIED: i32 = 5;
 
 /// Replaces or moves a file; where another program blocks this, tries again for some time.

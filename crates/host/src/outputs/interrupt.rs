@@ -49,7 +49,7 @@ impl Unfinished {
     #[cfg(any(unix, windows))]
     fn take_away(&mut self) {
         while let Some(path) = self.0.pop_first() {
-            // What cannot be removed now is removed by the next run.
+            // A file that cannot be removed now is removed by the next run.
             let _ = std::fs::remove_file(path);
         }
     }

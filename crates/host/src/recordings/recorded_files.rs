@@ -10,7 +10,7 @@ const RECORDINGS: [&str; 3] = ["csv", "txt", "xml"];
 
 /// Returns the earlier recording of which each one is a copy, byte by byte: a copy proves nothing (R18.9).
 pub(crate) fn copies_among(paths: &[PathBuf]) -> Vec<Option<&Path>> {
-    // What cannot be read is said by whoever reads it.
+    // A file that cannot be read is reported by the code that reads it.
     let sums: Vec<Option<String>> = paths.iter().map(|it| sha256_of(it).ok()).collect();
     let earlier = |(at, sum): (usize, &Option<String>)| {
         let first = sums[..at].iter().position(|it| it == sum && sum.is_some());

@@ -1,4 +1,4 @@
-//! Why a trace cannot be read.
+//! Failures in reading a trace.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use frictcomp_physics::current::CyclesError;
 use frictcomp_recordings::identify::TrackError;
 use frictcomp_recordings::trace::{NotAligned, TraceProblem};
 
-/// Why a trace cannot be read.
+/// Reason why a trace cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TraceError {
@@ -25,7 +25,7 @@ pub enum TraceError {
     /// A project of TwinCAT Scope, whose format is not public.
     #[error("`{}` is a file of TwinCAT Scope that only Scope reads", shown_path(.0))]
     Closed(PathBuf),
-    /// What Scope is to record, without what it recorded.
+    /// A Scope configuration, which lists the channels to record but holds no recorded values.
     #[error("`{}` says what TwinCAT Scope is to record; it holds no values", shown_path(.0))]
     WithoutValues(PathBuf),
     /// Channels that cannot be brought to one clock.

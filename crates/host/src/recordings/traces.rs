@@ -54,8 +54,8 @@ pub fn read_trace(
     read(path, MAX_ROWS, disk, choose)
 }
 
-/// Whether a file is a recording, told by its head: it is XML, or has rows of numbers, with or without a header. A
-/// program has none.
+/// Returns whether a file is a recording, told by its head: it is XML, or has rows of numbers, with or without a
+/// header. A program has none.
 pub fn is_recording(path: &Path, disk: &Disk) -> bool {
     let Ok(file) = disk.open(path) else {
         return false;
@@ -69,7 +69,7 @@ pub fn is_recording(path: &Path, disk: &Disk) -> bool {
         has_channels = !channels.is_empty();
         Ok(Choice::default())
     });
-    // What is wrong with it is said where it is read.
+    // A fault of the head is reported where the trace is read.
     let read = reader.feed(&head);
     drop(read.and_then(|()| reader.finish()));
     has_channels || no_program(&decode(head)) == Some("XML")
@@ -271,7 +271,7 @@ struct CommandedChannels<'a> {
     recording: &'a TraceRecording,
     /// Position and velocity.
     motion: [Option<Pick>; 2],
-    /// Whether compensation is on.
+    /// Channel of the state of compensation.
     switch: Option<ChannelIndex>,
 }
 
@@ -289,7 +289,7 @@ impl CommandedChannels<'_> {
         sentences.collect()
     }
 
-    /// Whether they were sampled together.
+    /// Returns whether they were sampled together.
     fn have_one_clock(&self) -> bool {
         let motion = self.motion.into_iter().flatten();
         let channels = motion.map(|pick| pick.channel).chain(self.switch);
@@ -489,7 +489,7 @@ fn read_positions(
     }
 }
 
-/// Whether a column of times is read.
+/// Reading of a column of times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Times {
     Read,

@@ -112,12 +112,12 @@ impl AxisBeside<'_> {
         begins
     }
 
-    /// The number of switches before a step.
+    /// Returns the number of switches before a step.
     fn passed(&self, step: usize) -> usize {
         self.dry_run.switches.partition_point(|it| it.at < step)
     }
 
-    /// The state of the dry run after some of its switches.
+    /// Returns the state of the dry run after some of its switches.
     fn state_after(&self, passed: usize) -> Option<bool> {
         match passed.checked_sub(1) {
             Some(last) => self.dry_run.switches.get(last)?.to,
@@ -125,7 +125,7 @@ impl AxisBeside<'_> {
         }
     }
 
-    /// Whether a step is the block of the first or the last sample.
+    /// Returns whether a step is the block of the first or the last sample.
     fn is_sampled(&self, at: usize, sample: StateSample) -> bool {
         let of = |pair: [i64; 2]| match sample {
             StateSample::First => pair[0],
@@ -257,7 +257,7 @@ impl AxisBeside<'_> {
         })
     }
 
-    /// Whether what was recorded as lines can only be block numbers.
+    /// Returns whether what was recorded as lines can only be block numbers.
     fn are_numbers(&self, recorded: [i64; 2]) -> bool {
         let steps = &self.course.steps;
         let is_line = |it: &i64| steps.iter().any(|step| i64::from(step.line) == *it);
@@ -273,7 +273,7 @@ impl AxisBeside<'_> {
         }
     }
 
-    /// Whether a step of the dry run lies between the blocks of two samples.
+    /// Returns whether a step of the dry run lies between the blocks of two samples.
     fn passes(&self, at: usize, [before, after]: [i64; 2]) -> bool {
         let steps = &self.course.steps;
         let key = |at: &usize| steps.get(*at).and_then(|step| self.key(step));

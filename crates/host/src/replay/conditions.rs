@@ -21,7 +21,7 @@ pub(super) struct Condition {
 
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum ConditionKey {
-    /// Whether the blocks of a level are executed.
+    /// Execution of the blocks of a skip level.
     Skip(u8),
     /// A comparison as written.
     Text(Arc<str>),

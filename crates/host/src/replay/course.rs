@@ -29,7 +29,7 @@ pub(super) struct Course {
     pub(super) axes: Vec<AxisCourse>,
     /// The conditions that only the machine can decide.
     pub(super) conditions: BTreeSet<Condition>,
-    /// Why it does not reach the end of the programs.
+    /// Reason why the run does not reach the end of the programs.
     pub(super) stopped: Option<String>,
     /// The file of the last step.
     file: Option<Arc<str>>,
@@ -255,7 +255,7 @@ fn rests_on(row: &Row<'_>, loaded: &LoadedMachine) -> Vec<&'static str> {
     open.map(|(question, _)| question.facts().rule).collect()
 }
 
-/// Whether a block holds words that may move an axis.
+/// Returns whether a block holds words that may move an axis.
 fn moves(block: &Block) -> bool {
     let is_axis = |word: &Word| match word.address {
         Address::Letter(letter) => b"XYZABCUVW".contains(&letter),
@@ -269,7 +269,7 @@ fn moves(block: &Block) -> bool {
     block.words.iter().chain(items).any(is_axis)
 }
 
-/// Whether no control of this build has answered a question.
+/// Returns whether no control of this build has answered a question.
 pub(super) fn is_open(question: Question, loaded: &LoadedMachine) -> bool {
     let machine = &loaded.machine;
     !matches!(

@@ -15,7 +15,7 @@ use frictcomp_recordings::replay::{Replayed, StateRecording, TriedCondition};
 pub struct Replay<'a> {
     /// The programs, one after the other.
     pub inputs: &'a [Input],
-    /// Their machine.
+    /// Machine of the programs.
     pub loaded: &'a LoadedMachine,
     /// Options of their run.
     pub options: SessionOptions,

@@ -40,14 +40,14 @@ pub struct ContourSetup {
     pub naming: Naming,
 }
 
-/// Why a program has no contour.
+/// Reason why a program has no contour.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NoDrivenContour {
     /// The program cannot be read.
     #[error(transparent)]
     Host(#[from] HostError),
-    /// Its axes cannot be driven.
+    /// The axes cannot be driven.
     #[error(transparent)]
     Axes(#[from] NoContour),
     /// A plant whose control loops are unstable on the path.

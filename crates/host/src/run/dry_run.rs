@@ -179,9 +179,9 @@ pub struct SingleRun {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Axes {
-    /// Those found by a look through the program (R9.74).
+    /// Axes found by a look through the program (R9.74).
     Ahead,
-    /// They are not listed.
+    /// No list of the axes: they are added as they occur.
     AsTheyOccur,
 }
 

@@ -38,14 +38,14 @@ pub struct GoldenFile {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum GoldenDrift {
-    /// They are the same.
+    /// Same result as agreed.
     AsAgreed,
-    /// There is no agreed result yet.
+    /// No agreed result yet.
     Missing {
         /// The current result.
         now: String,
     },
-    /// They differ.
+    /// Different result.
     Drifted {
         /// The agreed result.
         before: String,
@@ -64,7 +64,7 @@ pub struct UpdatedFolder<'a, E> {
     pub files: usize,
     /// The files that drifted and were written.
     pub written: Vec<PathBuf>,
-    /// Why the folder was left out.
+    /// Failures because of which the folder was left out.
     pub failures: Vec<E>,
 }
 

@@ -180,7 +180,7 @@ impl StateFile {
     }
 }
 
-/// Whether an open file is still the one at a path.
+/// Returns whether an open file is still the one at a path.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -189,7 +189,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     open.is_ok_and(|open| std::fs::metadata(path).is_ok_and(|there| number(there) == open))
 }
 
-/// Whether there is a file at the path: an open one cannot be moved.
+/// Returns whether there is a file at the path: an open one cannot be moved.
 #[cfg(not(unix))]
 fn is_at(_: &File, path: &Path) -> bool {
     path.exists()

@@ -16,7 +16,7 @@ use frictcomp_recordings::identify::{
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_testing::recorded_drive::Bench;
 
-/// The recording of the demo.
+/// Returns the recording of the demo.
 fn demo() -> Track {
     let selection = ChannelSelection {
         velocity: Some("SetVelo".to_owned()),
@@ -28,7 +28,7 @@ fn demo() -> Track {
     axis.track
 }
 
-/// A recording of a simulation that is independent of the crate; up and down.
+/// Returns a recording of a simulation that is independent of the crate; up and down.
 fn simulated() -> Track {
     static TRACK: LazyLock<Track> = LazyLock::new(simulate);
     TRACK.clone()
@@ -52,7 +52,7 @@ fn simulate() -> Track {
     }
 }
 
-/// Both recordings.
+/// Returns both recordings.
 fn both() -> [(&'static str, Track); 2] {
     [("demo", demo()), ("simulation", simulated())]
 }
@@ -61,7 +61,7 @@ fn found(track: &Track) -> Result<Identified, IdentifyError> {
     identify(track, &IdentifyOptions::default())
 }
 
-/// The code and the message that come first: of the refusal, or before the list.
+/// Returns the code and the message that come first: of the refusal, or before the list.
 fn first(track: &Track) -> Option<(Code, String)> {
     said(&found(track))
 }

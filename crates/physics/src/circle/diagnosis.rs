@@ -19,11 +19,10 @@ use crate::current::Switched;
 /// Size below which nothing is reported.
 pub const NOTICEABLE_UM: f64 = 1.0;
 
-/// One of two bulges counts as alone if the other is less than this part of it.
+/// Share of a bulge up to which the other one is neglected, so that the bulge counts as alone.
 const ALONE: f64 = 0.25;
 
-/// A step counts if it is at least this part of the peak: what a slow drive leaves of a peak is
-/// less.
+/// Least step that counts, as a part of the peak: what a slow drive leaves of a peak is less.
 const STEP_PART: f64 = 0.1;
 
 /// A term of a recording with an unknown shape is this many times as large as the residual: a drift leaves
@@ -76,11 +75,11 @@ pub enum Finding {
 #[serde(untagged)]
 #[non_exhaustive]
 pub enum FoundAt {
-    /// At a crossing.
+    /// One crossing.
     Crossing(Crossing),
-    /// At both crossings of an axis.
+    /// Both crossings of an axis.
     Axis(PlaneAxis),
-    /// In the path as a whole.
+    /// The path as a whole.
     Whole,
 }
 
@@ -165,7 +164,7 @@ fn bulge_of_noise(evidence: &CircleEvidence) -> f64 {
     GREATEST * evidence.noise_um
 }
 
-/// Whether a recording supports what a peak suggests: timing and strength not if there is another residual,
+/// Returns whether a recording supports what a peak suggests: timing and strength not if there is another residual,
 /// friction if it is far larger than that.
 fn is_carried(finding: Finding, glitch: &Glitch, evidence: &CircleEvidence) -> bool {
     /// The ratio of the peak-to-peak value of a shape to its root mean square, doubled.
@@ -241,7 +240,7 @@ fn of_shapes(paths: &[&PathShape]) -> Vec<Diagnosis> {
     advice
 }
 
-/// The shapes that a recording supports, and the residual.
+/// Returns the shapes that a recording supports, and the residual.
 fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
     let peak = |axis: PlaneAxis| {
         let peaks = paths.iter().map(|shape| shape.axis(axis).peak_um.abs());
@@ -424,7 +423,7 @@ fn step(paths: &[&AxisShape]) -> Option<(Finding, f64)> {
     ))
 }
 
-/// A path that is still bent by peaks where the steps are evaluated is fitted equally well by steps and by an
+/// Returns a path that is still bent by peaks where the steps are evaluated is fitted equally well by steps and by an
 /// ellipse: an ellipse that is not larger than such a step is neither.
 ///
 /// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the

@@ -50,7 +50,7 @@ fn identity<'a>(block: &'a BlockDeviation, program: Option<&str>) -> BlockIdenti
     (file, block.number.ok_or(&block.text))
 }
 
-/// The blocks that occur once in each version, as many as keep their order.
+/// Returns the blocks that occur once in each version, as many as keep their order.
 fn anchors(old: &[BlockIdentity<'_>], new: &[BlockIdentity<'_>]) -> Vec<Anchor> {
     let old_places = once(old);
     let new_places = once(new);
@@ -74,7 +74,7 @@ fn once<'a, 'b>(all: &'b [BlockIdentity<'a>]) -> HashMap<&'b BlockIdentity<'a>, 
     places
 }
 
-/// The longest series of pairs that keeps the order of the old version, by patience sorting.
+/// Returns the longest series of pairs that keeps the order of the old version, by patience sorting.
 fn longest_in_order(pairs: &[Anchor]) -> Vec<Anchor> {
     // The last pair of the best series of each length, and the pair before each pair.
     let mut ends: Vec<usize> = Vec::new();

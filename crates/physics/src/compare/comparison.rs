@@ -25,14 +25,14 @@ frictcomp::words! {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PairedSwitch {
-    /// Both versions switch.
+    /// A switch in both versions.
     Both {
         /// The switch of the old version.
         old: Switch,
         /// The switch of the new one, perhaps on another line.
         new: Switch,
     },
-    /// Only one version switches.
+    /// A switch in one version only.
     One(Which, Switch),
 }
 
@@ -41,7 +41,7 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum Agreement {
-        /// Both versions switch the same.
+        /// Same switches in both versions.
         Same = "same",
         /// A block switches, or a feed move lacks friction compensation, in one version and not in the other.
         Different = "different",
@@ -97,22 +97,22 @@ impl VersionComparison {
         }
     }
 
-    /// The switches of both versions in their order.
+    /// Returns the switches of both versions in their order.
     pub fn pairs(&self) -> &[PairedSwitch] {
         &self.pairs
     }
 
-    /// The states at the program end that differ.
+    /// Returns the states at the program end that differ.
     pub fn ends(&self) -> &[ChangedEnd] {
         &self.ends
     }
 
-    /// The feed moves that only one version makes without friction compensation.
+    /// Returns the feed moves that only one version makes without friction compensation.
     pub fn moves(&self) -> &[ChangedMoves] {
         &self.moves
     }
 
-    /// The switches of only one version.
+    /// Returns the switches of only one version.
     pub fn differences(&self) -> impl Iterator<Item = (Which, &Switch)> {
         self.pairs.iter().filter_map(|pair| match pair {
             PairedSwitch::Both { .. } => None,

@@ -31,14 +31,14 @@ impl From<(ContourReport, BlockDeviations)> for VersionContour {
 pub struct BlockChange {
     /// The block of the new version.
     pub block: BlockDeviation,
-    /// Its place and deviation there.
+    /// Place and deviation there.
     pub new: WorstPlace,
     /// The line in the old version and its deviation there in µm, if that version has the block.
     pub old: Option<(u32, f64)>,
 }
 
 impl BlockChange {
-    /// The additional deviation of the new version there, in µm.
+    /// Returns the additional deviation of the new version there, in µm.
     pub fn more_um(&self) -> f64 {
         self.new.deviation_um - self.old.map_or(0.0, |(_, um)| um)
     }
@@ -140,7 +140,7 @@ impl ContourComparison {
         }
     }
 
-    /// The blocks of the new version that deviate more, those with the largest difference first.
+    /// Returns the blocks of the new version that deviate more, those with the largest difference first.
     pub fn more(&self) -> &[BlockChange] {
         &self.more
     }

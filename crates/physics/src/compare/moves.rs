@@ -25,7 +25,7 @@ pub struct ChangedMoves {
     pub axis: String,
     /// The version that makes them.
     pub which: Which,
-    /// Their number.
+    /// Number of these moves.
     pub count: u64,
     /// The line of the first of them in that version.
     pub line: u32,

@@ -17,18 +17,18 @@ pub struct Obstacle {
     pub reason: Reason,
 }
 
-/// Why a version cannot be compared as a whole.
+/// Reason why a version cannot be compared as a whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reason {
-    /// An error or a budget stops the program.
+    /// Program that an error or a budget stops.
     Stopped {
-        /// Its code.
+        /// Code.
         code: Code,
-        /// Its message.
+        /// Message.
         message: String,
     },
-    /// A state depends on what only the machine knows.
+    /// State that depends on what only the machine knows.
     Unknown {
         /// Name of the axis.
         axis: String,
@@ -43,7 +43,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// The word of the records.
+    /// Returns the word that stands for the reason in records.
     pub fn as_str(&self) -> &'static str {
         match self {
             Self::Stopped { .. } => "stopped",

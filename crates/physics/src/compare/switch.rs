@@ -19,7 +19,7 @@ pub struct Switch {
     pub to: State,
     /// The file that holds the block.
     pub file: String,
-    /// Whether that is a file that the program calls.
+    /// Whether the file is one that the program calls.
     pub is_called: bool,
     /// The line on which the block starts, from 1.
     pub line: u32,
@@ -41,7 +41,7 @@ pub(super) struct SwitchIdentity<'a> {
 }
 
 impl Switch {
-    /// A change by a block of a program in `main`.
+    /// Returns a change by a block of a program in `main`.
     pub(super) fn new(row: &Row<'_>, change: Change, main: &str) -> Self {
         Self {
             axis: row.state.name(change.axis).to_owned(),
@@ -56,7 +56,7 @@ impl Switch {
         }
     }
 
-    /// A block is identified by its number, or by its text if it has none.
+    /// Returns the identity of a block: its number, or its text if it has none.
     pub(super) fn identity(&self) -> SwitchIdentity<'_> {
         SwitchIdentity {
             block: self.number.ok_or(&self.text),
@@ -67,7 +67,7 @@ impl Switch {
         }
     }
 
-    /// The line of the block, with its file if the program calls that (R17.4).
+    /// Returns the line of the block, with its file if the program calls that (R17.4).
     pub fn place(&self) -> String {
         if self.is_called {
             format!("{}:{}", self.file, self.line)
@@ -76,7 +76,7 @@ impl Switch {
         }
     }
 
-    /// The first line of the block.
+    /// Returns the first line of the block.
     pub fn first_line(&self) -> &str {
         self.text.lines().next().unwrap_or_default().trim_end()
     }

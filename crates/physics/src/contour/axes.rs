@@ -29,7 +29,7 @@ impl Sink for MovingAxes {
     }
 }
 
-/// Why a contour cannot be made.
+/// Reason why a contour cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoContour {
@@ -51,15 +51,14 @@ pub enum NoContour {
 }
 
 impl MovingAxes {
-    /// Whether a program moves an axis.
+    /// Returns whether a program moves an axis.
     pub fn contains(&self, axis: AxisIndex) -> bool {
         self.0.contains(&axis.get())
     }
 
-    /// The axes to drive: those of a plane, and each further linear axis that moves. The first axis
-    /// of the plane that is `named` has the drive X of the plant, the second Y, and the others X
-    /// (R11.1). `given` are
-    /// value lists by axis, which take the place of the machine's.
+    /// Returns the axes to drive: those of a plane, and each further linear axis that moves. The first axis of the
+    /// plane that is `named` has the drive X of the plant, the second Y, and the others X (R11.1). `given` are value
+    /// lists by axis, which take the place of the machine's.
     ///
     /// # Errors
     /// The two names do not make a plane, or the program moves too many axes.

@@ -70,7 +70,7 @@ impl WorstPlace {
 }
 
 impl BlockDeviation {
-    /// The largest deviation in µm, 0 if the block is never cut.
+    /// Returns the largest deviation in µm, 0 if the block is never cut.
     pub fn max_um(&self) -> f64 {
         let stretches = self.stretches.iter().map(|it| it.deviation_um);
         stretches.fold(0.0, f64::max)
@@ -116,7 +116,7 @@ pub struct BlockDeviations {
 /// The block that is cut.
 #[derive(Debug, Clone, Default)]
 struct Cut {
-    /// Its number in the run.
+    /// Number in the run.
     seq: u64,
     /// Index in the list.
     at: Option<usize>,
@@ -126,7 +126,7 @@ struct Cut {
 }
 
 impl BlockDeviations {
-    /// The blocks.
+    /// Returns the blocks.
     pub fn into_blocks(self) -> Vec<BlockDeviation> {
         self.blocks
     }

@@ -38,18 +38,18 @@ impl FeedReached {
         self.at_feed += reached / programmed;
     }
 
-    /// The programmed feed in mm/min: the path at F over its time; for several F their mean over the
-    /// path. `None` if nothing is cut.
+    /// Returns the programmed feed in mm/min: the path at F over its time; for several F their mean over the path.
+    /// `None` if nothing is cut.
     pub fn programmed_mm_per_min(&self) -> Option<f64> {
         (self.at_feed > 0.0).then(|| self.way / self.at_feed * MM_PER_S)
     }
 
-    /// The reached feed in mm/min: the path over its time. `None` if nothing is cut.
+    /// Returns the reached feed in mm/min: the path over its time. `None` if nothing is cut.
     pub fn reached_mm_per_min(&self) -> Option<f64> {
         (self.cutting > 0.0).then(|| self.way / self.cutting * MM_PER_S)
     }
 
-    /// The share of the cutting time below 80 % of F.
+    /// Returns the share of the cutting time below 80 % of F.
     pub fn slow_share(&self) -> f64 {
         self.share(self.slow)
     }
@@ -62,8 +62,8 @@ impl FeedReached {
         }
     }
 
-    /// The share of the cutting time that is below 80 % of F only because of the assumed limits.
-    /// If F is a share of them (G194), that is all of it.
+    /// Returns the share of the cutting time that is below 80 % of F only because of the assumed limits. If F is a
+    /// share of them (G194), that is all of it.
     pub(super) fn slow_share_against(&self, unlimited: &Self) -> f64 {
         if unlimited.at_feed < REACHED * self.at_feed {
             return 1.0;
@@ -72,7 +72,7 @@ impl FeedReached {
     }
 }
 
-/// Whether this share of the cutting time is too large for a verdict on the contour.
+/// Returns whether this share of the cutting time is too large for a verdict on the contour.
 pub(super) fn is_too_slow(share: f64) -> bool {
     share > TOLERATED
 }

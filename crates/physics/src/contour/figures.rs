@@ -44,17 +44,17 @@ impl Deviations {
         self.cycles += 1.0;
     }
 
-    /// The largest deviation in space, in µm (R11.27).
+    /// Returns the largest deviation in space, in µm (R11.27).
     pub fn max_um(&self) -> f64 {
         self.largest_um
     }
 
-    /// The block with the largest deviation.
+    /// Returns the block with the largest deviation.
     pub fn max_at(&self) -> Option<&Arc<Cause>> {
         self.largest_at.as_ref()
     }
 
-    /// The root of the mean square in µm.
+    /// Returns the root of the mean square in µm.
     pub fn rms_um(&self) -> f64 {
         if self.cycles > 0.0 {
             (self.squares / self.cycles).sqrt()

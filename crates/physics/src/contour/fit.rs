@@ -1,4 +1,4 @@
-//! Whether a value list belongs to the simulated drive that it compensates (R11.25).
+//! Match between a value list and the simulated drive that it compensates (R11.25).
 
 use super::options::{ContourAxis, ContourOptions, ListSource};
 use crate::current::{AdditiveCurrent, VELOCITY_UNITS_PER_MM_PER_S};
@@ -24,12 +24,12 @@ pub struct ListFit {
 }
 
 impl ListFit {
-    /// The added force as a share of the friction; `None` without friction.
+    /// Returns the added force as a share of the friction; `None` without friction.
     pub fn share(&self) -> Option<f64> {
         (self.friction_n > 0.0).then(|| self.added_n / self.friction_n)
     }
 
-    /// Whether the list adds between half and twice the friction.
+    /// Returns whether the list adds between half and twice the friction.
     pub fn belongs(&self) -> bool {
         self.share().is_some_and(|share| BELONGS.contains(&share))
     }

@@ -16,7 +16,7 @@ const WINDOW_S: f64 = 0.3;
 const WINDOW_TURN: f64 = 8.0 * DEGREE;
 /// Extent of the sides, in rad.
 const SIDE_TURN: f64 = 20.0 * DEGREE;
-/// The window ends where the path has turned by this angle, in rad.
+/// Angle in rad by which the path may turn within the window.
 const MOST_TURN: f64 = 30.0 * DEGREE;
 /// A path that turns by less in the time of a window is straight, in rad.
 const STRAIGHT: f64 = 0.1 * DEGREE;
@@ -92,7 +92,7 @@ impl Course {
         moment
     }
 
-    /// The direction of the path.
+    /// Returns the direction of the path.
     pub(super) fn direction(&self) -> Places {
         self.along
     }
@@ -106,7 +106,7 @@ pub(super) struct ReversalWindow {
     turned: f64,
     before: WindowSide,
     after: WindowSide,
-    /// The extremes are searched for in these cycles.
+    /// Cycles in which the extremes are searched for.
     inside: Vec<(f64, [f64; 3])>,
     /// End of the window after the reversal.
     ended: Option<f64>,
@@ -118,7 +118,7 @@ pub(super) struct ReversalWindow {
 type WindowSide = Vec<(f64, [f64; 3])>;
 
 impl ReversalWindow {
-    /// The window of a reversal at the last cycle of a course.
+    /// Returns the window of a reversal at the last cycle of a course.
     pub(super) fn begin(course: &Course, normal: Places) -> Self {
         let last = course.moments.back();
         let mut window = Self {
@@ -151,7 +151,7 @@ impl ReversalWindow {
         window
     }
 
-    /// The time from the reversal to a cycle, and the angle by which the path turns.
+    /// Returns the time from the reversal to a cycle, and the angle by which the path turns.
     fn since(&self, moment: &CycleValues) -> (f64, f64) {
         (
             (moment.time_s - self.time_s).abs(),
@@ -196,7 +196,7 @@ impl ReversalWindow {
         ControlFlow::Continue(())
     }
 
-    /// The glitch of each run in µm; `None` if the window is too short or a side is missing.
+    /// Returns the glitch of each run in µm; `None` if the window is too short or a side is missing.
     pub(super) fn figure(&self) -> Option<[f64; 3]> {
         let end = self.ended?;
         if end < SHORTEST_S || self.before.len() < FEWEST || self.after.len() < FEWEST {
@@ -215,7 +215,7 @@ impl ReversalWindow {
         }))
     }
 
-    /// The straight line through both sides: its value at the reversal, and its slope per second.
+    /// Returns the straight line through both sides: its value at the reversal, and its slope per second.
     fn line(&self, run: usize) -> (f64, f64) {
         let (mut count, mut sums) = (0.0, [0.0; 4]);
         for (at, values) in self.before.iter().chain(&self.after) {
@@ -233,7 +233,7 @@ impl ReversalWindow {
     }
 }
 
-/// Whether a path that has turned by this angle in this time is straight.
+/// Returns whether a path that has turned by this angle in this time is straight.
 fn is_straight(age: f64, turn: f64) -> bool {
     turn <= STRAIGHT * (age / WINDOW_S).max(1.0)
 }

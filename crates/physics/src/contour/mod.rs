@@ -1,4 +1,4 @@
-//! Where compensation is missing on the part (chapter 11 of the rules).
+//! Places on the part where compensation is missing (chapter 11 of the rules).
 //!
 //! The path of an executed program is driven by simulated axes three times: with friction
 //! compensation as the program switches it, with all of it on, and with all of it off. A

@@ -8,21 +8,21 @@ use frictcomp::diagnostic::{Code, Diagnostic};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ContourObstacle {
-    /// Nothing was driven.
+    /// No motion at all.
     NotDriven,
-    /// No feed move was driven.
+    /// No feed move.
     NothingCut,
     /// The number of feed moves that were left out, and the places of the first ones: `part.nc:8`.
     LeftOut(u64, Vec<String>),
     /// A stretch that only the machine decides and that is not driven, with its place and its cause (R14.8).
     Undecided(String, String),
-    /// An axis is cut while its state is not known: its name, the first place, and the seconds.
+    /// Axis that is cut while its state is not known: its name, the first place, and the seconds.
     UnknownState(String, String, f64),
-    /// It ends before the program does.
+    /// End of the contour before that of the program, with the code of the message.
     Ended(Code),
     /// Seconds in which positions are not those of the machine.
     NotOfTheMachine(f64),
-    /// This share of the cutting time runs below 80 % of F because of assumed limits (R11.23).
+    /// Share of the cutting time that runs below 80 % of F because of assumed limits (R11.23).
     AssumedLimits(f64),
 }
 
@@ -91,7 +91,7 @@ impl ContourObstacle {
         }
     }
 
-    /// The obstacle of a message on a stretch that only the machine decides.
+    /// Returns the obstacle of a message on a stretch that only the machine decides.
     pub(super) fn undecided(said: &Diagnostic) -> Self {
         let cause = said.message.split(';').next().unwrap_or_default();
         Self::Undecided(place_of(said), cause.to_owned())

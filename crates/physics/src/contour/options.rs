@@ -27,9 +27,9 @@ pub enum ListSource {
 pub struct ContourAxis {
     /// Position of the axis in the machine.
     pub axis: AxisIndex,
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its simulated drive.
+    /// Simulated drive.
     pub drive: DriveParameters,
     /// The compensation value list.
     pub list: FrictionList,
@@ -40,7 +40,7 @@ pub struct ContourAxis {
 }
 
 impl ContourAxis {
-    /// The force of a drive unit of the list, in N.
+    /// Returns the force of a drive unit of the list, in N.
     pub fn newtons_per_unit(&self) -> f64 {
         self.drive.force_per_unit_n * self.torque_scale
     }

@@ -22,7 +22,7 @@ struct PathPoint {
     place: Places,
     /// The change of the direction of the path with the distance here, by axis.
     bend: Places,
-    /// Whether the last turn was to the left: 1, or to the right: -1.
+    /// Direction of the last turn: 1 to the left, -1 to the right.
     side: f64,
     /// Whether the path has a corner here, in any plane.
     is_corner: bool,
@@ -31,9 +31,9 @@ struct PathPoint {
 /// Distance of a place from the path.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Distance {
-    /// In the plane, in mm: positive on the outside of the curve.
+    /// Distance in the plane, in mm: positive on the outside of the curve.
     pub(super) plane: f64,
-    /// From the nearest point of the path to the place, by axis.
+    /// Vector from the nearest point of the path to the place, by axis.
     pub(super) normal: Places,
     /// The length of that in mm: the deviation in space (R11.27).
     pub(super) space: f64,
@@ -77,7 +77,7 @@ impl CommandedPath {
         self.longest = 0.0;
     }
 
-    /// The number of the last point.
+    /// Returns the number of the last point.
     fn last(&self) -> u64 {
         let count = u64::try_from(self.points.len()).unwrap_or(u64::MAX);
         (self.first + count).saturating_sub(1)
@@ -142,8 +142,8 @@ impl CommandedPath {
         }
     }
 
-    /// The distance of a place from the path near the point that was commanded. `near` is the number
-    /// of the nearest point a cycle before, and becomes the current one.
+    /// Returns the distance of a place from the path near the point that was commanded. `near` is the number of the
+    /// nearest point a cycle before, and becomes the current one.
     pub(super) fn distance(&self, place: &Places, (near, commanded): (&mut u64, u64)) -> Distance {
         let lowest = self.first;
         let highest = self.last().saturating_sub(1);
@@ -174,7 +174,7 @@ impl CommandedPath {
         self.signed(at, &best)
     }
 
-    /// The number of steps after a foot that are too short to come nearer than the best one.
+    /// Returns the number of steps after a foot that are too short to come nearer than the best one.
     fn further(&self, foot: &Foot, best: &Foot) -> u64 {
         let steps = (foot.square.sqrt() - best.square.sqrt()) / self.longest;
         // The foot may be at the beginning of its step, and a step ends where the next one begins.
@@ -184,7 +184,7 @@ impl CommandedPath {
         further
     }
 
-    /// The foot of a place on the step that begins at a point.
+    /// Returns the foot of a place on the step that begins at a point.
     fn project(&self, number: u64, place: &Places) -> Foot {
         let (Some(from), Some(to)) = (self.at(number), self.at(number + 1)) else {
             return Foot::default();

@@ -6,11 +6,11 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PerRun<T> {
-    /// As the program switches it.
+    /// Value with compensation as the program switches it.
     pub programmed: T,
-    /// All of it on.
+    /// Value with all compensation on.
     pub all_on: T,
-    /// All of it off.
+    /// Value with all compensation off.
     pub all_off: T,
 }
 

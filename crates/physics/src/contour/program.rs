@@ -1,4 +1,4 @@
-//! From the rows of a session to the contour: program, trace, currents, drives, deviations.
+//! Computation of the contour from the rows of a session: program, trace, currents, drives, deviations.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -47,9 +47,9 @@ pub struct ContourPoint<'a> {
     pub deviation_um: PerRun<f64>,
     /// The distance from the path in space (R11.27).
     pub space_um: PerRun<f64>,
-    /// From the nearest point of the path to the position of the axes of the plane, as programmed, in mm.
+    /// Vector from the nearest point of the path to the position of the axes of the plane, as programmed, in mm.
     pub error_mm: [f64; 2],
-    /// Whether it counts: in a feed move, with positions of the machine.
+    /// Whether the cycle counts: in a feed move, with positions of the machine.
     pub counts: bool,
 }
 
@@ -76,7 +76,7 @@ pub trait ContourSink {
         let _ = switch;
     }
 
-    /// Whether it takes no more.
+    /// Returns whether it takes no more.
     fn is_closed(&self) -> bool {
         false
     }
@@ -127,14 +127,14 @@ struct Tracer<S> {
     axes: Vec<ContourSummary>,
     cycles: u64,
     not_of_the_machine: u64,
-    /// For each axis the first block that cuts while its state is not known, and the cycles.
+    /// First block of each axis that cuts while its state is not known, and the cycles.
     unknown: Vec<Option<(Arc<Cause>, u64)>>,
     is_unstable: bool,
     sink: S,
 }
 
 impl<S: ContourSink> ProgramContour<S> {
-    /// The contour of a program on a machine.
+    /// Returns the contour of a program on a machine.
     pub fn new(machine: &Machine, options: ContourOptions, sink: S) -> Self {
         let followed: Vec<AxisIndex> = options.axes.iter().map(|axis| axis.axis).collect();
         let current = |axis: &ContourAxis| {
@@ -309,7 +309,7 @@ impl<S: ContourSink> ProgramContour<S> {
     }
 }
 
-/// Largest lag of a drive in cycles: the part of the lag `v/Kv` that the feed forward leaves, plus 20 ms
+/// Returns the largest lag of a drive in cycles: the part of the lag `v/Kv` that the feed forward leaves, plus 20 ms
 /// for the loops and an overshoot.
 fn lag_cycles(options: &ContourOptions) -> u64 {
     let lags = options.axes.iter().map(|axis| {
@@ -431,7 +431,7 @@ impl<S: ContourSink> Tracer<S> {
         self.runs = None;
     }
 
-    /// One CNC cycle of all runs.
+    /// Computes one CNC cycle of all runs.
     fn drive(&mut self, cycle: &Cycle, to: &Places) -> ControlFlow<()> {
         let options = &self.options;
         let runs = self
@@ -530,7 +530,7 @@ fn widened(values: &[f64]) -> Places {
     places
 }
 
-/// The additive currents as they reach the drives, scaled by the control on the way (R7.8).
+/// Returns the additive currents as they reach the drives, scaled by the control on the way (R7.8).
 fn units(samples: &[CurrentSample], axes: &[ContourAxis]) -> Places {
     let mut added = [0.0; MOST_AXES];
     for ((added, sample), axis) in added.iter_mut().zip(samples).zip(axes) {

@@ -17,9 +17,9 @@ const ALONG: f64 = 0.99;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum GlitchFigure {
-    /// None: a stop, a corner or the next reversal of the axis is too close.
+    /// No glitch: a stop, a corner or the next reversal of the axis is too close.
     Missing,
-    /// The axis moves along the path: nothing of it is normal to the path, and the glitch is 0.
+    /// No glitch, 0: the axis moves along the path, and nothing of it is normal to the path.
     AlongPath,
     /// The deviation before and after the reversal.
     Measured,
@@ -69,7 +69,7 @@ impl ContourReversal {
         self.glitch_um.programmed - self.glitch_um.all_on
     }
 
-    /// Whether the glitch is known.
+    /// Returns whether the glitch is known.
     pub fn has_figure(&self) -> bool {
         self.figure != GlitchFigure::Missing
     }
@@ -78,9 +78,9 @@ impl ContourReversal {
 /// Event in a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum WindowEvent {
-    /// An axis reverses.
+    /// Reversal of an axis.
     Reversal,
-    /// Compensation of an axis is switched during its motion.
+    /// Switch of the compensation of an axis during its motion.
     Switch,
 }
 
@@ -186,7 +186,7 @@ impl ReversalFinder {
         self.friction = Some(Arc::clone(&measured.cause.friction));
     }
 
-    /// The axes whose compensation is switched during their motion in a feed move.
+    /// Returns the axes whose compensation is switched during their motion in a feed move.
     fn switched(&self, measured: &MeasuredCycle<'_>) -> Vec<usize> {
         let now = &measured.cause.friction;
         let Some(before) = self.friction.as_ref().filter(|before| before != &now) else {

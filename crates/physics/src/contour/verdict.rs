@@ -18,11 +18,11 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum ContourVerdict {
-        /// It keeps the limits.
+        /// Contour that keeps the limits.
         Within = "within",
-        /// It exceeds a limit.
+        /// Contour that exceeds a limit.
         Above = "above",
-        /// It is not known as a whole, or not as on the machine.
+        /// Contour that is not known as a whole, or not as on the machine.
         NotJudged = "not judged",
     }
 }
@@ -33,9 +33,9 @@ frictcomp::words! {
 pub struct ExceededLimit {
     /// The figure.
     pub figure: LimitedFigure,
-    /// Its value in µm.
+    /// Value in µm.
     pub um: f64,
-    /// Its place.
+    /// Place of the value.
     pub at: Arc<Cause>,
     /// The limit in µm.
     pub limit_um: f64,
@@ -52,7 +52,7 @@ pub enum LimitedFigure {
 }
 
 impl ContourLimits {
-    /// Whether there is a limit.
+    /// Returns whether there is a limit.
     pub fn any(&self) -> bool {
         self.deviation_um.is_some() || self.due_um.is_some()
     }

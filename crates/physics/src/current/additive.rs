@@ -5,11 +5,11 @@ use std::collections::VecDeque;
 use super::reading::{Below, Decay, Delay, Reading, Standstill, Start};
 use frictcomp::lists::{FrictionList, TablePoint};
 
-/// Whether friction compensation is on.
+/// State of friction compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Switched {
-    /// On.
+    /// Compensation on.
     On,
     /// Off.
     Off,
@@ -87,7 +87,7 @@ struct BuildUp {
 }
 
 impl AdditiveCurrent {
-    /// A computation with a value list, compensation on, before the first cycle.
+    /// Returns a computation with a value list, compensation on, before the first cycle.
     pub fn new(list: &FrictionList, reading: Reading) -> Self {
         let delay_cycles = usize::try_from(list.delay_cycles).unwrap_or_default();
         Self {
@@ -119,7 +119,7 @@ impl AdditiveCurrent {
         self
     }
 
-    /// The current at a constant velocity in units of the list, long after the last reversal.
+    /// Returns the current at a constant velocity in units of the list, long after the last reversal.
     pub(crate) fn steady(&mut self, speed_units: f64) -> f64 {
         self.friction(speed_units) * self.scaling
     }
@@ -134,8 +134,8 @@ impl AdditiveCurrent {
         self.saturated
     }
 
-    /// The number of cycles so far in which the axis was at standstill and the readings of R4.6 differ:
-    /// `hold` adds a current there, `zero` adds nothing (C11).
+    /// Returns the number of cycles so far in which the axis was at standstill and the readings of R4.6 differ: `hold`
+    /// adds a current there, `zero` adds nothing (C11).
     pub fn at_rest(&self) -> u64 {
         self.at_rest
     }
@@ -163,7 +163,7 @@ impl AdditiveCurrent {
         }
     }
 
-    /// The current of the next cycle (4.1 of the rules).
+    /// Returns the current of the next cycle (4.1 of the rules).
     ///
     /// `position` is the commanded position in 0.1 µm or 0.0001°, `velocity` the commanded
     /// velocity in µm/s or 0.001°/s, `upcoming` the velocities of the next cycles, as many of the
@@ -175,7 +175,7 @@ impl AdditiveCurrent {
         self.advance(position, velocity, reversal)
     }
 
-    /// The direction of the next cycle.
+    /// Returns the direction of the next cycle.
     fn direction_at(&self, velocity: f64) -> f64 {
         if velocity == 0.0 {
             self.direction
@@ -184,8 +184,8 @@ impl AdditiveCurrent {
         }
     }
 
-    /// The current of the next cycle, whose direction ends after `reversal` more cycles: `r[k]` of
-    /// the rules, `None` if there is no reversal within the look-ahead.
+    /// Returns the current of the next cycle, whose direction ends after `reversal` more cycles: `r[k]` of the rules,
+    /// `None` if there is no reversal within the look-ahead.
     pub(super) fn advance(
         &mut self,
         position: f64,
@@ -221,7 +221,7 @@ impl AdditiveCurrent {
         if self.is_standing && self.reading.standstill == Standstill::Zero {
             raw = 0.0;
         }
-        // No negative zero.
+        // Adding 0 turns -0 into 0.
         let current = self.delayed(raw) + 0.0;
         Added {
             w_before,
@@ -231,7 +231,7 @@ impl AdditiveCurrent {
         }
     }
 
-    /// The currents of a whole trace of positions and velocities of the same length.
+    /// Returns the currents of a whole trace of positions and velocities of the same length.
     pub fn trace(&mut self, positions: &[f64], velocities: &[f64]) -> Vec<Added> {
         // The first cycle after the current one with the opposite direction; searched once per reversal.
         let mut turn = 0;
@@ -254,7 +254,7 @@ impl AdditiveCurrent {
             .collect()
     }
 
-    /// Linear over the distance since the reversal (R4.3).
+    /// Returns the current, linear over the distance since the reversal (R4.3).
     fn weight_after(&mut self, position: f64) -> f64 {
         let Some(build_up) = &mut self.build_up else {
             return 1.0;
@@ -279,7 +279,7 @@ impl AdditiveCurrent {
         weight
     }
 
-    /// Linear over the cycles up to the next reversal, or none in them (R4.2).
+    /// Returns the current, linear over the cycles up to the next reversal, or none in them (R4.2).
     fn weight_before(&self, reversal: Option<usize>) -> f64 {
         match reversal {
             Some(_) if self.reading.decay == Decay::Step => 0.0,
@@ -289,7 +289,7 @@ impl AdditiveCurrent {
         }
     }
 
-    /// The value list: linear between points, held outside (R4.7).
+    /// Returns the value list: linear between points, held outside (R4.7).
     fn friction(&mut self, speed: f64) -> f64 {
         // Mostly the speed lies between the same points as in the last cycle.
         let below = self
@@ -318,7 +318,7 @@ impl AdditiveCurrent {
         }
     }
 
-    /// The dead time on the whole output (R4.5); 0 while the delay line fills.
+    /// Returns the dead time on the whole output (R4.5); 0 while the delay line fills.
     fn delayed(&mut self, raw: f64) -> f64 {
         if !self.active {
             return 0.0;

@@ -7,10 +7,10 @@ use super::additive::Switched;
 pub struct TraceColumns {
     /// The time of each cycle.
     pub times_s: Option<Vec<f64>>,
-    /// In 0.1 µm or 0.0001°.
+    /// Positions in 0.1 µm or 0.0001°.
     pub positions: Option<Vec<f64>>,
-    /// In µm/s or 0.001°/s.
+    /// Velocities in µm/s or 0.001°/s.
     pub velocities: Option<Vec<f64>>,
-    /// Whether the compensation is on, for every cycle.
+    /// State of the compensation in each cycle.
     pub switched: Vec<Switched>,
 }

@@ -13,7 +13,7 @@ const DEFAULT_CYCLE_S: f64 = 0.001;
 /// The part of the cycle by which a step may differ from it.
 const TOLERANCE: f64 = 0.01;
 
-/// A step of this many cycles is a gap.
+/// Number of cycles from which a step is a gap.
 const GAP: f64 = 1.5;
 
 /// Maximum number of cycles: eleven hours of 1 ms.
@@ -23,14 +23,14 @@ const MAX_CYCLES: f64 = 40_000_000.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Resampling {
-    /// They are refused.
+    /// Such rows are refused.
     #[default]
     Refused,
     /// Cycles are made from the rows, with straight lines between them.
     Done,
 }
 
-/// Why the rows of a trace are not CNC cycles.
+/// Reason why the rows of a trace are not CNC cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CyclesError {
@@ -48,7 +48,7 @@ pub enum CyclesError {
         row: usize,
         /// The time of the row above.
         before_s: f64,
-        /// Its time.
+        /// Time.
         time_s: f64,
     },
     /// A row at the time of the one above it.
@@ -56,7 +56,7 @@ pub enum CyclesError {
     Repeated {
         /// The row, counted from 1 below the header.
         row: usize,
-        /// Its time.
+        /// Time.
         time_s: f64,
     },
     /// Cycles that were not recorded.
@@ -69,7 +69,7 @@ pub enum CyclesError {
     Gap {
         /// The row, counted from 1 below the header.
         row: usize,
-        /// Its time.
+        /// Time.
         time_s: f64,
         /// The time since the row above.
         step_s: f64,
@@ -86,7 +86,7 @@ pub enum CyclesError {
     Step {
         /// The row, counted from 1 below the header.
         row: usize,
-        /// Its time.
+        /// Time.
         time_s: f64,
         /// The time since the row above.
         step_s: f64,
@@ -102,19 +102,19 @@ pub enum CyclesError {
     /// Rows that are too far apart for the cycles between them.
     #[error("the times of the recording are {} s apart, too far for cycles of {} ms", ReadableNumber(*.length_s), milliseconds(*.cycle_s))]
     TooLong {
-        /// From the first time to the last.
+        /// Time from the first row to the last.
         length_s: f64,
         /// The cycle.
         cycle_s: f64,
     },
 }
 
-/// A time in ms without the rounding error of its difference.
+/// Returns a time in ms without the rounding error of its difference.
 fn milliseconds(seconds: f64) -> ReadableNumber {
     ReadableNumber((seconds * 1e9).round() / 1e6)
 }
 
-/// The cycle of a trace: the given one, otherwise the usual step of its times.
+/// Returns the cycle of a trace: the given one, otherwise the usual step of its times.
 ///
 /// # Errors
 /// A cycle that no control has.
@@ -123,7 +123,7 @@ pub(super) fn cycle_of(times_s: Option<&[f64]>, given: Option<f64>) -> Result<f6
     check_cycle(given.or_else(usual).unwrap_or(DEFAULT_CYCLE_S))
 }
 
-/// The median of the steps forward.
+/// Returns the median of the steps forward.
 fn usual_step(times_s: &[f64]) -> Option<f64> {
     let steps = times_s.windows(2).map(|pair| pair[1] - pair[0]);
     let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
@@ -238,7 +238,7 @@ pub(super) fn resample(
     Ok((columns, said))
 }
 
-/// The rows whose time is after that of every row above.
+/// Returns the rows whose time is after that of every row above.
 fn rising(times_s: &[f64]) -> Vec<usize> {
     let mut latest = f64::NEG_INFINITY;
     let rows = times_s.iter().enumerate();
@@ -261,7 +261,7 @@ struct Resampled {
 }
 
 impl Resampled {
-    /// One more cycle, after the first of two rows and not after the second.
+    /// Takes one more cycle, after the first of two rows and not after the second.
     fn take(&mut self, columns: &TraceColumns, [before, row]: [usize; 2], time: f64) {
         let times_s = columns.times_s.as_deref().unwrap_or_default();
         let span = times_s[row] - times_s[before];

@@ -74,7 +74,7 @@ impl Followers {
         None
     }
 
-    /// The next of the remaining cycles after the end of the trace.
+    /// Returns the next of the remaining cycles after the end of the trace.
     pub fn pop(&mut self) -> Option<&[CurrentSample]> {
         let samples = self.axes.iter_mut().map_while(Follower::pop);
         self.samples.clear();
@@ -93,7 +93,7 @@ impl Followers {
         }
     }
 
-    /// The number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
+    /// Returns the number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
     pub fn at_rest(&self) -> impl Iterator<Item = u64> {
         self.axes.iter().map(|axis| axis.current.at_rest())
     }

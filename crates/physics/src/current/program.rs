@@ -1,4 +1,4 @@
-//! From the rows of a session to the currents of axes, cycle by cycle: program, trace, current.
+//! Computation of the currents of axes from the rows of a session, cycle by cycle: program, trace, current.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -35,7 +35,7 @@ pub trait CurrentSink {
     /// Takes a cycle. `Break` ends the program.
     fn cycle(&mut self, cycle: &CurrentCycle<'_>) -> ControlFlow<()>;
 
-    /// The trace begins, or restarts after motions that are not known.
+    /// Begins the trace, or restarts it after motions that are not known.
     fn begin(&mut self, time_s: f64, line: u32) {
         let _ = (time_s, line);
     }
@@ -81,7 +81,7 @@ pub enum FollowError {
     /// An axis on which compensation is assumed.
     #[error("the friction values of axis `{0}` are not known, only assumed to exist")]
     Assumed(String),
-    /// All axes of a machine without value lists.
+    /// A machine without a value list for any axis.
     #[error("no axis has an accepted compensation value list, so there is no current")]
     NoList,
 }
@@ -134,7 +134,7 @@ struct Cycles<S> {
 }
 
 impl<S: CurrentSink> ProgramCurrents<S> {
-    /// The currents of some axes of a machine.
+    /// Returns the currents of some axes of a machine.
     pub fn new(
         machine: &Machine,
         followed: &[AxisIndex],
@@ -170,18 +170,17 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         }
     }
 
-    /// The errors that the session reported, then the messages about the trace.
+    /// Returns the errors that the session reported, then the messages about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         self.trace.diagnostics()
     }
 
-    /// The first messages on stretches that only the machine decides, which are not in the trace (R14.8).
+    /// Returns the first messages on stretches that only the machine decides, which are not in the trace (R14.8).
     pub fn undecided(&self) -> &[Diagnostic] {
         self.trace.undecided()
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
-    /// known.
+    /// Returns whether a budget stopped a program, as an endless loop does (FC910): the rest is not known.
     pub fn is_cut_short(&self) -> bool {
         self.trace.is_cut_short()
     }
@@ -201,12 +200,12 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.sink().count
     }
 
-    /// The number of cycles in which the output of each axis was limited to 16 bit.
+    /// Returns the number of cycles in which the output of each axis was limited to 16 bit.
     pub fn saturated(&mut self) -> impl Iterator<Item = u64> {
         self.trace.sink().followers.saturated()
     }
 
-    /// The number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
+    /// Returns the number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
     pub fn at_rest(&mut self) -> impl Iterator<Item = u64> {
         self.trace.sink().followers.at_rest()
     }
@@ -279,7 +278,7 @@ impl<S: CurrentSink> TraceSink for Cycles<S> {
     }
 }
 
-/// The value list of an axis; an empty one if the control would not accept any.
+/// Returns the value list of an axis; an empty one if the control would not accept any.
 fn values(friction: &Parameterisation) -> FrictionList {
     match friction {
         Parameterisation::Accepted(list) => list.clone(),

@@ -9,7 +9,7 @@ use frictcomp::diagnostic::did_you_mean;
 use frictcomp::lists::FrictionList;
 use frictcomp::readings::{Alternative, Question, QuestionSet, Readings};
 
-/// How the documents are read where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is the assumption
+/// Interpretation of the documents where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is the assumption
 /// unless the user selects otherwise.
 ///
 /// It is written in reports, and can be given, as text:
@@ -43,7 +43,7 @@ pub enum Standstill {
     /// The direction of the last motion is remembered and the value held.
     #[default]
     Hold,
-    /// Nothing is added.
+    /// No current is added.
     Zero,
 }
 
@@ -73,10 +73,10 @@ pub enum Delay {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Start {
-    /// After the first one.
+    /// The first start only.
     #[default]
     First,
-    /// After every standstill, even in the same direction.
+    /// Every start after a standstill, even in the same direction.
     Every,
 }
 
@@ -84,10 +84,10 @@ pub enum Start {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Decay {
-    /// By the same part in each cycle.
+    /// Decay by the same part in each cycle.
     #[default]
     Linear,
-    /// To zero in the first of them.
+    /// Decay to zero in the first cycle.
     Step,
 }
 
@@ -124,7 +124,7 @@ impl Reading {
         self
     }
 
-    /// The questions whose readings, as selected by a machine, decide the current of a list (R4.2 to R4.7,
+    /// Returns the questions whose readings, as selected by a machine, decide the current of a list (R4.2 to R4.7,
     /// R15.3); those that were chosen otherwise are not among them.
     pub fn rests_on(self, readings: &Readings, list: &FrictionList) -> QuestionSet {
         let mut questions = QuestionSet::default();
@@ -185,7 +185,7 @@ impl ChosenOptions {
 impl FromStr for ChosenOptions {
     type Err = UnknownReading;
 
-    /// As for [`Reading`].
+    /// Reads an option as for [`Reading`].
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let words = text.split(',').map(str::trim);
         let words = words.filter(|word| !word.is_empty());
@@ -211,8 +211,8 @@ impl UnknownReading {
 }
 
 impl fmt::Display for Reading {
-    /// Every option that is in force: `standstill=hold,below=hold,delay=all,start=first`, and
-    /// `decay=step` if that is selected.
+    /// Writes every option that is in force: `standstill=hold,below=hold,delay=all,start=first`, and `decay=step` if
+    /// that is selected.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let in_force = OPTIONS.iter().filter(|(choice, choose)| {
             let mut chosen = *self;
@@ -238,8 +238,8 @@ impl From<&Readings> for Reading {
 impl FromStr for Reading {
     type Err = UnknownReading;
 
-    /// `standstill=zero,below=origin,delay=reversal`, each of them optional; of two that exclude
-    /// each other the later one counts.
+    /// Reads `standstill=zero,below=origin,delay=reversal`, each of them optional; of two that exclude each other the
+    /// later one counts.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let chosen: ChosenOptions = text.parse()?;
         Ok(chosen.over(Self::default()))

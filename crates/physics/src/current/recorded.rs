@@ -28,11 +28,11 @@ pub struct CommandedTrace {
 pub struct CommandedRow {
     /// The time of the cycle.
     pub time_s: f64,
-    /// In 0.1 µm or 0.0001°.
+    /// Position in 0.1 µm or 0.0001°.
     pub position: f64,
-    /// In µm/s or 0.001°/s.
+    /// Velocity in µm/s or 0.001°/s.
     pub velocity: f64,
-    /// Whether the compensation is on.
+    /// State of the compensation.
     pub switched: Switched,
 }
 
@@ -132,7 +132,7 @@ impl CommandedTrace {
         &self.remarks
     }
 
-    /// The cycles in their order.
+    /// Returns the cycles in their order.
     pub fn rows(&self) -> impl Iterator<Item = CommandedRow> {
         let numbers = self.times_s.iter().zip(&self.positions);
         let numbers = numbers.zip(&self.velocities).zip(&self.switched);
@@ -146,7 +146,7 @@ impl CommandedTrace {
         )
     }
 
-    /// The cycles in their order, with the addition of `current` in each.
+    /// Returns the cycles in their order, with the addition of `current` in each.
     pub fn currents(
         &self,
         current: &mut AdditiveCurrent,

@@ -7,10 +7,10 @@ use frictcomp::diagnostic::ReadableNumber;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum DeadBand {
-    /// Those between two changes of direction that are at most 5 cycles and less than 1 µm apart.
+    /// Velocities between two changes of direction that are at most 5 cycles and less than 1 µm apart.
     #[default]
     Toggling,
-    /// Those up to this velocity, in µm/s or 0.001°/s.
+    /// Velocities up to this one, in µm/s or 0.001°/s.
     Below(f64),
 }
 
@@ -93,7 +93,7 @@ fn changes(velocities: &[f64]) -> Vec<usize> {
     changes
 }
 
-/// The stretches in which the direction only toggles.
+/// Returns the stretches in which the direction only toggles.
 fn toggling(velocities: &[f64], positions: &[f64]) -> Vec<(usize, usize)> {
     let changes = changes(velocities);
     let is_short = |pair: &[usize]| {

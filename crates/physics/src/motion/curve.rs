@@ -38,9 +38,9 @@ pub(super) struct SplineSpan {
 /// One axis that moves along a span.
 #[derive(Debug, Clone, Copy)]
 struct MovingAxis {
-    /// Its place among the axes of the machine.
+    /// Place among the axes of the machine.
     place: usize,
-    /// Whether the feed refers to it.
+    /// Whether the feed refers to the axis.
     is_main: bool,
     /// The coefficients of the powers of the parameter.
     cubic: [f64; 4],
@@ -66,7 +66,7 @@ impl MovingAxis {
         self.cubic.iter().rev().fold(0.0, horner)
     }
 
-    /// The first, second and third derivatives by the parameter.
+    /// Returns the first, second and third derivatives by the parameter.
     fn derivatives(&self, u: f64) -> [f64; 3] {
         let [_, _, c, d] = self.cubic;
         let [before, within, after] = self.steps;
@@ -79,7 +79,7 @@ impl MovingAxis {
         ]
     }
 
-    /// The first, second and third derivatives by the distance.
+    /// Returns the first, second and third derivatives by the distance.
     fn by_distance(&self, along: Along) -> [f64; 3] {
         let Along {
             u,
@@ -96,7 +96,7 @@ impl MovingAxis {
 }
 
 impl SplineSpan {
-    /// The span with these control points, by axis; `None` if it is not a curve with a length.
+    /// Returns the span with these control points, by axis; `None` if it is not a curve with a length.
     pub(super) fn new(points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
         let [p, q, r, s] = points;
         let axis = |place: usize| {
@@ -170,7 +170,7 @@ impl SplineSpan {
         }
     }
 
-    /// The distance up to a parameter.
+    /// Returns the distance up to a parameter.
     fn way(&self, u: f64) -> f64 {
         let parts = NODES.iter();
         u * parts
@@ -201,12 +201,12 @@ impl SplineSpan {
         self.axes.iter().find(|it| it.place == axis)
     }
 
-    /// The position of an axis there; `None` if it does not move.
+    /// Returns the position of an axis there; `None` if it does not move.
     pub(super) fn position(&self, axis: usize, along: Along) -> Option<f64> {
         Some(self.axis(axis)?.position(along.u))
     }
 
-    /// Slope and bend of an axis there.
+    /// Returns the slope and the bend of an axis there.
     pub(super) fn shape(&self, axis: usize, along: Along) -> [f64; 2] {
         self.axis(axis).map_or([0.0; 2], |axis| {
             let [slope, bend, _] = axis.by_distance(along);

@@ -14,9 +14,9 @@ const SHARP: f64 = 0.1;
 /// The transition from one piece of the path to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Junction {
-    /// Only the bounds change.
+    /// A smooth transition, at which only the bounds of the motion change.
     Smooth,
-    /// Nothing changes, but the program sets a velocity in it.
+    /// A smooth transition with a path velocity set by the program.
     Paced {
         /// The highest path velocity in it.
         velocity: f64,
@@ -31,15 +31,14 @@ pub(super) enum Junction {
         /// The highest path velocity in it.
         velocity: f64,
     },
-    /// The path stops.
+    /// Stop of the path.
     Stop,
 }
 
 impl Junction {
-    /// The transition between two pieces of the path. In a CNC cycle, in which the path turns from
-    /// one slope to another, the velocity of an axis jumps by `v·Δx'` and its acceleration by
-    /// `v²·Δx'' + a·Δx'`; the jumps stay within a share of the acceleration and the jerk of the
-    /// axis in that cycle.
+    /// Returns the transition between two pieces of the path. In a CNC cycle, in which the path turns from one slope to
+    /// another, the velocity of an axis jumps by `v·Δx'` and its acceleration by `v²·Δx'' + a·Δx'`; the jumps stay
+    /// within a share of the acceleration and the jerk of the axis in that cycle.
     pub(super) fn between(
         before: &PathSegment,
         after: &PathSegment,
@@ -90,7 +89,7 @@ impl Junction {
         }
     }
 
-    /// The stricter of the known bound and one more kink.
+    /// Returns the stricter of the known bound and one more kink.
     fn and(self, velocity: f64, passing: bool) -> Self {
         let velocity = velocity.min(self.velocity());
         match self {
@@ -100,7 +99,7 @@ impl Junction {
         }
     }
 
-    /// The highest path velocity in it.
+    /// Returns the highest path velocity in it.
     pub(super) fn velocity(self) -> f64 {
         match self {
             Self::Smooth => f64::INFINITY,
@@ -121,12 +120,12 @@ impl Junction {
         }
     }
 
-    /// Whether the axes turn in it while they move.
+    /// Returns whether the axes turn in it while they move.
     pub(super) fn is_kink(self) -> bool {
         matches!(self, Self::Bend { .. } | Self::Corner { .. })
     }
 
-    /// Whether the path must be without acceleration in it.
+    /// Returns whether the path must be without acceleration in it.
     pub(super) fn is_fixed(self) -> bool {
         matches!(self, Self::Corner { .. } | Self::Stop)
     }

@@ -41,7 +41,7 @@ pub struct Assumed {
 pub struct AssumedLimits {
     /// The name of the axis.
     pub axis: String,
-    /// Its type.
+    /// Type.
     pub axis_type: AxisType,
     /// `max_velocity` in mm/min or °/min, if it is assumed.
     pub max_velocity: Option<f64>,
@@ -52,7 +52,7 @@ pub struct AssumedLimits {
 }
 
 impl AssumedLimits {
-    /// The assumed bounds of an axis; `None` if the configuration gives all of them.
+    /// Returns the assumed bounds of an axis; `None` if the configuration gives all of them.
     pub fn of(axis: &Axis) -> Option<Self> {
         let limits = AxisLimits::of(axis);
         let Assumed {
@@ -83,14 +83,14 @@ const ACCELERATION: f64 = 1000.0;
 const JERK: f64 = ACCELERATION / 0.05;
 
 impl AxisLimits {
-    /// The bounds of an axis at feed with ramps of the acceleration (R5.2). `frictcomp.toml` takes precedence
+    /// Returns the bounds of an axis at feed with ramps of the acceleration (R5.2). `frictcomp.toml` takes precedence
     /// over the axis list; what neither gives is assumed to be the default of the control's parameters.
     pub fn of(axis: &Axis) -> Self {
         Self::with(axis, SlopeProfile::Trapez, 0.0)
     }
 
-    /// The bounds of an axis at feed under a profile of the acceleration (P-CHAN-00071, `#SLOPE`), with
-    /// a given CNC cycle in seconds: steps of the acceleration take one cycle.
+    /// Returns the bounds of an axis at feed under a profile of the acceleration (P-CHAN-00071, `#SLOPE`), with a given
+    /// CNC cycle in seconds: steps of the acceleration take one cycle.
     fn with(axis: &Axis, slope: SlopeProfile, cycle_s: f64) -> Self {
         let unit = unit(axis.axis_type);
         let listed = &axis.listed;
@@ -125,7 +125,7 @@ impl AxisLimits {
         }
     }
 
-    /// The bounds of an axis in rapid motions: those of its list, otherwise those at feed.
+    /// Returns the bounds of an axis in rapid motions: those of its list, otherwise those at feed.
     fn rapid(axis: &Axis, at_feed: Self) -> Self {
         let listed = &axis.listed;
         let own = |listed: Option<f64>, configured: Option<f64>, at_feed: f64| {
@@ -169,7 +169,7 @@ struct ByMovement {
 }
 
 impl MachineLimits {
-    /// The bounds of the axes of a machine, with a given CNC cycle in seconds.
+    /// Returns the bounds of the axes of a machine, with a given CNC cycle in seconds.
     pub(super) fn of(machine: &Machine, cycle_s: f64) -> Self {
         let under = |slope| {
             let axes = machine.axes.iter();
@@ -187,7 +187,7 @@ impl MachineLimits {
         }
     }
 
-    /// The bounds in a movement, under the profile that the program selects.
+    /// Returns the bounds in a movement, under the profile that the program selects.
     pub(super) fn during(&self, movement: Movement, slope: Option<SlopeProfile>) -> &[AxisLimits] {
         let by_movement = match self.profile(slope) {
             SlopeProfile::Step => &self.steps,
@@ -199,7 +199,7 @@ impl MachineLimits {
         }
     }
 
-    /// The profile that a program selects, otherwise that of the channel.
+    /// Returns the profile that a program selects, otherwise that of the channel.
     pub(super) fn profile(&self, slope: Option<SlopeProfile>) -> SlopeProfile {
         slope.unwrap_or(self.channel)
     }

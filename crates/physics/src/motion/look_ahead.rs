@@ -52,7 +52,7 @@ impl LookAhead {
         }
     }
 
-    /// The path velocity along a segment at which one axis moves at its limit.
+    /// Returns the path velocity along a segment at which one axis moves at its limit.
     pub(super) fn fastest(&self, segment: &PathSegment) -> f64 {
         segment.fastest(self.limits_of(segment))
     }
@@ -68,7 +68,7 @@ impl LookAhead {
         }
     }
 
-    /// The sampled seconds.
+    /// Returns the sampled seconds.
     pub(super) fn time_s(&self) -> f64 {
         self.sampler.time_s()
     }
@@ -120,7 +120,7 @@ impl LookAhead {
         ControlFlow::Continue(())
     }
 
-    /// Whether a kink between feed moves slows the path down, rather than the program.
+    /// Returns whether a kink between feed moves slows the path down, rather than the program.
     fn is_slow(&self, entry: Junction, next: &PathSegment) -> bool {
         let Some(Queued { segment: last, .. }) = self.queue.back() else {
             return false;
@@ -134,7 +134,7 @@ impl LookAhead {
             && entry.velocity() < REACHED * next.feed.min(last.end_velocity)
     }
 
-    /// Whether the budget of cycles is used up.
+    /// Returns whether the budget of cycles is used up.
     pub(super) fn is_over(&self) -> bool {
         self.sampler.is_over()
     }
@@ -199,7 +199,7 @@ impl LookAhead {
         kept
     }
 
-    /// A plan for the whole queue.
+    /// Returns a plan for the whole queue.
     fn plan(&mut self) -> Vec<ProfileSpan> {
         let stages: Vec<PlanInput> = self.queue.iter().map(|queued| self.stage(queued)).collect();
         if let Some(stretches) = plan(&stages, self.velocity) {

@@ -1,5 +1,5 @@
-//! From executed programs to commanded traces: the commanded position and velocity of each axis
-//! in every CNC cycle (R5.1 to R5.4).
+//! Computation of commanded traces from executed programs: the commanded position and velocity of each axis in every
+//! CNC cycle (R5.1 to R5.4).
 //!
 //! The rows of a session contain the motion of each block. A [`TrajectoryPlanner`] makes segments of a
 //! path from them, plans the path velocity with full look-ahead within the limits of all axes, and

@@ -145,7 +145,7 @@ impl Envelope<'_> {
         bound(self.stages, at)
     }
 
-    /// The transitions in which the path has no acceleration.
+    /// Returns the transitions in which the path has no acceleration.
     fn knots(&self) -> Vec<usize> {
         let inner = (1..self.stages.len()).filter(|&at| {
             touches(self.stages, &self.velocities, at) || self.stages[at].entry.is_fixed()
@@ -154,8 +154,8 @@ impl Envelope<'_> {
         ends.chain(std::iter::once(self.stages.len())).collect()
     }
 
-    /// The knots that the path passes so slowly, with the jerk, that their bounds do not matter; to
-    /// have no acceleration there would only cost time.
+    /// Returns the knots that the path passes so slowly, with the jerk, that their bounds do not matter; to have no
+    /// acceleration there would only cost time.
     fn slack(&self, knots: &[usize], start: f64) -> Vec<usize> {
         let spans = self.spans(knots);
         let mut velocity = start;
@@ -170,7 +170,7 @@ impl Envelope<'_> {
         slack
     }
 
-    /// The segments between the knots, with the velocities that the rest of the path allows.
+    /// Returns the segments between the knots, with the velocities that the rest of the path allows.
     fn spans(&self, knots: &[usize]) -> Vec<Interval> {
         let mut spans: Vec<Interval> = knots
             .windows(2)
@@ -185,7 +185,7 @@ impl Envelope<'_> {
         spans
     }
 
-    /// The profiles from knot to knot.
+    /// Returns the profiles from knot to knot.
     fn stretches(&self, knots: &[usize], start: f64) -> Option<Vec<ProfileSpan>> {
         let spans = self.spans(knots);
         let first = spans.first()?;
@@ -205,8 +205,8 @@ impl Envelope<'_> {
         Some(stretches.collect())
     }
 
-    /// Whether a profile has its highest velocity in one of the stages next to a transition at which it
-    /// is too fast.
+    /// Returns whether a profile has its highest velocity in one of the stages next to a transition at which it is too
+    /// fast.
     fn peaks_beside(&self, at: usize, way: f64, profile: &VelocityProfile) -> bool {
         let (steady, top) = profile.steady();
         let (before, after) = (&self.stages[at - 1], &self.stages[at]);
@@ -220,7 +220,7 @@ impl Envelope<'_> {
         })
     }
 
-    /// The transitions that were not knots and are passed too fast.
+    /// Returns the transitions that were not knots and are passed too fast.
     fn broken(&self, passed: &[usize], knots: &[usize], stretches: &[ProfileSpan]) -> Vec<usize> {
         let mut broken = Vec::new();
         let mut passed = passed.iter().copied().peekable();
@@ -245,8 +245,8 @@ impl Envelope<'_> {
     }
 }
 
-/// The highest velocities at the transitions, from the start to the rest at the end, that the
-/// accelerations allow.
+/// Returns the highest velocities at the transitions, from the start to the rest at the end, that the accelerations
+/// allow.
 fn highest(stages: &[PlanInput], start: f64) -> Vec<f64> {
     let mut velocities = vec![0.0; stages.len() + 1];
     for (at, stage) in stages.iter().enumerate().rev() {
@@ -260,7 +260,7 @@ fn highest(stages: &[PlanInput], start: f64) -> Vec<f64> {
     velocities
 }
 
-/// The bound of the transition into a stage.
+/// Returns the bound of the transition into a stage.
 fn bound(stages: &[PlanInput], at: usize) -> f64 {
     let stage = &stages[at];
     let before = match at.checked_sub(1) {
@@ -271,12 +271,12 @@ fn bound(stages: &[PlanInput], at: usize) -> f64 {
     own.min(before)
 }
 
-/// Whether the highest velocity of a transition is its bound.
+/// Returns whether the highest velocity of a transition is its bound.
 fn touches(stages: &[PlanInput], velocities: &[f64], at: usize) -> bool {
     velocities[at] >= bound(stages, at) * (1.0 - TOUCH)
 }
 
-/// The velocity reached from another one with a stage's acceleration.
+/// Returns the velocity reached from another one with a stage's acceleration.
 fn gained(velocity: f64, stage: &PlanInput) -> f64 {
     (velocity * velocity + 2.0 * stage.bounds.acceleration * stage.length).sqrt()
 }

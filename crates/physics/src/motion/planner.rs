@@ -24,17 +24,17 @@ use frictcomp::timeline::Row;
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum ToolRadii {
-    /// None is known: the programmed contour is followed.
+    /// Unknown radii: the programmed contour is followed.
     #[default]
     Unknown,
-    /// One for every tool.
+    /// One radius for every tool.
     Every(f64),
-    /// By the number of the D word in force; with another one the programmed contour is followed.
+    /// Radii by the number of the D word in force; with another one the programmed contour is followed.
     OfData(Arc<BTreeMap<u32, f64>>),
 }
 
 impl ToolRadii {
-    /// The radius with the tool data of a number, where one is known to be in force.
+    /// Returns the radius with the tool data of a number, where one is known to be in force.
     fn of(&self, data: Option<u32>) -> Option<f64> {
         match self {
             Self::Unknown => None,
@@ -126,7 +126,7 @@ pub struct TrajectoryPlanner {
 /// A difference, in mm or degrees, that is due to rounding and not to a program.
 const NOTHING: f64 = 1e-9;
 
-/// Whether a straight motion goes nowhere.
+/// Returns whether a straight motion goes nowhere.
 fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
     let stays = from
         .iter()
@@ -135,15 +135,15 @@ fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
     stays && !matches!(travel.form, PathForm::Arc(_))
 }
 
-/// Whether the path is known.
+/// Knowledge of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Running {
-    /// It has not begun, or broke off.
+    /// Path that has not begun, or broke off.
     No,
     Yes,
 }
 
-/// Why a motion cannot be followed.
+/// Reason why a motion cannot be followed.
 enum PlanObstacle {
     /// The positions of the axes before it are not known.
     Start,
@@ -151,7 +151,7 @@ enum PlanObstacle {
 }
 
 impl TrajectoryPlanner {
-    /// A planner for some axes of a machine, before the first block.
+    /// Returns a planner for some axes of a machine, before the first block.
     pub fn new(machine: &Machine, followed: &[AxisIndex], options: PlannerOptions) -> Self {
         let limits = MachineLimits::of(machine, options.cycle_s);
         let sampler = Sampler::new(followed, options.cycle_s, options.max_cycles);
@@ -198,7 +198,7 @@ impl TrajectoryPlanner {
         flow
     }
 
-    /// FC915 at the last block that moved something.
+    /// Reports FC915 at the last block that moved something.
     fn check_budget(&mut self) {
         if self.path.rounding().look_ahead().is_over() {
             let at = RemarkPlace {
@@ -304,7 +304,7 @@ impl TrajectoryPlanner {
         }
     }
 
-    /// The axes of the plane in force.
+    /// Returns the axes of the plane in force.
     fn plane(&self, row: &Row<'_>) -> Option<[usize; 2]> {
         let axis = |name: &str| self.names.iter().position(|it| it == name);
         let [one, two] = match row.modal.functions.plane {
@@ -316,13 +316,13 @@ impl TrajectoryPlanner {
         Some([axis(one)?, axis(two)?])
     }
 
-    /// Where the tool follows the contour, if its radius and the plane are known.
+    /// Returns where the tool follows the contour, if its radius and the plane are known.
     fn beside(&self, row: &Row<'_>, travel: &Travel) -> Option<ToolOffset> {
         let radius = self.tool_radii.of(row.modal.functions.tool_data);
         Some(ToolOffset::of(travel.tool?, self.plane(row)?, radius?))
     }
 
-    /// What separates the path that is followed from that of the machine.
+    /// Returns the difference between the followed path and that of the machine.
     fn frame(&self, row: &Row<'_>, travel: &Travel) -> PositionFrame {
         match row.modal.frame() {
             PositionFrame::Contour if self.beside(row, travel).is_some() => PositionFrame::Machine,
@@ -367,7 +367,7 @@ impl TrajectoryPlanner {
         ControlFlow::Continue(())
     }
 
-    /// The segment of a motion; `None` if nothing moves.
+    /// Returns the segment of a motion; `None` if nothing moves.
     fn segment(
         &mut self,
         row: &Row<'_>,
@@ -506,7 +506,7 @@ impl TrajectoryPlanner {
         self.remarks.note_before(row, names);
     }
 
-    /// The axes that matter to a motion and whose position before it is not known.
+    /// Returns the axes that matter to a motion and whose position before it is not known.
     fn unknown_at_start(&self, travel: &Travel) -> impl Iterator<Item = usize> {
         let ends = travel.from.iter().zip(&travel.to).enumerate();
         let matters = |axis, to: &Option<f64>| {

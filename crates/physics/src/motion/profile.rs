@@ -27,7 +27,7 @@ pub(super) struct Bounds {
 /// equally, and on a symmetrical change of velocity they take the same distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum RampForm {
-    /// With a constant jerk.
+    /// Ramp with a constant jerk.
     #[default]
     Linear,
     /// Like the square of a sine.
@@ -77,8 +77,8 @@ impl Ramp {
 /// Number of halvings to find a velocity to the last bit of its bracket.
 const HALVINGS: usize = 60;
 
-/// The highest velocity that a ramp from `from` reaches within `length`; the same backwards, since
-/// ramps are symmetrical.
+/// Returns the highest velocity that a ramp from `from` reaches within `length`; the same backwards, since ramps are
+/// symmetrical.
 pub(super) fn reach(from: f64, length: f64, bounds: &Bounds) -> f64 {
     let mut low = from;
     let mut high = (from * from + 2.0 * bounds.acceleration * length)
@@ -101,7 +101,7 @@ pub(super) fn reach(from: f64, length: f64, bounds: &Bounds) -> f64 {
     low
 }
 
-/// Whether a ramp between two velocities fits into a length.
+/// Returns whether a ramp between two velocities fits into a length.
 pub(super) fn fits(from: f64, to: f64, length: f64, bounds: &Bounds) -> bool {
     Ramp::new(from, to, bounds).way <= length * (1.0 + 1e-9)
 }
@@ -129,8 +129,8 @@ pub(super) struct VelocityProfile {
 }
 
 impl VelocityProfile {
-    /// The fastest motion over `length` that begins and ends with the given velocities, without
-    /// acceleration at both ends. Lengths are in mm or degrees, times in seconds.
+    /// Returns the fastest motion over `length` that begins and ends with the given velocities, without acceleration at
+    /// both ends. Lengths are in mm or degrees, times in seconds.
     pub(super) fn between(start: f64, end: f64, length: f64, bounds: &Bounds) -> Self {
         let ways = |peak: f64| {
             let (up, down) = (Ramp::new(start, peak, bounds), Ramp::new(peak, end, bounds));
@@ -188,7 +188,7 @@ impl VelocityProfile {
             state.jerk = jerk;
             state.seconds = seconds;
             if seconds <= 0.0 {
-                // Nothing happens in it, and nothing reads it.
+                // The phase takes no time, and its state is not read.
                 *place = state;
                 continue;
             }
@@ -210,24 +210,24 @@ impl VelocityProfile {
         self.duration
     }
 
-    /// The length of the path.
+    /// Returns the length of the path.
     pub(super) fn length(&self) -> f64 {
         self.length
     }
 
-    /// The distances between which the velocity is constant, and that velocity.
+    /// Returns the distances between which the velocity is constant, and that velocity.
     pub(super) fn steady(&self) -> (RangeInclusive<f64>, f64) {
         let (from, to) = (self.phases[3], self.phases[4]);
         (from.way..=to.way, from.velocity)
     }
 
-    /// The highest velocity along the path.
+    /// Returns the highest velocity along the path.
     pub(super) fn top_velocity(&self) -> f64 {
         let phases = self.phases.iter().map(|phase| phase.velocity);
         phases.fold(self.end_velocity, f64::max)
     }
 
-    /// The velocity after a distance.
+    /// Returns the velocity after a distance.
     pub(super) fn velocity_after(&self, way: f64) -> f64 {
         let (mut early, mut late) = (0.0, self.duration);
         for _ in 0..HALVINGS {
@@ -241,7 +241,7 @@ impl VelocityProfile {
         self.at(early).velocity
     }
 
-    /// The state at a time after the start.
+    /// Returns the state at a time after the start.
     pub(super) fn at(&self, time_s: f64) -> PathState {
         if time_s >= self.duration {
             return PathState {
@@ -263,7 +263,7 @@ impl VelocityProfile {
 }
 
 impl Phase {
-    /// Distance, velocity and acceleration some time into the phase.
+    /// Returns distance, velocity and acceleration some time into the phase.
     fn after(&self, seconds: f64) -> (f64, f64, f64) {
         let Self {
             way,
@@ -279,7 +279,7 @@ impl Phase {
         )
     }
 
-    /// The distance, velocity and acceleration that the ramp adds some time into the phase.
+    /// Returns the distance, velocity and acceleration that the ramp adds some time into the phase.
     fn ramped(&self, seconds: f64) -> [f64; 3] {
         let square = seconds * seconds;
         match self.form {
@@ -303,7 +303,7 @@ impl Phase {
     }
 }
 
-/// The sign of a change, 0 for none.
+/// Returns the sign of a change, 0 for none.
 fn sign(change: f64) -> f64 {
     if change == 0.0 { 0.0 } else { change.signum() }
 }
@@ -353,7 +353,7 @@ mod tests {
         result.is_ok().then(|| trajectory.get_duration())
     }
 
-    /// The number of cases, the same each time unless `PROPTEST_RNG_SEED` selects others.
+    /// Returns the number of cases, the same each time unless `PROPTEST_RNG_SEED` selects others.
     fn seeded(cases: u32) -> ProptestConfig {
         let config = ProptestConfig::with_cases(cases);
         let rng_seed = match config.rng_seed {

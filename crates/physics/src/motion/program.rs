@@ -68,7 +68,7 @@ pub struct ProgramTrace<S> {
 }
 
 impl<S: TraceSink> ProgramTrace<S> {
-    /// The trace of some axes of a machine, before the first program.
+    /// Returns the trace of some axes of a machine, before the first program.
     pub fn new(
         machine: &Machine,
         followed: &[AxisIndex],
@@ -104,19 +104,17 @@ impl<S: TraceSink> ProgramTrace<S> {
         std::mem::replace(&mut self.over, ControlFlow::Break(()))
     }
 
-    /// The errors that the session reported and why it stopped a program, then the messages about
-    /// the trace.
+    /// Returns the errors that the session reported and why it stopped a program, then the messages about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         (&self.errors, self.planner.diagnostics())
     }
 
-    /// The first messages on stretches that only the machine decides, which are not driven (R14.8).
+    /// Returns the first messages on stretches that only the machine decides, which are not driven (R14.8).
     pub fn undecided(&self) -> &[Diagnostic] {
         &self.undecided
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
-    /// known.
+    /// Returns whether a budget stopped a program, as an endless loop does (FC910): the rest is not known.
     pub fn is_cut_short(&self) -> bool {
         self.is_cut_short
     }
@@ -141,12 +139,12 @@ impl<S: TraceSink> ProgramTrace<S> {
         self.planner.left_out_feed_at()
     }
 
-    /// The receiver of the trace.
+    /// Returns the receiver of the trace.
     pub fn sink_ref(&self) -> &S {
         &self.sink
     }
 
-    /// The receiver of the trace.
+    /// Returns the receiver of the trace.
     pub fn sink(&mut self) -> &mut S {
         &mut self.sink
     }
@@ -160,7 +158,7 @@ impl<S: TraceSink> ProgramTrace<S> {
 /// Most stretches that are named.
 const MAX_UNDECIDED: usize = 10;
 
-/// Whether a message is about blocks that only the machine decides.
+/// Returns whether a message is about blocks that only the machine decides.
 fn is_undecided(said: &Diagnostic) -> bool {
     matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908)
 }

@@ -91,7 +91,7 @@ impl MotionRemarks {
         }
     }
 
-    /// FC906 at the first motion before the trace, which begins now or never.
+    /// Reports FC906 at the first motion before the trace, which begins now or never.
     pub(super) fn say_before(&mut self) {
         let Some(before) = self.before.take() else {
             return;
@@ -120,7 +120,7 @@ impl MotionRemarks {
         self.diagnostics.insert(0, diagnostic);
     }
 
-    /// FC907 at the start of something that the trace does not follow in full.
+    /// Reports FC907 at the start of something that the trace does not follow in full.
     pub(super) fn say_simplified(&mut self, row: &Row<'_>, holds: Simplifications) {
         for what in holds.without(self.simplified).iter() {
             let message = format!("the trace {}", what.instead());
@@ -135,7 +135,7 @@ impl MotionRemarks {
         self.simplified = holds;
     }
 
-    /// FC904: what separates the path that is followed from that of the machine, once for each.
+    /// Reports FC904: the difference between the followed path and that of the machine, once for each.
     pub(super) fn say_frame(&mut self, row: &Row<'_>, frame: PositionFrame) {
         let (subject, message, help) = match frame {
             PositionFrame::Machine => return,
@@ -167,7 +167,7 @@ impl MotionRemarks {
         );
     }
 
-    /// FC907: the path of the tool beside a contour.
+    /// Reports FC907: the path of the tool beside a contour.
     pub(super) fn say_tool(&mut self, row: &Row<'_>, radii: &ToolRadii) {
         let remark = MotionRemark {
             code: Code::Fc907,
@@ -190,7 +190,7 @@ impl MotionRemarks {
         );
     }
 
-    /// FC903: a motion is left out.
+    /// Reports FC903: a motion is left out.
     pub(super) fn say_left_out(&mut self, row: &Row<'_>, reason: &str) {
         let message = format!("the trace leaves this motion out: {reason}");
         let key = (Code::Fc903, Arc::from(row.file), row.line, "");

@@ -26,7 +26,7 @@ const EVEN: f64 = 4.0;
 /// Angle from which a corner turns back: it is not rounded (PM/475073291).
 const TURNS_BACK: f64 = 3.0;
 
-/// A smaller kink is due only to the decimals of the program.
+/// Size of a kink below which it is due only to the decimals of the program.
 const STRAIGHT: f64 = 1e-7;
 
 /// Largest deviation of the followed path from the programmed one.
@@ -59,7 +59,7 @@ pub struct Transitions {
 enum CornerPassage {
     /// Unchanged.
     Kink,
-    /// The blocks are part of one curve.
+    /// Blocks that are part of one curve.
     Joined {
         /// Distance of the curve from its chords, in mm.
         sagitta: f64,
@@ -68,7 +68,7 @@ enum CornerPassage {
         /// The distance in mm that the mode permits.
         tolerance: f64,
     },
-    /// The corner is rounded.
+    /// Rounded corner.
     Corner(Corner),
 }
 
@@ -280,8 +280,8 @@ impl Rounding {
         self.look_ahead.add(segment, sink)
     }
 
-    /// Whether an axis moves the other way in the last block only: a curve through all three blocks may
-    /// pass over its stroke (R11.29).
+    /// Returns whether an axis moves the other way in the last block only: a curve through all three blocks may pass
+    /// over its stroke (R11.29).
     fn is_stroke_between(&self, next: &PathSegment) -> bool {
         let mut blocks = self.blocks.iter().rev();
         let (Some(last), Some(before)) = (blocks.next(), blocks.next()) else {

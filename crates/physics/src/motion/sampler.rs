@@ -52,7 +52,7 @@ impl Sampler {
         self.cycle
     }
 
-    /// The time of the next cycle, in seconds.
+    /// Returns the time of the next cycle, in seconds.
     pub(super) fn time_s(&self) -> f64 {
         #[allow(clippy::cast_precision_loss)] // a trace is shorter than 2^53 cycles
         let next = self.next as f64;
@@ -86,7 +86,7 @@ impl Sampler {
                 for (place, &axis) in self.followed.iter().enumerate() {
                     let [position, slope] = segment.place(axis, way);
                     self.positions[place] = position;
-                    // No negative zero.
+                    // Adding 0 turns -0 into 0.
                     self.velocities[place] = slope * state.velocity + 0.0;
                 }
                 self.path_velocity = state.velocity;
@@ -131,7 +131,7 @@ impl Sampler {
         self.path_velocity = 0.0;
     }
 
-    /// Whether more cycles than the budget were needed.
+    /// Returns whether more cycles than the budget were needed.
     pub(super) fn is_over(&self) -> bool {
         self.over
     }
@@ -154,7 +154,7 @@ impl Sampler {
     }
 }
 
-/// A number that is whole apart from its rounding.
+/// Returns a number that is whole apart from its rounding.
 fn whole(number: f64) -> Option<f64> {
     let near = number.round();
     (near >= 1.0 && (number - near).abs() <= 1e-12 * near).then_some(near)

@@ -18,7 +18,7 @@ const CIRCLE_JERK: f64 = 0.7;
 /// Share of the jerk for the change of path velocity on a circle, across the path.
 const CROSS_JERK: f64 = 0.5;
 
-/// A slope smaller than this is due to the rounding of a sine.
+/// Slope below which it is due to the rounding of a sine.
 const NO_SLOPE: f64 = 1e-12;
 
 /// A piece of the path.
@@ -81,7 +81,7 @@ pub(super) struct Ends<'a> {
 }
 
 impl PathSegment {
-    /// A straight segment; `None` if nothing moves.
+    /// Returns a straight segment; `None` if nothing moves.
     pub(super) fn line(ends: Ends<'_>, cause: Shared<Cause>) -> Option<Self> {
         let way = |main: bool| {
             let axes = ends.from.iter().zip(&ends.to).zip(ends.main);
@@ -102,7 +102,7 @@ impl PathSegment {
         Some(Self::new(ends, SegmentShape::Line, length, cause))
     }
 
-    /// An arc or a helix.
+    /// Returns an arc or a helix.
     ///
     /// # Errors
     /// The ends and the centre do not make an arc.
@@ -121,7 +121,7 @@ impl PathSegment {
         Ok(Self::new(ends, SegmentShape::Arc(circle), length, cause))
     }
 
-    /// The block along another line: from one place to another, straight.
+    /// Returns the block along another line: from one place to another, straight.
     pub(super) fn moved(&self, from: &[f64], to: &[f64], main: &[bool]) -> Option<Self> {
         let ends = Ends {
             from: from.into(),
@@ -132,7 +132,7 @@ impl PathSegment {
         Some(line.paced_as(self))
     }
 
-    /// The block along the span of a B-spline with these control points.
+    /// Returns the block along the span of a B-spline with these control points.
     pub(super) fn curved(&self, points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
         let curve = SplineSpan::new(points, main)?;
         let place = |along| {
@@ -161,7 +161,7 @@ impl PathSegment {
         }
     }
 
-    /// The block at a distance to the left of its direction in a plane, to the right if it is negative.
+    /// Returns the block at a distance to the left of its direction in a plane, to the right if it is negative.
     ///
     /// # Errors
     /// It has no such path.
@@ -189,7 +189,7 @@ impl PathSegment {
         Ok(beside)
     }
 
-    /// The arc from the end of this block to a place of the plane.
+    /// Returns the arc from the end of this block to a place of the plane.
     pub(super) fn around(&self, arc: &CircularArc, end: [f64; 2], main: &[bool]) -> Option<Self> {
         let mut to = self.to.clone();
         for (axis, end) in arc.axes.iter().zip(end) {
@@ -205,14 +205,14 @@ impl PathSegment {
         Some(around)
     }
 
-    /// The direction in a plane after a distance, as a unit; 0 if it does not move there.
+    /// Returns the direction in a plane after a distance, as a unit; 0 if it does not move there.
     pub(super) fn direction(&self, plane: [usize; 2], distance: f64) -> [f64; 2] {
         let slope = plane.map(|axis| self.slope(axis, distance));
         let length = slope[0].hypot(slope[1]);
         slope.map(|slope| if length > 0.0 { slope / length } else { 0.0 })
     }
 
-    /// The line or the circle of a plane on which it lies.
+    /// Returns the line or the circle of a plane on which it lies.
     pub(super) fn outline(&self, plane: [usize; 2]) -> SegmentOutline {
         match self.circle() {
             Some(circle) => SegmentOutline::Circle {
@@ -226,7 +226,7 @@ impl PathSegment {
         }
     }
 
-    /// The part of its length at a place of a plane on its outline; below 0 before its start, above 1 beyond
+    /// Returns the part of its length at a place of a plane on its outline; below 0 before its start, above 1 beyond
     /// its end.
     pub(super) fn part_at(&self, axes: [usize; 2], place: [f64; 2]) -> f64 {
         let Some(circle) = self.circle() else {
@@ -241,7 +241,7 @@ impl PathSegment {
         0.5 + off / circle.sweep
     }
 
-    /// The part of the block between two parts of its length, with these ends in a plane.
+    /// Returns the part of the block between two parts of its length, with these ends in a plane.
     pub(super) fn between(
         &self,
         parts: [f64; 2],
@@ -264,12 +264,12 @@ impl PathSegment {
         cut
     }
 
-    /// Whether it is straight.
+    /// Returns whether it is straight.
     pub(super) fn is_straight(&self) -> bool {
         matches!(self.shape, SegmentShape::Line)
     }
 
-    /// The arc, if it is one.
+    /// Returns the arc, if it is one.
     fn circle(&self) -> Option<&PlaneArc> {
         match &self.shape {
             SegmentShape::Arc(circle) => Some(circle),
@@ -291,7 +291,7 @@ impl PathSegment {
         }
     }
 
-    /// The path velocity at which one axis moves at its limit and none beyond it.
+    /// Returns the path velocity at which one axis moves at its limit and none beyond it.
     pub(super) fn fastest(&self, limits: &[AxisLimits]) -> f64 {
         let open = Self {
             feed: f64::INFINITY,
@@ -356,7 +356,7 @@ impl PathSegment {
         }
     }
 
-    /// The change of the position of an axis with the distance, `dx/ds`, after a distance.
+    /// Returns the change of the position of an axis with the distance, `dx/ds`, after a distance.
     pub(super) fn slope(&self, axis: usize, distance: f64) -> f64 {
         let slope = match &self.shape {
             SegmentShape::Curve(curve) => curve.shape(axis, curve.after(distance))[0],
@@ -374,7 +374,7 @@ impl PathSegment {
         if slope.abs() < NO_SLOPE { 0.0 } else { slope }
     }
 
-    /// The change of the slope of an axis with the distance, `d²x/ds²`.
+    /// Returns the change of the slope of an axis with the distance, `d²x/ds²`.
     pub(super) fn bend(&self, axis: usize, distance: f64) -> f64 {
         match &self.shape {
             SegmentShape::Curve(curve) => curve.shape(axis, curve.after(distance))[1],
@@ -452,7 +452,7 @@ impl PlaneArc {
         })
     }
 
-    /// Cosine and sine of the angle after a part of the arc.
+    /// Returns the cosine and the sine of the angle after a part of the arc.
     fn direction(&self, part: f64) -> (f64, f64) {
         let (sine, cosine) = (self.start + self.sweep * part).sin_cos();
         (cosine, sine)

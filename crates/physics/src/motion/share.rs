@@ -6,18 +6,18 @@ use super::profile::{Bounds, RampForm};
 /// Share of the limits for a piece of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Share {
-    /// All of them.
+    /// The whole limits.
     Whole,
     /// The share next to a kink at one of its ends.
     BesideKink,
 }
 
-/// A kink may take a quarter of an axis' acceleration, and of its jerk twice a quarter: two
-/// kinks of opposite sign in neighbouring cycles add up.
+/// Share of an axis' acceleration that a kink may take, and of its jerk twice this share: two kinks of opposite sign in
+/// neighbouring cycles add up.
 pub(super) const KINK_SHARE: f64 = 0.25;
 
 impl Share {
-    /// The limits of an axis under this share.
+    /// Returns the limits of an axis under this share.
     pub(super) fn of(self, limits: &AxisLimits) -> Bounds {
         let (acceleration, jerk) = match self {
             Self::Whole => (1.0, 1.0),

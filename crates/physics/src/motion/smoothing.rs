@@ -11,8 +11,8 @@ use super::turns::{AHEAD, AxisCourse, RunVertices, Window};
 /// Maximum number of vertices weighed on either side.
 const WIDEST: usize = 12;
 
-/// The weights of a vertex and its neighbours to one side: a Gaussian times a parabola, whose second
-/// moment is 0.
+/// Returns the weights of a vertex and its neighbours to one side: a Gaussian times a parabola, whose second moment is
+/// 0.
 fn weights(half: usize) -> Vec<f64> {
     if half == 0 {
         return vec![1.0];
@@ -50,9 +50,9 @@ struct Vertex {
 /// Bend of the path at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bend {
-    /// Not more than the decimals of the program.
+    /// A bend no larger than the decimals of the program explain.
     Fine,
-    /// More than that.
+    /// A larger bend.
     Coarse,
 }
 
@@ -70,7 +70,7 @@ pub(super) struct SmoothRun {
     wanted: Window<AxisPositions>,
     /// The control points, which turn where the vertices do.
     control: Window<AxisPositions>,
-    /// By axis.
+    /// Courses by axis.
     courses: Vec<AxisCourse>,
     /// The last vertex with a coarse bend.
     coarse: usize,
@@ -117,7 +117,7 @@ impl SmoothRun {
         self.push(place);
     }
 
-    /// The number of the newest vertex.
+    /// Returns the number of the newest vertex.
     pub(super) fn newest(&self) -> usize {
         self.vertices.newest()
     }
@@ -130,8 +130,8 @@ impl SmoothRun {
         self.last = Some(self.newest());
     }
 
-    /// Whether the span after a vertex can be made: all vertices that it depends on are known and
-    /// final, which the newest may not be.
+    /// Returns whether the span after a vertex can be made: all vertices that it depends on are known and final, which
+    /// the newest may not be.
     pub(super) fn is_ready(&self, span: usize) -> bool {
         self.last.is_some() || span + 4 + WIDEST + AHEAD <= self.newest()
     }
@@ -140,7 +140,7 @@ impl SmoothRun {
         &self.vertices.at(number).place
     }
 
-    /// The four control points of the span after a vertex, which is never before that of the last call.
+    /// Returns the four control points of the span after a vertex, which is never before that of the last call.
     pub(super) fn span(&mut self, number: usize) -> [AxisPositions; 4] {
         self.turn_as_vertices(self.within(number + 2));
         let control = |number: usize| self.control.at(number).clone();
@@ -164,7 +164,7 @@ impl SmoothRun {
         self.control.forget_before(span.saturating_sub(1));
     }
 
-    /// A number of a vertex, which is not after the last one.
+    /// Returns a number of a vertex, which is not after the last one.
     fn within(&self, number: usize) -> usize {
         self.last.map_or(number, |last| last.min(number))
     }
@@ -202,7 +202,7 @@ impl SmoothRun {
         }
     }
 
-    /// The smooth vertex, moved beyond it so that the spline passes through it.
+    /// Returns the smooth vertex, moved beyond it so that the spline passes through it.
     fn through(&self, number: usize) -> AxisPositions {
         let own = self.smooth.at(number);
         let rest = self.last.map_or(WIDEST, |last| last.saturating_sub(number));
@@ -266,7 +266,7 @@ impl RunVertices for AxisOfRun<'_> {
     }
 }
 
-/// The place beyond the end of a path, at the distance of another one before it.
+/// Returns the place beyond the end of a path, at the distance of another one before it.
 fn mirrored(end: &AxisPositions, before: &AxisPositions) -> AxisPositions {
     let axes = end.iter().zip(before.iter());
     axes.map(|(end, before)| 2.0 * end - before).collect()

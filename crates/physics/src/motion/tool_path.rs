@@ -24,7 +24,7 @@ pub(super) struct ToolPath {
     held: Held,
 }
 
-/// Where the tool follows a contour.
+/// Path of the tool beside a contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ToolOffset {
     /// The axes of the plane.
@@ -34,7 +34,7 @@ pub(super) struct ToolOffset {
 }
 
 impl ToolOffset {
-    /// The offset in the plane of these axes, with the radius of a tool in mm.
+    /// Returns the offset in the plane of these axes, with the radius of a tool in mm.
     pub(super) fn of(side: ToolSide, axes: [usize; 2], radius_mm: f64) -> Self {
         let left = match side {
             ToolSide::Left => radius_mm,
@@ -44,9 +44,9 @@ impl ToolOffset {
     }
 }
 
-/// What depends on the next block.
+/// Part of the path that depends on the next block.
 enum Held {
-    /// Nothing: the tool is on the programmed path.
+    /// No such part: the tool is on the programmed path.
     Nothing,
     /// The block that leads to the contour.
     Approach(HeldBlock),
@@ -62,16 +62,16 @@ struct HeldBlock {
     beside: ToolOffset,
 }
 
-/// How the path beside a corner goes on.
+/// Form of the path beside a corner.
 #[derive(Debug, Clone, Copy)]
 enum CornerBeside {
-    /// One ends where the other starts.
+    /// Blocks of which one ends where the other starts.
     Joined,
-    /// Both blocks end at one place.
+    /// Common end point of both blocks.
     Meets([f64; 2]),
-    /// A straight piece leads from one to the other.
+    /// Straight piece from one block to the other.
     Straight,
-    /// An arc about the corner does.
+    /// Arc about the corner from one block to the other.
     Around(CircularArc),
 }
 
@@ -169,7 +169,7 @@ impl ToolPath {
         ControlFlow::Continue(())
     }
 
-    /// A block without compensation: it starts where the tool is.
+    /// Returns a block without compensation: it starts where the tool is.
     fn leave(
         &mut self,
         (segment, contouring): (PathSegment, Option<Contouring>),
@@ -235,7 +235,7 @@ impl ToolPath {
         ControlFlow::Continue(())
     }
 
-    /// A block that does not move in the plane: the tool stays where it is there.
+    /// Takes a block that does not move in the plane: the tool stays where it is there.
     fn pass_beside(&mut self, block: HeldBlock, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.rest_beside(sink)?;
         let Held::Place(axes, place) = self.held else {
@@ -247,7 +247,7 @@ impl ToolPath {
         self.hand_on(line, block.contouring, sink)
     }
 
-    /// A straight piece of a block in the plane, at its start.
+    /// Returns a straight piece of a block in the plane, at its start.
     fn straight(&self, block: &HeldBlock, places: [[f64; 2]; 2]) -> Option<PathSegment> {
         let starts = block.segment.starts();
         let [from, to] = places.map(|place| at_place(starts, block.beside.axes, place));
@@ -280,7 +280,7 @@ impl ToolPath {
 }
 
 impl HeldBlock {
-    /// Whether it does not move in the plane.
+    /// Returns whether it does not move in the plane.
     fn stays(&self) -> bool {
         let moves = |step: f64| step.abs() > 0.0;
         !self
@@ -314,7 +314,7 @@ fn at_place(positions: &[f64], axes: [usize; 2], place: [f64; 2]) -> Vec<f64> {
 }
 
 impl CornerBeside {
-    /// The corner between two blocks beside the contour.
+    /// Returns the corner between two blocks beside the contour.
     fn between(
         last: &PathSegment,
         next: &PathSegment,
@@ -375,7 +375,7 @@ fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
     (one[0] - other[0]).hypot(one[1] - other[1])
 }
 
-/// The places where two outlines meet.
+/// Returns the places where two outlines meet.
 fn meetings(outlines: [SegmentOutline; 2]) -> [Option<[f64; 2]>; 2] {
     match outlines {
         [
@@ -426,7 +426,7 @@ fn meetings(outlines: [SegmentOutline; 2]) -> [Option<[f64; 2]>; 2] {
     }
 }
 
-/// The places where a line meets a circle.
+/// Returns the places where a line meets a circle.
 fn on_chord(
     through: [f64; 2],
     direction: [f64; 2],

@@ -22,7 +22,7 @@ pub struct Cause {
     pub number: Option<i64>,
     /// Motion of the axes.
     pub movement: Movement,
-    /// Whether positions are those of the machine (R5.4).
+    /// Frame of the positions (R5.4).
     pub frame: PositionFrame,
     /// Functions on the path or its velocity that the trace does not follow.
     pub simplified: Simplifications,
@@ -35,11 +35,11 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum Movement {
-        /// As fast as they can, G00.
+        /// Motion at the highest velocity of the axes, G00.
         Rapid = "rapid",
-        /// At a feed, G01, G02, G03.
+        /// Motion at a feed, G01, G02, G03.
         Feed = "feed",
-        /// They rest for a time, G04.
+        /// Rest of the axes for a time, G04.
         Dwell = "dwell",
     }
 }

@@ -17,11 +17,11 @@ const SHIFT: usize = 6;
 
 /// The run as one axis sees it.
 pub(super) trait RunVertices {
-    /// The change from a vertex to the next one; 0 where it is not known.
+    /// Returns the change from a vertex to the next one; 0 where it is not known.
     fn step(&self, vertex: usize) -> f64;
-    /// The wanted control point.
+    /// Returns the wanted control point.
     fn wanted(&self, vertex: usize) -> f64;
-    /// The number of the last vertex that is known, at most [`AHEAD`] after the one in question.
+    /// Returns the number of the last vertex that is known, at most [`AHEAD`] after the one in question.
     fn last(&self) -> usize;
 }
 
@@ -43,7 +43,7 @@ pub(super) struct AxisCourse {
 }
 
 impl AxisCourse {
-    /// The next control point of the axis. Numbers rise by one from call to call, from 0.
+    /// Returns the next control point of the axis. Numbers rise by one from call to call, from 0.
     pub(super) fn next(&mut self, vertex: usize, run: &impl RunVertices) -> f64 {
         if vertex == 0 {
             *self = Self {
@@ -95,7 +95,7 @@ impl AxisCourse {
         }
     }
 
-    /// The next turn, if it has to be chosen now: the extreme among the control points nearby.
+    /// Returns the next turn, if it has to be chosen now: the extreme among the control points nearby.
     fn choose_turn(&self, vertex: usize, (step, run): (usize, &impl RunVertices)) -> Option<usize> {
         if vertex + SHIFT < self.reached {
             return None;
@@ -109,7 +109,7 @@ impl AxisCourse {
         places.max_by(|one, other| wanted(one).total_cmp(&wanted(other)))
     }
 
-    /// The first vertex at which the axis may turn again after a step against its direction.
+    /// Returns the first vertex at which the axis may turn again after a step against its direction.
     fn turn_after(&self, step: usize, run: &impl RunVertices) -> Option<usize> {
         let mut reached = step;
         for step in step..run.last() {
@@ -151,12 +151,12 @@ impl<T> Window<T> {
         self.values.push_back(value);
     }
 
-    /// The number of the next value.
+    /// Returns the number of the next value.
     pub(super) fn next(&self) -> usize {
         self.first + self.values.len()
     }
 
-    /// Number of the latest value, counted from 0; 0 without a value, too.
+    /// Returns the number of the latest value, counted from 0; 0 without a value, too.
     pub(super) fn newest(&self) -> usize {
         self.next().saturating_sub(1)
     }
@@ -165,7 +165,7 @@ impl<T> Window<T> {
         self.values.back_mut()
     }
 
-    /// A value, or the nearest one that is kept.
+    /// Returns a value, or the nearest one that is kept.
     pub(super) fn at(&self, number: usize) -> &T {
         let at = number.saturating_sub(self.first);
         &self.values[at.min(self.values.len() - 1)]

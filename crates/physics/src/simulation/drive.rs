@@ -55,8 +55,8 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// A drive that has followed the setpoint for a long time: force and integral part carry the
-    /// friction of its velocity.
+    /// Returns a drive that has followed the setpoint for a long time: force and integral part carry the friction of
+    /// its velocity.
     pub fn settled(parameters: &DriveParameters, model: FrictionModel, setpoint: Setpoint) -> Self {
         let friction = &parameters.friction;
         let force = friction.steady_n(setpoint.velocity_m_per_s);
@@ -85,7 +85,7 @@ impl Drive {
         }
     }
 
-    /// The drive with stiction compensation, which acts only with velocity feed forward (R8.2).
+    /// Returns the drive with stiction compensation, which acts only with velocity feed forward (R8.2).
     #[must_use]
     pub fn with_stiction(mut self, parameters: &StictionParameters) -> Self {
         let drive = &self.parameters;
@@ -94,22 +94,22 @@ impl Drive {
         self
     }
 
-    /// Position of the motor; that of the load differs by at most half of the backlash.
+    /// Returns the position of the motor; that of the load differs by at most half of the backlash.
     pub fn position_m(&self) -> f64 {
         self.position
     }
 
-    /// Velocity of the axis.
+    /// Returns the velocity of the axis.
     pub fn velocity_m_per_s(&self) -> f64 {
         self.velocity
     }
 
-    /// Force of the motor; at constant velocity that is the friction.
+    /// Returns the force of the motor; at constant velocity that is the friction.
     pub fn force_n(&self) -> f64 {
         self.force
     }
 
-    /// The number of cycles of the speed loop in which the force was limited.
+    /// Returns the number of cycles of the speed loop in which the force was limited.
     pub fn saturated_cycles(&self) -> u64 {
         self.saturated
     }
@@ -149,8 +149,8 @@ impl Drive {
         }
     }
 
-    /// A simulation step: first the current loop, exactly, then the velocity, then the position.
-    /// Returns the position of the load in m at its end.
+    /// Advances a simulation by a step: first the current loop, exactly, then the velocity, then the position. Returns
+    /// the position of the load in m at its end.
     #[inline]
     pub fn step(&mut self) -> f64 {
         self.force = self.command + (self.force - self.command) * self.current_decay;

@@ -45,8 +45,8 @@ impl<const N: usize> Drives<N> {
         self
     }
 
-    /// One CNC cycle from its setpoints on, which the fine interpolation continues linearly. `take`
-    /// gets the positions of the loads in m after every simulation step.
+    /// Follows one CNC cycle from its setpoints on, which the fine interpolation continues linearly. `take` gets the
+    /// positions of the loads in m after every simulation step.
     #[inline]
     pub fn follow(&mut self, mut setpoints: [Setpoint; N], mut take: impl FnMut([f64; N])) {
         let part = self.tick_s;
@@ -66,12 +66,12 @@ impl<const N: usize> Drives<N> {
         }
     }
 
-    /// The drives, in their order.
+    /// Returns the drives, in their order.
     pub fn drives(&self) -> &[Drive; N] {
         &self.axes
     }
 
-    /// The number of cycles of the speed loop in which a force was limited, of all drives together.
+    /// Returns the number of cycles of the speed loop in which a force was limited, of all drives together.
     pub fn saturated_cycles(&self) -> u64 {
         self.axes.iter().map(Drive::saturated_cycles).sum()
     }

@@ -52,8 +52,8 @@ fn base(name: &Given<String>) -> Result<Preset, ConfigError> {
     })
 }
 
-/// A drive with the values of a table in place of its own. Values that follow from others by a
-/// formula follow from the new ones, unless they are given themselves.
+/// Returns a drive with the values of a table in place of its own. Values that follow from others by a formula follow
+/// from the new ones, unless they are given themselves.
 fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParameters, ConfigError> {
     let mut drive = drive.clone();
     if let Some(mass) = table.number(PlantQuantity::Mass) {
@@ -90,7 +90,7 @@ fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParame
     Ok(drive)
 }
 
-/// Stiction compensation with the values of a table in place of its own.
+/// Returns the stiction compensation with the values of a table in place of its own.
 fn compensated(
     mut parameters: StictionParameters,
     table: &StictionTable,
@@ -118,7 +118,7 @@ fn compensated(
     Ok(parameters)
 }
 
-/// The parameter of a number; `None` if others follow from it or it has another unit.
+/// Returns the parameter of a number; `None` if others follow from it or it has another unit.
 pub(super) fn parameter(drive: &mut DriveParameters, quantity: PlantQuantity) -> Option<&mut f64> {
     let friction = &mut drive.friction;
     Some(match quantity {

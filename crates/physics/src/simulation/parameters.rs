@@ -13,7 +13,7 @@ pub const RATED_FORCE_N: f64 = 5000.0;
 /// The force that a drive can give for a short time, in rated forces; the rules leave it open.
 pub const PEAK_FORCE: f64 = 4.0;
 
-/// A drive unit is this part of the rated force.
+/// Drive units per rated force.
 const UNITS_PER_RATED_FORCE: f64 = 1000.0;
 
 /// Bandwidth of the speed loop in Hz.
@@ -82,7 +82,7 @@ impl DriveParameters {
 }
 
 impl DriveParameters {
-    /// The friction in N at a constant velocity in m/s, above 0.
+    /// Returns the friction in N at a constant velocity in m/s, above 0.
     pub fn friction_n(&self, speed: f64) -> f64 {
         self.friction.level_n(speed) + self.friction.viscous_n_s_per_m * speed
     }
@@ -109,7 +109,7 @@ impl DriveParameters {
         axis
     }
 
-    /// The default axis with a contact of this stiffness in N/m.
+    /// Returns the default axis with a contact of this stiffness in N/m.
     pub(super) fn with_stiffness(stiffness: f64) -> Self {
         let mass = 1300.0;
         Self {
@@ -141,12 +141,12 @@ impl DriveParameters {
     }
 }
 
-/// Kp in N·s/m that gives the speed loop its bandwidth with this mass in kg.
+/// Returns Kp in N·s/m that gives the speed loop its bandwidth with this mass in kg.
 fn speed_gain(mass: f64) -> f64 {
     mass * TAU * SPEED_LOOP_BANDWIDTH
 }
 
-/// σ1 in N·s/m of a contact with this stiffness in N/m under this mass in kg.
+/// Returns σ1 in N·s/m of a contact with this stiffness in N/m under this mass in kg.
 fn damping(stiffness: f64, mass: f64) -> f64 {
     2.0 * CONTACT_DAMPING * (stiffness * mass).sqrt()
 }

@@ -40,14 +40,14 @@ frictcomp::words! {
 pub struct UnknownPreset(pub String);
 
 impl UnknownPreset {
-    /// The preset that was probably meant.
+    /// Returns the preset that was probably meant.
     pub fn near(&self) -> Option<&'static str> {
         did_you_mean(&self.0, Preset::ALL.map(Preset::as_str))
     }
 }
 
 impl Preset {
-    /// The names of all presets, for messages: `stiff, mid, soft`.
+    /// Returns the names of all presets, for messages: `stiff, mid, soft`.
     pub fn names() -> String {
         Self::ALL.map(Self::as_str).join(", ")
     }
@@ -61,7 +61,7 @@ impl Preset {
         }
     }
 
-    /// The plant.
+    /// Returns the plant.
     pub fn plant(self) -> Plant {
         let drive = DriveParameters::of(self);
         Plant {
@@ -83,7 +83,7 @@ impl FromStr for Preset {
 }
 
 impl DriveParameters {
-    /// The default axis with the contact of a preset.
+    /// Returns the default axis with the contact of a preset.
     pub fn of(preset: Preset) -> Self {
         Self::with_stiffness(preset.stiffness_n_per_m())
     }

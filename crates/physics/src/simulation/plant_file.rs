@@ -120,20 +120,20 @@ impl DriveTable {
         Ok(read)
     }
 
-    /// The numbers of the table.
+    /// Returns the numbers of the table.
     pub(super) fn numbers(&self) -> impl Iterator<Item = (PlantQuantity, f64)> {
         self.numbers
             .iter()
             .map(|(quantity, given)| (*quantity, given.value))
     }
 
-    /// A number of the table.
+    /// Returns a number of the table.
     pub(super) fn number(&self, quantity: PlantQuantity) -> Option<f64> {
         self.numbers()
             .find_map(|(other, number)| (other == quantity).then_some(number))
     }
 
-    /// The error about a number, at its place, or at the table if it is not given.
+    /// Returns the error about a number, at its place, or at the table if it is not given.
     pub(super) fn refuse(
         &self,
         quantity: PlantQuantity,
@@ -158,13 +158,13 @@ impl StictionTable {
         Ok(Self { numbers })
     }
 
-    /// The numbers of the table with their places.
+    /// Returns the numbers of the table with their places.
     pub(super) fn numbers(&self) -> impl Iterator<Item = (StictionKey, &Given<f64>)> {
         self.numbers.iter().map(|(key, given)| (*key, given))
     }
 }
 
-/// The number of a key within its range; `None` without the key.
+/// Returns the number of a key within its range; `None` without the key.
 fn number(
     table: &Section<'_>,
     facts: &KeyFacts,
@@ -205,7 +205,7 @@ fn value(given: &Given<Written>) -> Option<f64> {
     given.value.number.map(Number::to_f64)
 }
 
-/// `gms = [[share, stiffness], …]`, stiffnesses in N/m.
+/// Reads `gms = [[share, stiffness], …]`, stiffnesses in N/m.
 fn elements(table: &Section<'_>) -> Result<Option<Vec<[f64; 2]>>, ConfigError> {
     let Some(pairs) = table.number_pairs(keys::ELEMENTS)? else {
         return Ok(None);

@@ -66,7 +66,7 @@ pub(super) enum StictionKey {
 pub(super) struct KeyFacts {
     /// The symbol of the equations.
     pub(super) key: &'static str,
-    /// Its unit, empty if it has none; except in `[stiction]` and for backlash those of SI.
+    /// Unit, empty if it has none; except in `[stiction]` and for backlash those of SI.
     pub(super) unit: &'static str,
     /// The smallest and the largest accepted value. The ranges are wide; they guard against wrong units
     /// and against values that the step of the simulation could not follow.
@@ -131,7 +131,7 @@ impl StictionKey {
         Self::Feed,
     ];
 
-    /// The units are those of the manual; only MP1511 has a documented range (R8.3).
+    /// Returns the facts on a key; the units are those of the manual, and only MP1511 has a documented range (R8.3).
     pub(super) const fn facts(self) -> KeyFacts {
         let (key, unit, range) = match self {
             Self::Factor => ("mp1511", "µs", [0.0, 16_777_215.0]),

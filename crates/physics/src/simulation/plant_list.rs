@@ -9,10 +9,10 @@ const SLOWEST_UM_PER_S: f64 = 200.0;
 /// The velocity of the last point: 30 m/min.
 const FASTEST_UM_PER_S: f64 = 500_000.0;
 
-/// The value list whose outputs are the friction of a drive at constant velocity, in drive units:
-/// standstill and 19 velocities from 0.2 mm/s to 0.5 m/s, each the same factor above the one
-/// before. The other values are those with which the rules give their reference figures:
-/// `position_delay` 9, `reversal_lookahead` 2, `delay_cycles` 1, `scaling_factor` 1000.
+/// Returns the value list whose outputs are the friction of a drive at constant velocity, in drive units: standstill
+/// and 19 velocities from 0.2 mm/s to 0.5 m/s, each the same factor above the one before. The other values are those
+/// with which the rules give their reference figures: `position_delay` 9, `reversal_lookahead` 2, `delay_cycles` 1,
+/// `scaling_factor` 1000.
 pub fn plant_list(drive: &DriveParameters) -> FrictionList {
     let steps = DEFAULT_MAX_POINTS - 2;
     let factor = (FASTEST_UM_PER_S / SLOWEST_UM_PER_S).powf(1.0 / f64::from(steps));
@@ -24,7 +24,7 @@ pub fn plant_list(drive: &DriveParameters) -> FrictionList {
     plant_list_at(drive, &inputs)
 }
 
-/// The value list of a drive with points at these velocities in µm/s.
+/// Returns the value list of a drive with points at these velocities in µm/s.
 pub(crate) fn plant_list_at(drive: &DriveParameters, inputs: &[f64]) -> FrictionList {
     let table = inputs.iter().map(|&input| {
         let speed = input * 1e-6;

@@ -21,7 +21,7 @@ pub(super) struct Stiction {
 }
 
 impl Stiction {
-    /// The compensation of a position loop with its gain in 1/s, at a servo lag in m.
+    /// Returns the compensation of a position loop with its gain in 1/s, at a servo lag in m.
     pub(super) fn new(parameters: &StictionParameters, position_gain: f64, lag: f64) -> Self {
         let cycle = (parameters.tc_us * 1e-6 / POSITION_LOOP_S).round();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturates
@@ -36,8 +36,8 @@ impl Stiction {
         }
     }
 
-    /// The velocity in m/s that is added in a cycle of the position loop with this servo lag in m.
-    /// It does not change between two samples of the lag.
+    /// Returns the velocity in m/s that is added in a cycle of the position loop with this servo lag in m. It does not
+    /// change between two samples of the lag.
     #[inline]
     pub(super) fn added(&mut self, lag: f64) -> f64 {
         if self.wait == 0 {

@@ -8,8 +8,8 @@ use super::plant::Plant;
 use super::plant_keys::{ATTRACTION, AXES, ELEMENTS, PlantQuantity};
 
 impl Plant {
-    /// The plant file of this plant, except for stiction compensation and friction that differs
-    /// between the directions. Each remark is a comment at its top.
+    /// Returns the plant file of this plant, except for stiction compensation and friction that differs between the
+    /// directions. Each remark is a comment at its top.
     pub fn to_toml(&self, remarks: &[String]) -> String {
         let mut out = String::new();
         for remark in remarks {

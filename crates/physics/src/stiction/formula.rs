@@ -48,18 +48,18 @@ pub const FORMULAS: [Formula; 3] = [
 ];
 
 impl Formula {
-    /// The quantities in it.
+    /// Returns the quantities in it.
     pub fn quantities(&self) -> impl Iterator<Item = Quantity> {
         self.terms.iter().map(|(quantity, _)| *quantity)
     }
 
-    /// Whether it has a quantity.
+    /// Returns whether it has a quantity.
     pub(super) fn has(&self, quantity: Quantity) -> bool {
         self.quantities().any(|it| it == quantity)
     }
 
-    /// The value of one quantity when the others are known; `None` if the formula cannot be
-    /// solved for it because of a value that is 0.
+    /// Returns the value of one quantity when the others are known; `None` if the formula cannot be solved for it
+    /// because of a value that is 0.
     pub(super) fn value(&self, wanted: Quantity, known: impl Fn(Quantity) -> f64) -> Option<f64> {
         let power = self
             .terms

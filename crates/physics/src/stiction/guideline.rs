@@ -10,7 +10,7 @@ pub const MP1511_RANGE_US: RangeInclusive<f64> = 0.0..=16_777_215.0;
 /// Recommended values of MP1511, in µs.
 pub const MP1511_GUIDELINE_US: RangeInclusive<f64> = 5000.0..=10_000.0;
 
-/// MP1512 stays below this many counting steps; otherwise the axis oscillates at standstill.
+/// Number of counting steps below which MP1512 stays; otherwise the axis oscillates at standstill.
 pub const MP1512_GUIDELINE: f64 = 50.0;
 
 /// A guideline of the manual that a value does not keep.
@@ -24,7 +24,7 @@ pub enum Guideline {
     Mp1512,
 }
 
-/// The guidelines that the known values do not keep.
+/// Returns the guidelines that the known values do not keep.
 pub(super) fn not_kept(mp1511_us: Option<f64>, mp1512: Option<f64>) -> Vec<Guideline> {
     let factor = mp1511_us.filter(|it| !MP1511_GUIDELINE_US.contains(it));
     let limit = mp1512.filter(|it| *it >= MP1512_GUIDELINE);

@@ -21,8 +21,8 @@ pub struct StictionParameters {
 }
 
 impl Default for StictionParameters {
-    /// No compensation: MP1511 is 0. The limit is the largest whole number within its guideline,
-    /// cycle and grating period are those of the worked case.
+    /// Returns parameters without compensation: MP1511 is 0. The limit is the largest whole number within its
+    /// guideline, cycle and grating period are those of the worked case.
     fn default() -> Self {
         Self {
             mp1511_us: 0.0,
@@ -35,19 +35,19 @@ impl Default for StictionParameters {
 }
 
 impl StictionParameters {
-    /// `Δs_a,limit` in µm (R8.1).
+    /// Returns `Δs_a,limit` in µm (R8.1).
     pub fn limit_um(&self) -> f64 {
         self.mp1512 * self.gp_um / 256.0
     }
 
-    /// Whether stiction is compensated at a commanded feed (R8.2). It also requires feed precontrol, which
-    /// only the drive has.
+    /// Returns whether stiction is compensated at a commanded feed (R8.2). It also requires feed precontrol, which only
+    /// the drive has.
     pub fn acts_at(&self, feed_m_per_min: f64) -> bool {
         self.mp1513_m_per_min
             .is_none_or(|most| feed_m_per_min <= most)
     }
 
-    /// The guidelines of the manual that are not kept (R8.3).
+    /// Returns the guidelines of the manual that are not kept (R8.3).
     pub fn guidelines(&self) -> Vec<Guideline> {
         not_kept(Some(self.mp1511_us), Some(self.mp1512))
     }

@@ -42,7 +42,7 @@ pub enum Quantity {
 struct QuantityFacts {
     quantity: Quantity,
     symbol: &'static str,
-    /// Its key in records, and its name for a host.
+    /// Key in records, and its name for a host.
     name: &'static str,
     unit: &'static str,
     /// Further units, each with the factor of a value in it.
@@ -99,7 +99,7 @@ const TABLE: [QuantityFacts; 13] = [
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum UnitError {
-    /// It does not begin with a number.
+    /// A text that does not begin with a number.
     #[error("`{0}` does not begin with a number")]
     NoNumber(String),
     /// The unit is not one of those of the quantity.
@@ -115,7 +115,7 @@ pub enum UnitError {
 }
 
 impl Quantity {
-    /// Every quantity, in the order of the formulas.
+    /// Returns every quantity, in the order of the formulas.
     pub fn all() -> impl Iterator<Item = Self> {
         TABLE.iter().map(|row| row.quantity)
     }
@@ -125,22 +125,22 @@ impl Quantity {
         row.expect("every quantity has a row")
     }
 
-    /// The key in records, such as `delta_sa`.
+    /// Returns the key in records, such as `delta_sa`.
     pub fn as_str(self) -> &'static str {
         self.facts().name
     }
 
-    /// The symbol of the manual, such as `Δs_a`.
+    /// Returns the symbol of the manual, such as `Δs_a`.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol
     }
 
-    /// The unit of a value without one; empty for counting steps.
+    /// Returns the unit of a value without one; empty for counting steps.
     pub fn unit(self) -> &'static str {
         self.facts().unit
     }
 
-    /// A value with its unit, without the digits that only come from its binary form.
+    /// Returns a value with its unit, without the digits that only come from its binary form.
     pub fn shown(self, value: f64) -> String {
         let rounded = format!("{value:.9e}").parse().unwrap_or(value);
         format!("{rounded} {}", self.unit()).trim_end().to_owned()

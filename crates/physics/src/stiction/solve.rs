@@ -18,13 +18,13 @@ const TOLERANCE: f64 = 1e-6;
 pub struct Solved {
     /// The quantity.
     pub quantity: Quantity,
-    /// Its value in its own unit.
+    /// Value in its own unit.
     pub value: f64,
     /// The formula that gave it; absent if it was given.
     pub by: Option<&'static str>,
 }
 
-/// Whether stiction is compensated at the commanded feed (R8.2).
+/// Effect of the stiction compensation at the commanded feed (R8.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -45,17 +45,17 @@ pub struct Solution {
     pub values: Vec<Solved>,
     /// The acting `Δs_a` in mm, if the limit cuts it (R8.1).
     pub clipped_to: Option<f64>,
-    /// Whether it acts at the commanded feed.
+    /// Effect at the commanded feed.
     pub effect: FeedEffect,
     /// The guidelines that are not kept.
     pub guidelines: Vec<Guideline>,
 }
 
-/// Why nothing can be concluded.
+/// Reason why nothing can be concluded.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StictionError {
-    /// Nothing was given.
+    /// No quantity was given.
     #[error("no quantity is given")]
     Nothing,
     /// No formula has all its quantities but one.
@@ -99,7 +99,7 @@ pub enum StictionError {
     Limited {
         /// The required `Δs_a`.
         needed_mm: f64,
-        /// Its limit.
+        /// Limit.
         limit_mm: f64,
     },
 }
@@ -145,7 +145,7 @@ impl State {
         self.get(Quantity::DeltaSaLimit).map(|limit| limit / 1000.0)
     }
 
-    /// The value of a quantity for a formula: `Δs_a` is cut to its limit (R8.1).
+    /// Returns the value of a quantity for a formula: `Δs_a` is cut to its limit (R8.1).
     fn effective(&self, quantity: Quantity) -> f64 {
         let value = self.get(quantity).unwrap_or(f64::NAN);
         match (quantity, self.limit_mm()) {
@@ -225,7 +225,7 @@ impl State {
         }
     }
 
-    /// Whether some formula has all its values.
+    /// Returns whether some formula has all its values.
     fn is_complete(&self) -> bool {
         FORMULAS
             .iter()

@@ -27,7 +27,7 @@ fn test(plant: Plant, radius_mm: f64, feed_mm_per_min: f64) -> CircularTest {
     }
 }
 
-/// The findings without and with compensation.
+/// Returns the findings without and with compensation.
 fn advice(test: &CircularTest) -> [Vec<Diagnosis>; 2] {
     let comparison = test.compare().expect("a circle");
     let off = diagnose(&comparison.off.figures, Some(Switched::Off));
@@ -41,7 +41,7 @@ fn is_backlash(it: &Diagnosis) -> bool {
     )
 }
 
-/// The counter-clockwise circle without compensation; the clockwise one is its mirror image.
+/// Returns the counter-clockwise circle without compensation; the clockwise one is its mirror image.
 fn alone(test: &CircularTest) -> Result<Comparison, CircleError> {
     let job = LapRun {
         compensation: Switched::Off,
@@ -95,7 +95,7 @@ fn axes_that_do_not_match_make_no_glitch() {
     }
 }
 
-/// No backlash, at any radius and feed: the grid of a test.
+/// Checks on the grid of a test that no backlash is reported, at any radius and feed.
 fn shows_none(plant: &Plant, radii: &[f64], feeds: &[f64]) {
     for (&radius, &feed) in radii.iter().flat_map(|r| feeds.iter().map(move |f| (r, f))) {
         let test = test(plant.clone(), radius, feed);

@@ -29,7 +29,7 @@ fn circular_test(feed: f64) -> CircularTest {
     }
 }
 
-/// The value lists of a test.
+/// Returns the value lists of a test.
 fn lists(test: &mut CircularTest) -> impl Iterator<Item = &mut FrictionList> {
     test.compensation.iter_mut().flatten().map(|it| match it {
         Method::Current(list) => list,
@@ -45,7 +45,7 @@ fn lap(test: &CircularTest, compensation: Switched, direction: Direction) -> Lap
     .expect("a circle that can be simulated")
 }
 
-/// The figures of the counter-clockwise path alone.
+/// Returns the figures of the counter-clockwise path alone.
 fn figures(test: &CircularTest, compensation: Switched) -> Figures {
     let comparison = Comparison::of([lap(test, compensation, Direction::Ccw)]);
     match compensation {
@@ -54,12 +54,12 @@ fn figures(test: &CircularTest, compensation: Switched) -> Figures {
     }
 }
 
-/// The largest glitch.
+/// Returns the largest glitch.
 fn glitch(figures: &Figures) -> f64 {
     figures.glitch_max_um().expect("a glitch at each crossing")
 }
 
-/// The shape of a path at its crossings.
+/// Returns the shape of a path at its crossings.
 fn shape(path: Option<&PathFigures>) -> &PathShape {
     path.and_then(|path| path.shape.as_ref()).expect("a shape")
 }

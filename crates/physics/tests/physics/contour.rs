@@ -67,7 +67,7 @@ impl Round {
         }
     }
 
-    /// Three turns from X+, after a tangent; with the lines of the second turn.
+    /// Returns a program of three turns from X+, after a tangent, and the lines of its second turn.
     fn program(self) -> (String, std::ops::RangeInclusive<u32>) {
         let Self {
             radius,
@@ -96,7 +96,7 @@ impl Round {
         (text, 3 + chords..=2 + 2 * chords)
     }
 
-    /// The sagitta of a chord: the program itself deviates by as much.
+    /// Returns the sagitta of a chord: the program itself deviates by as much.
     fn bulge_um(self) -> f64 {
         match self.chords {
             0 => 0.0,
@@ -125,7 +125,7 @@ impl Round {
     }
 }
 
-/// `F_min` and `F_max` of one direction.
+/// Returns `F_min` and `F_max` of one direction.
 fn extremes(figures: Option<&PathFigures>) -> [f64; 2] {
     let figures = figures.expect("a path");
     [figures.f_min_um, figures.f_max_um].map(|it| it.expect("a commanded radius"))
@@ -188,7 +188,8 @@ fn a_circle_gives_f_max_and_f_min_of_the_circular_test() {
     }
 }
 
-/// The compensation that fits the friction of the equations, as a value list of the machine and for the simulation.
+/// Returns the compensation that fits the friction of the equations, as a value list of the machine and for the
+/// simulation.
 fn list(equations: &Equations) -> (String, FrictionList) {
     let inputs = [
         0.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16_000.0, 40_000.0, 100_000.0, 200_000.0,
@@ -280,7 +281,7 @@ fn reversals_agree(found: &Found, simulated: &Simulated, shape: &Shape) {
     }
 }
 
-/// A square of 40 mm with corners of 5 mm, twice around, from a tangent.
+/// Returns a square of 40 mm with corners of 5 mm, twice around, from a tangent.
 fn square() -> Shape {
     let mut shape = Shape::new([-30.0, -20.0], 3000.0);
     shape.line([15.0, -20.0], false);
@@ -299,8 +300,8 @@ fn square() -> Shape {
     shape
 }
 
-/// A pocket of 60 by 40 mm with two round islands; compensation of X is off at the second one, and
-/// of Y in the pocket.
+/// Returns a pocket of 60 by 40 mm with two round islands; compensation of X is off at the second one, and of Y in the
+/// pocket.
 fn pocket() -> Shape {
     let mut shape = Shape::new([0.0, -10.0], 3000.0);
     shape.lines.push(Line::Command("Y[COMP OFF FRICT]"));
@@ -344,11 +345,11 @@ fn pocket() -> Shape {
     shape
 }
 
-/// With the steps of the rules, only the motion in time and the measuring differ: reversals are
-/// elsewhere in the CNC cycle, which affects what the compensation leaves.
+/// Number of steps and tolerance with the steps of the rules: only the motion in time and the measuring differ, so
+/// reversals are elsewhere in the CNC cycle, which affects what the compensation leaves.
 const SAME_STEPS: (u32, Tolerance) = (2, Tolerance(0.01, 0.25));
 
-/// Thirty times smaller steps show how much those of 62.5 µs matter.
+/// Number of steps and tolerance with smaller steps by a factor of thirty, which show how much those of 62.5 µs matter.
 const SMALL_STEPS: (u32, Tolerance) = (64, Tolerance(0.08, 1.0));
 
 #[test]

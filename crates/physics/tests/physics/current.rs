@@ -7,7 +7,7 @@ use frictcomp_physics::current::{
     Reading, Resampling, Standstill, Start, Switched, TraceColumns, TraceOptions,
 };
 
-/// 12 drive units at rest, falling to 10 at 1000 µm/s, then held.
+/// Returns a list with 12 drive units at rest, falling to 10 at 1000 µm/s, then held.
 fn list() -> FrictionList {
     FrictionList {
         position_delay: 0,
@@ -28,7 +28,7 @@ fn list() -> FrictionList {
     }
 }
 
-/// Positions in 0.1 µm of velocities in µm/s at 1 ms: 10 µm/s make 0.1 units per cycle.
+/// Returns positions in 0.1 µm of velocities in µm/s at 1 ms: 10 µm/s make 0.1 units per cycle.
 fn positions(velocities: &[f64]) -> Vec<f64> {
     let mut x = 0.0;
     velocities
@@ -406,7 +406,7 @@ fn columns(times_ms: &[f64]) -> TraceColumns {
     }
 }
 
-/// The fault of times in ms, and its row.
+/// Returns the fault of times in ms, and its row.
 fn refused(times_ms: &[f64], cycle_ms: Option<f64>) -> Option<String> {
     let options = TraceOptions::default().with_cycle_s(cycle_ms.map(|cycle| cycle / 1000.0));
     let trace = CommandedTrace::new(columns(times_ms), options);

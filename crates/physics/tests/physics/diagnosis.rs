@@ -19,7 +19,7 @@ const FEED: f64 = 2000.0;
 
 type Deviation = fn(Direction, f64) -> f64;
 
-/// The time in s since the axis was at X+.
+/// Returns the time in s since the axis was at X+.
 fn time(direction: Direction, angle: f64) -> f64 {
     (direction.sign() * angle).rem_euclid(TAU) * RADIUS / (FEED / 60.0)
 }
@@ -124,7 +124,7 @@ const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (2, 3), (0, 5), (1, 3), (0, 
 /// Standard deviations of white noise in µm.
 const NOISES: [f64; 3] = [0.0, 0.3, 1.0];
 
-/// The figures of both directions with some faults and noise.
+/// Returns the figures of both directions with some faults and noise.
 fn figures(faults: &[Deviation], noise_um: f64, turns: Turns) -> Figures {
     let deviation = |direction: Direction, angle: f64| {
         faults.iter().map(|it| it(direction, angle)).sum::<f64>()
@@ -145,7 +145,7 @@ fn figures(faults: &[Deviation], noise_um: f64, turns: Turns) -> Figures {
     recording.expect("both directions").side.figures
 }
 
-/// The findings, each once.
+/// Returns the findings, each once.
 fn said(faults: &[Deviation], noise_um: f64, turns: Turns) -> Vec<Finding> {
     let figures = figures(faults, noise_um, turns);
     let mut found: Vec<Finding> = diagnose(&figures, None)
@@ -157,7 +157,7 @@ fn said(faults: &[Deviation], noise_um: f64, turns: Turns) -> Vec<Finding> {
     found
 }
 
-/// The findings as JSON names them.
+/// Returns the findings as JSON names them.
 fn names(findings: &[Finding]) -> String {
     let name = |it: &Finding| serde_json::to_value(it).expect("a name");
     let named = findings.iter().map(name);

@@ -7,8 +7,8 @@ use frictcomp_physics::simulation::{FrictionModel, Preset};
 
 use frictcomp_testing::recorded_circles::{Bench, MID, SOFT, STIFF};
 
-/// The largest glitch in µm at the reversals of a recorded axis: at a reversal the tangent is across the
-/// axis, so the deviation along the normal is that of the axis.
+/// Returns the largest glitch in µm at the reversals of a recorded axis: at a reversal the tangent is across the axis,
+/// so the deviation along the normal is that of the axis.
 fn glitch(bench: &Bench) -> f64 {
     let recorded = bench.record();
     let omega = bench.feed / 60.0 / bench.radius_mm;

@@ -9,7 +9,7 @@ use frictcomp_testing::PresetMachine;
 
 const FEEDS: [f64; 4] = [500.0, 800.0, 2000.0, 5000.0];
 
-/// The prior knowledge: the reference, with the friction that `identify` finds, to 2 %.
+/// Returns the prior knowledge: the reference, with the friction that `identify` finds, to 2 %.
 fn known(machine: &PresetMachine, axis: PlaneAxis) -> DriveParameters {
     let plant = machine.reference.plant();
     let (reference, own) = match axis {

@@ -19,7 +19,7 @@ fn synthetic(direction: Direction, deviation: impl Fn(f64) -> f64) -> Vec<[f64; 
         .collect()
 }
 
-/// The only circle of a recording.
+/// Returns the only circle of a recording.
 fn circle(points: Vec<[f64; 2]>, radius: Option<f64>) -> Result<RecordedCircle, RecordedError> {
     let mut found = RecordedCircle::find(&RecordedTrace::of_points(points), radius)?;
     assert_eq!(found.len(), 1, "one direction");
@@ -41,7 +41,7 @@ fn recording(ccw: impl Fn(f64) -> f64, cw: impl Fn(f64) -> f64, radius: Option<f
     Recording::new(circles.into(), of_radius(radius), PathCentre::Common).expect("both directions")
 }
 
-/// The figures of both directions of a trace.
+/// Returns the figures of both directions of a trace.
 fn both(trace: &RecordedTrace) -> Figures {
     let circles = RecordedCircle::find(trace, None).expect("circles");
     assert_eq!(circles.len(), 2, "both directions");
@@ -63,7 +63,7 @@ fn of_axes(figures: &Figures) -> Vec<(PlaneAxis, Finding)> {
     found.collect()
 }
 
-/// The findings at all crossings, each once.
+/// Returns the findings at all crossings, each once.
 fn of_crossings(figures: &Figures) -> Vec<Finding> {
     let advice = diagnose(figures, None).into_iter();
     let mut found: Vec<Finding> = advice
@@ -75,7 +75,7 @@ fn of_crossings(figures: &Figures) -> Vec<Finding> {
     found
 }
 
-/// The findings in the path as a whole.
+/// Returns the findings in the path as a whole.
 fn of_whole(figures: &Figures) -> Vec<Finding> {
     let advice = diagnose(figures, None).into_iter();
     advice

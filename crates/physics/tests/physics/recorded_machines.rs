@@ -12,14 +12,14 @@ use frictcomp_testing::{
     true_glitches,
 };
 
-/// A machine with a contact that starts in some way.
+/// Returns a machine with a contact that starts in some way.
 fn machine(presliding: &Presliding, ramp: Ramp, phase_s: f64) -> Machine {
     let mut machine = Machine::of_tables("table", presliding.clone());
     (machine.control.ramp, machine.control.phase_s) = (ramp, phase_s);
     machine
 }
 
-/// Three turns in each direction from X+, each from rest to rest, as a measuring program drives them.
+/// Returns three turns in each direction from X+, each from rest to rest, as a measuring program drives them.
 fn circles(radius: f64, feed: f64) -> Program {
     let arc = |angle: f64| Move::Arc {
         centre: [-radius, 0.0],
@@ -32,7 +32,7 @@ fn circles(radius: f64, feed: f64) -> Program {
     }
 }
 
-/// The positions of a run as an encoder shows them.
+/// Returns the positions of a run as an encoder shows them.
 fn recorded(run: &Run, noise_um: f64, seed: u64) -> RecordedTrace {
     let mut random = Random::new(seed);
     let mut place = |mm: f64| {
@@ -50,7 +50,7 @@ fn recorded(run: &Run, noise_um: f64, seed: u64) -> RecordedTrace {
     RecordedTrace { points_mm, times_s }
 }
 
-/// The figures of a recording: of X and Y, counter-clockwise and clockwise.
+/// Returns the figures of a recording: of X and Y, counter-clockwise and clockwise.
 fn figures(circles: &[RecordedCircle]) -> TrueGlitches {
     let mut um = [[0.0; 2]; 2];
     for circle in circles {
@@ -118,8 +118,8 @@ fn the_turns_in_the_middle_count() {
     assert!(worst > 0.0);
 }
 
-/// What is known of an axis before its circles are evaluated: mass, gain of the position loop, reset time and the force
-/// of a drive unit, and the friction that constant speeds show.
+/// Returns the parameters known of an axis before its circles are evaluated: mass, gain of the position loop, reset
+/// time and the force of a drive unit, and the friction that constant speeds show.
 fn known(axis: &Axis) -> DriveParameters {
     let mut drive = Preset::Mid.plant().x;
     drive.mass_kg = axis.mass_kg;
@@ -134,7 +134,7 @@ fn known(axis: &Axis) -> DriveParameters {
     drive
 }
 
-/// The friction of an axis as the list of a stand-in, and as the one that is fitted.
+/// Returns the friction of an axis as the list of a stand-in, and as the one that is fitted.
 fn friction_list(axis: &Axis) -> (ValueList, FrictionList) {
     const SPEEDS: [f64; 10] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 15.0, 30.0, 80.0];
     let points = SPEEDS.map(|it| [it * 1000.0, axis.friction_units(it).round()]);
@@ -157,7 +157,7 @@ fn friction_list(axis: &Axis) -> (ValueList, FrictionList) {
     (list, fitted)
 }
 
-/// The plants of X and Y of a machine, from circles off and on at four feeds over a decade.
+/// Returns the plants of X and Y of a machine, from circles off and on at four feeds over a decade.
 fn fitted(machine: &Machine, seed: u64) -> [FittedDrive; 2] {
     let lists = machine.axes.each_ref().map(friction_list);
     let on = lists.each_ref().map(|it| Some(&it.0));

@@ -20,7 +20,7 @@ impl Noise {
         }
     }
 
-    /// A uniformly distributed number between plus and minus the largest, in mm.
+    /// Returns a uniformly distributed number between plus and minus the largest, in mm.
     #[allow(clippy::cast_precision_loss)] // 32 bits of it
     fn next_mm(&mut self) -> f64 {
         self.state ^= self.state << 13;
@@ -74,7 +74,7 @@ impl Recorder {
         }
     }
 
-    /// The distance of a sample in mm.
+    /// Returns the distance of a sample in mm.
     fn step(&self) -> f64 {
         self.feed / 60.0 / self.rate
     }
@@ -134,7 +134,7 @@ impl Recorder {
         self
     }
 
-    /// The path to the circle: the path from it, backwards.
+    /// Returns the path to the circle: the path from it, backwards.
     pub(crate) fn lead_in(
         mut self,
         lead: fn(Self, Direction) -> Self,
@@ -159,7 +159,7 @@ impl Recorder {
         lead(self, direction)
     }
 
-    /// Along the radius from the circle to its centre.
+    /// Returns the direction along the radius from the circle to its centre.
     pub(crate) fn radial(mut self, _: Direction) -> Self {
         let [x, y] = self.on_circle();
         let parts = (self.radius / self.step()).floor();
@@ -172,7 +172,7 @@ impl Recorder {
         self
     }
 
-    /// Along the tangent, away from the circle.
+    /// Returns the direction along the tangent, away from the circle.
     pub(crate) fn tangential(mut self, direction: Direction) -> Self {
         let [x, y] = self.on_circle();
         let (sin, cos) = self.angle().sin_cos();
@@ -185,7 +185,7 @@ impl Recorder {
         self
     }
 
-    /// Half a circle of half the radius, which leaves the circle tangentially, to its centre.
+    /// Returns half a circle of half the radius, which leaves the circle tangentially, to its centre.
     pub(crate) fn arc(mut self, direction: Direction) -> Self {
         let (sin, cos) = self.angle().sin_cos();
         let half = self.radius / 2.0;
@@ -199,7 +199,7 @@ impl Recorder {
         self
     }
 
-    /// The rows with their times.
+    /// Returns the rows with their times.
     pub(crate) fn trace(self) -> RecordedTrace {
         let mut time = 0.0;
         let mut times_s = Vec::new();
@@ -214,15 +214,15 @@ impl Recorder {
     }
 }
 
-/// The radial deviation of axes with backlash in µm: each lags by half of it.
+/// Returns the radial deviation of axes with backlash in µm: each lags by half of it.
 pub(crate) fn backlash([x, y]: [f64; 2], direction: Direction, angle: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
     let turning = direction.sign();
     0.5 * turning * (x * sin.signum() * cos - y * cos.signum() * sin)
 }
 
-/// The peaks in µm that friction leaves after every crossing: they rise at once and decay over this
-/// number of degrees.
+/// Returns the peaks in µm that friction leaves after every crossing: they rise at once and decay over this number of
+/// degrees.
 pub(crate) fn friction(height: f64, width_deg: f64, direction: Direction, angle: f64) -> f64 {
     let quarter = TAU / 4.0;
     let after = (direction.sign() * angle).rem_euclid(quarter).to_degrees();

@@ -24,7 +24,7 @@ fn circle(feed_mm_per_min: f64) -> Circle {
     }
 }
 
-/// The largest glitch in µm of the counter-clockwise circle with the plant's own compensation.
+/// Returns the largest glitch in µm of the counter-clockwise circle with the plant's own compensation.
 fn glitch(plant: Plant, circle: Circle, compensation: Switched) -> f64 {
     let test = CircularTest {
         circle,

@@ -1,4 +1,4 @@
-//! Whether recorded actual positions are actual ones (R16.14, R16.18).
+//! Check that recorded actual positions are actual ones (R16.14, R16.18).
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use frictcomp_physics::linear::solve_linear;
 /// The time in s over which noise is averaged to find what friction leaves.
 const AVERAGED_S: f64 = 0.02;
 
-/// What is left of a copy is at most this multiple of its averaged noise …
+/// Largest remainder of a copy, as a multiple of its averaged noise …
 const OF_NOISE: f64 = 1.5;
 
 /// … or this, in mm: the resolution of commanded positions.
@@ -19,7 +19,7 @@ const RESOLUTION_MM: f64 = 5e-5;
 /// Millimetres in 0.1 µm.
 const MM: f64 = 1e-4;
 
-/// How an actual position follows the commanded one.
+/// Relation of an actual position to the commanded one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FollowedPosition {
@@ -35,7 +35,7 @@ pub struct FollowedPosition {
     pub averaged_s: Option<f64>,
     /// The time in s for which it is held on average while it moves fast, if that is more than a sample.
     pub held_s: Option<f64>,
-    /// By how much it lags more in the positive direction than in the negative one, long after a reversal, in mm.
+    /// Additional lag in the positive direction compared with the negative one, long after a reversal, in mm.
     pub step_mm: Option<f64>,
 }
 
@@ -117,7 +117,7 @@ impl FollowedPosition {
     }
 }
 
-/// The mean number of samples for which an actual position is held in fast motion, if that is more than one.
+/// Returns the mean number of samples for which an actual position is held in fast motion, if that is more than one.
 fn held_samples(commanded: &[f64], errors: &[f64], velocities: &[f64]) -> Option<f64> {
     /// The part of the greatest speed that is fast.
     const FAST: f64 = 0.5;
@@ -137,13 +137,13 @@ fn held_samples(commanded: &[f64], errors: &[f64], velocities: &[f64]) -> Option
     (held > SEVERAL && held.is_finite()).then_some(held)
 }
 
-/// The number of samples over which each one is an average. Such a sample differs from the one before by a new value
-/// and by the one that drops out, so that differences as many samples apart are opposed, and no others are.
+/// Returns the number of samples over which each one is an average. Such a sample differs from the one before by a new
+/// value and by the one that drops out, so that differences as many samples apart are opposed, and no others are.
 pub(super) fn averaged_samples(values: &[f64]) -> Option<usize> {
-    /// Differences are taken over this many samples, in which the averaged noise exceeds that of rounding.
+    /// Number of samples over which differences are taken, so that the averaged noise exceeds that of rounding.
     const OVER: usize = 4;
     const LONGEST: usize = 100;
-    /// Larger differences are motion.
+    /// Number of standard deviations of the differences above which one is motion.
     const MOTION: f64 = 4.0;
     const OPPOSED: f64 = -0.03;
     const ERRORS: f64 = 8.0;
@@ -185,7 +185,7 @@ pub(super) fn averaged_samples(values: &[f64]) -> Option<usize> {
     (beside(lag) < limit && beside(other) > ALONE * beside(lag)).then_some(lag)
 }
 
-/// The time in s over which the positions of an axis are averages in a stage: a recorder averages in all of its
+/// Returns the time in s over which the positions of an axis are averages in a stage: a recorder averages in all of its
 /// recordings, and what one of them shows alone is chance.
 fn averaged_in(recorded: &[&RecordingOutcome], axis: usize) -> Option<f64> {
     const SAME: f64 = 0.1;

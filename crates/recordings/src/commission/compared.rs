@@ -37,26 +37,27 @@ pub struct PlaceCompared {
 }
 
 impl PlaceCompared {
-    /// Whether compensation leaves clearly less than is left without it.
+    /// Returns whether compensation leaves clearly less than is left without it.
     pub fn shows_an_effect(&self) -> bool {
         const LEAST: f64 = 0.05;
         self.on.um < self.off.um * (1.0 - LEAST)
             && self.on.compared_with(&self.off) == GlitchOrder::Smaller
     }
 
-    /// Whether what compensation leaves cannot be told from noise, or from the resolution of positions (R16.14).
+    /// Returns whether what compensation leaves cannot be told from noise, or from the resolution of positions
+    /// (R16.14).
     pub(super) fn leaves_only_noise(&self) -> bool {
         const ERRORS: f64 = 2.0;
         const RESOLUTION: f64 = 0.1;
         self.on.um < (ERRORS * self.on.error_um).max(RESOLUTION)
     }
 
-    /// Whether compensation leaves at most a part of the glitch without it.
+    /// Returns whether compensation leaves at most a part of the glitch without it.
     pub(super) fn leaves_at_most(&self, part: f64) -> bool {
         self.on.um < self.off.um * part
     }
 
-    /// The axis with its direction, for a sentence.
+    /// Returns the axis with its direction, for a sentence.
     pub(super) fn name(&self) -> String {
         match &self.direction {
             Some(direction) => format!("{} {direction}", self.axis),
@@ -64,19 +65,19 @@ impl PlaceCompared {
         }
     }
 
-    /// Whether another one is that of the same axis and direction.
+    /// Returns whether another one is that of the same axis and direction.
     pub(super) fn is_as(&self, other: &Self) -> bool {
         self.axis == other.axis && self.direction == other.direction
     }
 }
 
 impl BeforeAfter {
-    /// The axis and direction of another feed, here.
+    /// Returns the axis and direction of another feed, here.
     pub(super) fn at(&self, other: &PlaceCompared) -> Option<&PlaceCompared> {
         self.places.iter().find(|it| it.is_as(other))
     }
 
-    /// The places of an axis.
+    /// Returns the places of an axis.
     pub(super) fn of_axis(&self, axis: &str) -> impl Iterator<Item = &PlaceCompared> {
         self.places.iter().filter(move |it| it.axis == axis)
     }
@@ -93,7 +94,7 @@ impl BeforeAfter {
     }
 }
 
-/// The glitch of a place in one of several recordings: the smallest without, the largest with compensation.
+/// Returns the glitch of a place in one of several recordings: the smallest without, the largest with compensation.
 fn taken(
     recordings: &[&AtFeed],
     place: GlitchPlace,
@@ -110,10 +111,10 @@ fn taken(
     })
 }
 
-/// The feeds that were recorded with compensation off and on, and with no reasons against the recordings, slowest
-/// first. Programs are recognised by their numbers. Of several recordings those count that were driven at the feed of
-/// the program, otherwise those next to it; of those the smallest glitch without and the largest with compensation,
-/// for each axis and direction.
+/// Returns the feeds that were recorded with compensation off and on, and with no reasons against the recordings,
+/// slowest first. Programs are recognised by their numbers. Of several recordings those count that were driven at the
+/// feed of the program, otherwise those next to it; of those the smallest glitch without and the largest with
+/// compensation, for each axis and direction.
 pub(super) fn before_after(
     results: &[RecordingResult],
     axes: &[MeasuredAxis],
@@ -157,10 +158,10 @@ pub(super) fn before_after(
     feeds.into_iter().filter_map(at).collect()
 }
 
-/// A measured speed is the planned one within this part.
+/// Part within which a measured speed is the planned one.
 pub(super) const ON_FEED: f64 = 0.02;
 
-/// Two recordings are compared if the feeds that were driven differ by less than this part: v²/R by 5 %.
+/// Part within which the driven feeds of two compared recordings differ: v²/R by 5 %.
 const SAME_FEED: f64 = 0.025;
 
 /// A recording represents its planned feed if it was driven at no less than this part of it …
@@ -187,13 +188,13 @@ impl AtFeed {
         (SLOWEST..=FASTEST).contains(&(self.driven / self.feed))
     }
 
-    /// The deviation from the planned feed as a part of it; 0 within 2 %.
+    /// Returns the deviation from the planned feed as a part of it; 0 within 2 %.
     pub(super) fn beside(&self) -> f64 {
         let part = (self.driven / self.feed - 1.0).abs();
         if part <= ON_FEED { 0.0 } else { part }
     }
 
-    /// Whether another recording of the planned feed was driven at about the same feed.
+    /// Returns whether another recording of the planned feed was driven at about the same feed.
     pub(super) fn is_driven_as(&self, other: &Self) -> bool {
         self.feed.total_cmp(&other.feed).is_eq()
             && (other.driven / self.driven - 1.0).abs() < SAME_FEED

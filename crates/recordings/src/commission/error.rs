@@ -1,8 +1,8 @@
-//! Why a plan cannot be made.
+//! Failures in making a plan.
 
 use thiserror::Error;
 
-/// Why a plan cannot be made (R16.8).
+/// Reason why a plan cannot be made (R16.8).
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -36,7 +36,7 @@ pub enum PlanError {
     NotPositive {
         /// The value.
         what: &'static str,
-        /// Its number.
+        /// Number.
         value: f64,
     },
     /// Too few feeds for the plant.

@@ -1,4 +1,4 @@
-//! What is known of a commissioning, and what is missing.
+//! Results of a commissioning, and what is missing.
 
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +46,7 @@ pub struct AxisVerdict {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct InputFile {
-    /// Its role: a plan, a plant, the list of an axis.
+    /// Role: a plan, a plant, the list of an axis.
     pub what: String,
     /// The file, as it is shown.
     pub file: String,
@@ -54,7 +54,7 @@ pub struct InputFile {
     pub sha256: String,
 }
 
-/// All that is known of a commissioning.
+/// Report on all results of a commissioning.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ResultsReport {
@@ -77,7 +77,7 @@ pub struct ResultsReport {
 }
 
 impl ResultsReport {
-    /// The programs of stage 1 and of the last round that have no usable recording.
+    /// Returns the programs of stage 1 and of the last round that have no usable recording.
     pub fn missing(&self) -> Vec<String> {
         let last = self.plans.len().saturating_sub(1);
         let plans = self.plans.iter().enumerate();
@@ -100,8 +100,8 @@ impl ResultsReport {
         round.map_or("off".to_owned(), |(round, _)| format!("on, round {round}"))
     }
 
-    /// Whether every program is recorded, every axis has a list, the lists of the last round are accepted, and no
-    /// recording rejects the plant.
+    /// Returns whether every program is recorded, every axis has a list, the lists of the last round are accepted, and
+    /// no recording rejects the plant.
     pub fn is_complete(&self) -> bool {
         self.missing().is_empty()
             && !self.fitted.is_rejected()
@@ -109,7 +109,7 @@ impl ResultsReport {
             && self.rounds.last().is_some_and(Round::is_accepted)
     }
 
-    /// The friction from which the list of an axis is made.
+    /// Returns the friction from which the list of an axis is made.
     pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
         let from = axis.from.as_ref()?;
         self.results.iter().find_map(|it| match &it.found {

@@ -21,7 +21,7 @@ const AVERAGED_S: f64 = 0.008;
 /// Seconds after a start or a reversal in which friction shows.
 const AFTER_S: f64 = 0.15;
 
-/// Slower motion in mm/s or °/s is standstill.
+/// Speed in mm/s or °/s below which motion is standstill.
 pub(super) const STANDSTILL: f64 = 0.05;
 
 /// A reversal with a longer standstill in s is a stop and a start.
@@ -35,7 +35,7 @@ const KNOTS_S: [f64; 11] = [
 /// The part of the travel by which a following error may exceed what its loops explain.
 const UNEXPLAINED: f64 = 0.01;
 
-/// Why a following error shows nothing.
+/// Reason why a following error cannot be evaluated.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotFollowed {
@@ -127,7 +127,7 @@ impl Following {
         })
     }
 
-    /// The reversals without a stop, in their order.
+    /// Returns the reversals without a stop, in their order.
     pub(super) fn turns(&self) -> Vec<PassedReversal> {
         let after = samples_in(AFTER_S, self.step_s);
         let at_once = samples_in(AT_ONCE_S, self.step_s);
@@ -157,17 +157,18 @@ impl Following {
     }
 }
 
-/// By how much an actual position lags more in the positive direction than in the negative one, long after reversals,
-/// in mm or degrees: backlash between motor and scale, for one. `None` where the motion does not show it.
+/// Returns the additional lag of an actual position in the positive direction compared with the negative one, long
+/// after reversals, in mm or degrees: backlash between motor and scale, for one. `None` where the motion does not show
+/// it.
 pub(super) fn step_at_reversals(track: &Track, errors: &[f64]) -> Option<f64> {
-    /// Slow loops have settled after this time in s.
+    /// Time in s after which slow loops have settled.
     const SETTLED_S: f64 = 0.3;
     let (velocities, errors) = averaged(track, errors).ok()?;
     let motion = CommandedMotion::of(&velocities, track.step_s, SETTLED_S);
     motion.answer(&errors).map(|it| 2.0 * it[DIRECTION])
 }
 
-/// The commanded velocities in mm/s or °/s and the following errors in mm or degrees, averaged.
+/// Returns the commanded velocities in mm/s or °/s and the following errors in mm or degrees, averaged.
 fn averaged(track: &Track, errors: &[f64]) -> Result<(Vec<f64>, Vec<f64>), NotFollowed> {
     if errors.is_empty() || errors.len() != track.times_s.len() {
         return Err(NotFollowed::Absent);
@@ -195,7 +196,7 @@ fn averaged(track: &Track, errors: &[f64]) -> Result<(Vec<f64>, Vec<f64>), NotFo
     Ok((velocities, errors))
 }
 
-/// The commanded velocities in mm/s or °/s: as recorded, or from the positions if those are less noisy.
+/// Returns the commanded velocities in mm/s or °/s: as recorded, or from the positions if those are less noisy.
 pub(super) fn commanded(track: &Track) -> Vec<f64> {
     let recorded = track.velocities.as_ref();
     let recorded: Option<Vec<f64>> = recorded.map(|it| it.iter().map(|it| it * 1e-3).collect());
@@ -230,7 +231,7 @@ struct CommandedMotion<'a> {
 }
 
 impl<'a> CommandedMotion<'a> {
-    /// A motion whose samples are settled this many seconds after a start or a reversal.
+    /// Returns a motion whose samples are settled this many seconds after a start or a reversal.
     fn of(velocities: &'a [f64], step_s: f64, after_s: f64) -> Self {
         let last = velocities.len() - 1;
         let slope = |at: usize| {
@@ -270,7 +271,7 @@ impl<'a> CommandedMotion<'a> {
         }
     }
 
-    /// The travel from one end to the other in mm or degrees.
+    /// Returns the travel from one end to the other in mm or degrees.
     fn way(&self) -> f64 {
         let mut place = 0.0_f64;
         let [mut low, mut high] = [0.0_f64; 2];
@@ -282,7 +283,8 @@ impl<'a> CommandedMotion<'a> {
         high - low
     }
 
-    /// What the loops may answer to: a constant, the direction at [`DIRECTION`], the velocity, past accelerations.
+    /// Returns the inputs to which the loops may respond: a constant, the direction at [`DIRECTION`], the velocity,
+    /// past accelerations.
     fn causes(&self, at: usize) -> Vec<f64> {
         let velocity = self.velocities[at];
         let direction = if velocity.abs() < STANDSTILL {
@@ -308,7 +310,7 @@ impl<'a> CommandedMotion<'a> {
             .sum()
     }
 
-    /// The answer that fits the settled samples best; `None` if nothing determines it.
+    /// Returns the answer that fits the settled samples best; `None` if nothing determines it.
     fn answer(&self, errors: &[f64]) -> Option<Vec<f64>> {
         /// Keeps what no motion determines at 0.
         const NEARLY: f64 = 1e-9;
@@ -330,7 +332,7 @@ impl<'a> CommandedMotion<'a> {
     }
 }
 
-/// The earlier samples and the weights of a knot, which is linear between its neighbours.
+/// Returns the earlier samples and the weights of a knot, which is linear between its neighbours.
 fn shares(knot: usize, step_s: f64) -> Vec<(usize, f64)> {
     let at = KNOTS_S[knot];
     let before = knot.checked_sub(1).map_or(at, |it| KNOTS_S[it]);

@@ -14,8 +14,7 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 
-/// Friction of the same program in two recordings may differ by this part, and so may the start and
-/// the end of one.
+/// Part by which friction of the same program may differ in two recordings, and at the start and the end of one.
 const STEADY: f64 = 0.1;
 
 /// Greatest difference between the directions, beyond a constant weight, as a share of the
@@ -149,8 +148,8 @@ impl FrictionFound {
         }
     }
 
-    /// The largest difference in friction between two recordings of one program, as a part of the first;
-    /// `None` if they have no common speed.
+    /// Returns the largest difference in friction between two recordings of one program, as a part of the first; `None`
+    /// if they have no common speed.
     pub fn apart_from(&self, other: &Self) -> Option<f64> {
         let pairs = self
             .speeds
@@ -188,7 +187,7 @@ impl FrictionFound {
         }
     }
 
-    /// The recorded speed in mm/s or °/s at which a list adds most of the friction, and the ratio to the
+    /// Returns the recorded speed in mm/s or °/s at which a list adds most of the friction, and the ratio to the
     /// friction there; `None` without friction.
     pub fn strongest(&self, list: &FrictionList) -> Option<(f64, f64)> {
         let points: Vec<[f64; 2]> = list.table.iter().map(|it| [it.input, it.output]).collect();
@@ -201,7 +200,7 @@ impl FrictionFound {
         parts.max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
-    /// The value list with the friction at its points and everything else as the control assumes it.
+    /// Returns the value list with the friction at its points and everything else as the control assumes it.
     pub fn list(&self) -> FrictionList {
         let points = self.table.iter();
         let points = points.map(|&[input, output]| TablePoint { input, output });
@@ -215,7 +214,7 @@ impl FrictionFound {
         }
     }
 
-    /// The list with no output above the greatest part of the friction that may be added.
+    /// Returns the list with no output above the greatest part of the friction that may be added.
     #[must_use]
     pub fn bounded(&self, list: &FrictionList) -> FrictionList {
         let scale = f64::from(list.scaling_factor) / f64::from(UNSCALED);
@@ -232,7 +231,7 @@ impl FrictionFound {
         }
     }
 
-    /// Whether two recordings of one program show the same friction.
+    /// Returns whether two recordings of one program show the same friction.
     pub fn is_steady_with(&self, other: &Self) -> bool {
         self.apart_from(other).is_some_and(|part| part <= STEADY)
     }
@@ -262,11 +261,11 @@ fn uneven(found: &Identified) -> Option<String> {
     })
 }
 
-/// The part of the friction by which the offset grows with it; `None` if friction differs too little over the
+/// Returns the part of the friction by which the offset grows with it; `None` if friction differs too little over the
 /// speeds, or the offset too much from a line, to determine it.
 fn growing_offset(found: &Identified) -> Option<f64> {
     const TIMES: f64 = 3.0;
-    /// Friction differs over the speeds by this part of its mean.
+    /// Variation of friction over the speeds, as a part of its mean, from which the speeds differ.
     const DIFFERS: f64 = 0.25;
     let pairs = found.pairs.iter();
     let points: Vec<[f64; 2]> = pairs
@@ -287,8 +286,8 @@ fn growing_offset(found: &Identified) -> Option<f64> {
     (differs && slope.abs() > TIMES * error).then_some(slope)
 }
 
-/// The recorded speeds as a part of the planned ones, the part next to 1 that explains them; `None` if there is none.
-/// An axis may miss speeds, as the fastest where its torque is clipped, but has none that was not planned.
+/// Returns the recorded speeds as a part of the planned ones, the part next to 1 that explains them; `None` if there is
+/// none. An axis may miss speeds, as the fastest where its torque is clipped, but has none that was not planned.
 fn override_of(found: &Identified, planned: &[f64]) -> Option<f64> {
     let fastest = found.pairs.last()?.speed;
     let explains = |part: &f64| {
@@ -319,11 +318,11 @@ pub struct CirclesFound {
     pub glitches: Vec<DirectionGlitches>,
     /// The largest of them, in µm.
     pub worst_um: f64,
-    /// What it shows about the compensation, besides the path.
+    /// Evidence on the compensation, besides the path.
     pub compensation: CompensationShown,
     /// The time in s over which the positions are averages, by the distances from the centre, if they are.
     pub averaged_s: Option<f64>,
-    /// How the actual position of each axis follows the commanded one, where that was recorded.
+    /// Relation of the actual position of each axis to the commanded one, where that was recorded.
     pub followed: Box<[Option<FollowedPosition>; 2]>,
     /// The figures of ISO 230-4.
     pub iso: IsoFigures,
@@ -395,7 +394,7 @@ impl CirclesFound {
         }
     }
 
-    /// The glitch at the feed that was driven; `None` if that is not known.
+    /// Returns the glitch at the feed that was driven; `None` if that is not known.
     pub(super) fn at_feed(&self) -> Option<AtFeed> {
         let of = |it: &DirectionGlitches| {
             let mut directions = Direction::ALL.into_iter();
@@ -409,12 +408,12 @@ impl CirclesFound {
         })
     }
 
-    /// The deviation from the planned feed as a part of it; 0 within 2 %, infinite if it is not known.
+    /// Returns the deviation from the planned feed as a part of it; 0 within 2 %, infinite if it is not known.
     pub fn beside(&self) -> f64 {
         self.at_feed().map_or(f64::INFINITY, |it| it.beside())
     }
 
-    /// Whether other circles of the same plan were driven at the same feed.
+    /// Returns whether other circles of the same plan were driven at the same feed.
     pub fn is_driven_as(&self, other: &Self) -> bool {
         let feeds = self.at_feed().zip(other.at_feed());
         feeds.is_some_and(|(one, other)| one.is_driven_as(&other))
@@ -439,12 +438,12 @@ impl DirectionGlitches {
         })
     }
 
-    /// The larger glitch of an axis, by its place in the plan, at its two crossings.
+    /// Returns the larger glitch of an axis, by its place in the plan, at its two crossings.
     pub fn of_axis(&self, axis: usize) -> MeasuredGlitch {
         self.crossings[axis % 2].larger(self.crossings[axis % 2 + 2])
     }
 
-    /// The largest glitch, with its crossing.
+    /// Returns the largest glitch, with its crossing.
     fn largest(&self) -> (Crossing, MeasuredGlitch) {
         let each = Crossing::ALL.into_iter().zip(self.crossings);
         let largest = each.max_by(|one, other| one.1.um.total_cmp(&other.1.um));
@@ -481,7 +480,7 @@ impl DirectionGlitches {
 pub struct IsoFigures {
     /// Circular deviation G of the counter-clockwise path about the centre of the minimum zone.
     pub g_ccw: Option<f64>,
-    /// That of the clockwise path.
+    /// Figure of the clockwise path.
     pub g_cw: Option<f64>,
     /// Bidirectional circular deviation G(b).
     pub g_b: Option<f64>,
@@ -501,7 +500,7 @@ impl IsoFigures {
     }
 }
 
-/// A recording whose circles run in the opposite direction to those of the programs.
+/// Returns a recording whose circles run in the opposite direction to those of the programs.
 fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     let begin = |direction: Direction| {
         let mut circles = circles.iter();
@@ -516,7 +515,7 @@ fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     })
 }
 
-/// The time in s over which each position is an average, if its noise shows one (R16.14).
+/// Returns the time in s over which each position is an average, if its noise shows one (R16.14).
 fn averaged_over(circle: &RecordedCircle) -> Option<f64> {
     let step_s = circle.turn_s? / count(circle.points);
     averaged_samples(&circle.radii_mm()).map(|it| count(it) * step_s)
@@ -545,7 +544,7 @@ fn gap(circle: &RecordedCircle) -> Option<String> {
     ))
 }
 
-/// A sample that is missing in a turn, too few for a reversal to be among them (R16.18).
+/// Returns a sample that is missing in a turn, too few for a reversal to be among them (R16.18).
 fn missing_row(circle: &RecordedCircle) -> Option<String> {
     const STEPS: f64 = 1.6;
     let step_s = circle.turn_s? / count(circle.points);
@@ -583,7 +582,7 @@ fn driven_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     })
 }
 
-/// A direction with less recorded than its program drives: three turns with the halves before and after.
+/// Returns a direction with less recorded than its program drives: three turns with the halves before and after.
 fn cut_short(circle: &RecordedCircle) -> Option<String> {
     const DRIVEN: f64 = 3.0;
     const NEARLY: f64 = 0.9;

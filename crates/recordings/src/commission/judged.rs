@@ -1,4 +1,4 @@
-//! What the recorded feeds of a round say against its lists (R16.9, R16.12, R16.15).
+//! Objections of the recorded feeds of a round to its lists (R16.9, R16.12, R16.15).
 
 use frictcomp_physics::circle::GlitchOrder;
 
@@ -105,7 +105,7 @@ fn worse(
     }
 }
 
-/// The feeds, slowest first, at which off and on are alike on an axis in both directions, although at the
+/// Returns the feeds, slowest first, at which off and on are alike on an axis in both directions, although at the
 /// neighbouring feeds they are not. At the slowest one they may be: there compensation takes little away.
 fn without_effect(recorded: &[BeforeAfter], axis: &str) -> Vec<f64> {
     const BETWEEN: f64 = 0.8;
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
     use frictcomp_physics::circle::MeasuredGlitch;
 
-    /// A glitch whose turns scatter, the largest of which counts.
+    /// Returns a glitch whose turns scatter, the largest of which counts.
     fn glitch(um: f64, median_um: f64, spread_um: f64) -> MeasuredGlitch {
         const NOISE_UM: f64 = 0.1;
         let mut glitch = MeasuredGlitch::of(um, spread_um.hypot(NOISE_UM));
@@ -143,7 +143,7 @@ mod tests {
         glitch
     }
 
-    /// What speaks against a list that leaves a glitch in place of another one, at each of four feeds.
+    /// Returns the objections to a list that leaves one glitch in place of another, at each of four feeds.
     fn against(off: MeasuredGlitch, on: MeasuredGlitch) -> Vec<String> {
         let feeds = [500.0, 1000.0, 2000.0, 5000.0];
         let place = PlaceCompared {

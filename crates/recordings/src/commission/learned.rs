@@ -13,10 +13,10 @@ use frictcomp_physics::circle::{
 /// Minimum number of feeds: between four up to 1.8 µm remain hidden (R16.4).
 pub const LEAST_FEEDS: usize = 6;
 
-/// Turns are at the same feed within this part, and of the same radius.
+/// Part within which turns have the same feed and the same radius.
 const SAME: f64 = 0.02;
 
-/// Centres of one machine are at most this far apart, in mm.
+/// Largest distance of the centres of one machine, in mm.
 const SAME_CENTRE_MM: f64 = 1.0;
 
 /// Two recordings of one list differ by at most this part of their mean at a reversal …
@@ -61,7 +61,7 @@ pub enum LearnError {
     Coarse {
         /// Name of the file.
         file: String,
-        /// How far apart they are, and what to record, in words.
+        /// Distance between the recordings, and what to record, in words.
         coarse: String,
     },
     /// A feed that was recorded once, or more than twice.
@@ -85,7 +85,7 @@ pub enum LearnError {
     Radius {
         /// Name of the file.
         file: String,
-        /// Its radius.
+        /// Radius.
         found_mm: f64,
         /// The radius of the first recording.
         radius_mm: f64,
@@ -134,7 +134,7 @@ fn times(count: usize) -> String {
 }
 
 impl LearnError {
-    /// Advice for the user.
+    /// Returns advice for the user.
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoTimes(_) => "record the time in s as well, or name its channel",
@@ -260,7 +260,7 @@ fn is_same(one: f64, other: f64) -> bool {
     (one / other - 1.0).abs() <= SAME
 }
 
-/// The turns of each feed in mm/min, the slowest first.
+/// Returns the turns of each feed in mm/min, the slowest first.
 fn by_feed(turns: &[RecordedTurn]) -> Result<Vec<(f64, Vec<&RecordedTurn>)>, LearnError> {
     let mut timed = Vec::new();
     for turn in turns {
@@ -281,7 +281,7 @@ fn by_feed(turns: &[RecordedTurn]) -> Result<Vec<(f64, Vec<&RecordedTurn>)>, Lea
     Ok(groups)
 }
 
-/// Both recordings of a feed, each with its directions.
+/// Returns both recordings of a feed, each with its directions.
 fn twice<'a>(
     feed: f64,
     group: &[&'a RecordedTurn],

@@ -75,7 +75,7 @@ impl Prediction {
         Self { glitch_um, contact }
     }
 
-    /// Whether the recording misses the prediction by more than max(25 %, 0.5 µm) (R16.9).
+    /// Returns whether the recording misses the prediction by more than max(25 %, 0.5 µm) (R16.9).
     pub fn is_missed_by(&self, recorded_um: f64) -> bool {
         (recorded_um - self.glitch_um).abs() > f64::max(0.25 * self.glitch_um, 0.5)
     }
@@ -102,18 +102,18 @@ pub struct LearnedAxis {
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum NextStep {
-    /// Recordings are needed in this folder, with these lists.
+    /// Recordings needed in this folder, with these lists.
     Record {
         /// Path of the folder.
         folder: String,
         /// The lists of X and Y.
         lists: [String; 2],
     },
-    /// No further gain is possible.
+    /// The end: no further gain is possible.
     Done,
 }
 
-/// All that is known of a learning process.
+/// Report on a learning process.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct LearnReport {

@@ -27,7 +27,7 @@ const LAST_ROUND: u16 = 61;
 pub enum Stage {
     /// Off: the friction and the machine as it is.
     Off,
-    /// On, with a known list.
+    /// Compensation on, with a known list.
     On,
 }
 
@@ -46,7 +46,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The programs of a stage.
+    /// Returns the programs of a stage.
     ///
     /// # Errors
     /// The axes cannot be measured together, or a motion does not fit into the travel or the dynamics of an
@@ -102,13 +102,13 @@ impl Plan {
         })
     }
 
-    /// The time of all programs in s at 100 % override.
+    /// Returns the time of all programs in s at 100 % override.
     pub fn time_s(&self) -> f64 {
         self.programs.iter().map(|it| it.time_s).sum()
     }
 }
 
-/// The number of the first program of a round.
+/// Returns the number of the first program of a round.
 fn first_number(round: u16) -> u16 {
     match round.checked_sub(2) {
         None => 1,
@@ -159,7 +159,7 @@ fn check(request: &PlanRequest, stage: Stage) -> Result<(), PlanError> {
     Ok(())
 }
 
-/// The G function of the plane of two axes.
+/// Returns the G function of the plane of two axes.
 fn plane(first: &str, second: &str) -> Option<u8> {
     match (first, second) {
         ("X", "Y") => Some(17),
@@ -169,7 +169,7 @@ fn plane(first: &str, second: &str) -> Option<u8> {
     }
 }
 
-/// The feeds, slowest first, each once.
+/// Returns the feeds, slowest first, each once.
 fn feeds(request: &PlanRequest) -> Result<Vec<f64>, PlanError> {
     let mut feeds = request.feeds.clone();
     feeds.sort_by(f64::total_cmp);
@@ -181,7 +181,7 @@ fn feeds(request: &PlanRequest) -> Result<Vec<f64>, PlanError> {
     }
 }
 
-/// At least ten speeds from the slowest to the fastest, each at most twice the one before.
+/// Returns at least ten speeds from the slowest to the fastest, each at most twice the one before.
 fn speeds(slowest: f64, fastest: f64) -> Vec<f64> {
     const LEAST: u32 = 10;
     let fastest = fastest.max(slowest);
@@ -195,7 +195,7 @@ fn speeds(slowest: f64, fastest: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Two of the speeds of stage 1: a slow one and a fast one.
+/// Returns two of the speeds of stage 1: a slow one and a fast one.
 fn repeated(slowest: f64, fastest: f64) -> Vec<f64> {
     let all = speeds(slowest, fastest);
     [all.len() / 3, all.len() * 2 / 3]

@@ -31,7 +31,7 @@ impl PlanFile {
     /// The version that is written.
     pub const SCHEMA: u32 = 1;
 
-    /// Whether it has a program with a number.
+    /// Returns whether it has a program with a number.
     pub fn has(&self, number: u16) -> bool {
         self.plan.programs.iter().any(|it| it.number == number)
     }
@@ -58,7 +58,7 @@ pub struct PlanReport {
 }
 
 impl PlanReport {
-    /// The content of `plan.json`.
+    /// Returns the content of `plan.json`.
     pub fn file(&self) -> PlanFile {
         PlanFile {
             schema: PlanFile::SCHEMA,

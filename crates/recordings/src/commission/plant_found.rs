@@ -28,7 +28,7 @@ const MISSED_ERRORS: f64 = 3.0;
 /// Predictions that differ by less than this in µm are the same.
 const SAME_UM: f64 = 0.1;
 
-/// A list is a gain if it leaves at most this part.
+/// Part that a list may leave to be a gain.
 const GAIN: f64 = 0.95;
 
 /// A plant with the results based on it.
@@ -44,7 +44,7 @@ pub struct PlantFound {
     pub axes: Vec<PlantAxis>,
     /// The feeds in mm/min that it was fitted to.
     pub fitted_feeds: Vec<f64>,
-    /// Those that neither the fit nor the tuning has seen.
+    /// Recorded feeds that neither the fit nor the tuning has seen.
     pub held_out: Vec<f64>,
     /// The glitch of each axis at each recorded feed.
     #[serde(rename = "predicted_glitches")]
@@ -72,7 +72,7 @@ pub struct PlantAxis {
     pub delay: Extent,
     /// Damping of the contact in N·s/m.
     pub damping: Extent,
-    /// What the load lags behind the motor after a reversal, in m.
+    /// Travel in m by which the load lags behind the motor after a reversal.
     pub lost: Extent,
     /// The share of the list of the last round that explains its circles.
     pub share_on: Option<Extent>,
@@ -114,7 +114,7 @@ pub struct RecordedGlitch {
     /// The glitch in µm.
     #[serde(rename = "recorded_glitch")]
     pub um: f64,
-    /// Its standard error.
+    /// Standard error.
     #[serde(rename = "recorded_error")]
     pub error_um: f64,
 }
@@ -152,7 +152,7 @@ pub struct TunedList {
 }
 
 impl PlantAxis {
-    /// The parameters of a fitted drive.
+    /// Returns the parameters of a fitted drive.
     pub fn of(axis: &str, fitted: &FittedDrive) -> Self {
         Self {
             axis: axis.to_owned(),
@@ -190,7 +190,7 @@ impl PlantAxis {
         })
     }
 
-    /// Whether its circles show that no list was on in stage 1: the range of the share is about 0 (R16.13).
+    /// Returns whether its circles show that no list was on in stage 1: the range of the share is about 0 (R16.13).
     pub(super) fn is_off_shown(&self) -> bool {
         self.share_off
             .is_some_and(|it| it.low >= -NONE && it.high <= NONE)
@@ -231,9 +231,9 @@ impl PlantAxis {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum MissedPrediction {
-    /// More is left than predicted: that speaks against plant and list.
+    /// Larger glitch than predicted: evidence against plant and list.
     Worse(String),
-    /// Less is left: that speaks against the plant only (R16.16).
+    /// Smaller glitch than predicted: evidence against the plant only (R16.16).
     Better(String),
 }
 
@@ -263,31 +263,31 @@ impl ComparedGlitch {
 }
 
 impl RecordedGlitch {
-    /// Whether a list was on, as a word.
+    /// Returns the state of a list as a word.
     pub fn state(&self) -> &'static str {
         if self.list.is_some() { "on" } else { "off" }
     }
 }
 
 impl PlantFound {
-    /// Whether the stiffness of each contact is determined.
+    /// Returns whether the stiffness of each contact is determined.
     pub fn is_determined(&self) -> bool {
         self.axes.iter().all(|it| it.contact.is_determined())
     }
 
-    /// All recorded feeds in mm/min, slowest first.
+    /// Returns all recorded feeds in mm/min, slowest first.
     pub fn feeds(&self) -> Vec<f64> {
         let mut feeds = [&self.fitted_feeds[..], &self.held_out].concat();
         feeds.sort_by(f64::total_cmp);
         feeds
     }
 
-    /// Whether neither the fit nor the tuning has seen a feed.
+    /// Returns whether neither the fit nor the tuning has seen a feed.
     pub fn is_held_out(&self, feed: f64) -> bool {
         self.held_out.iter().any(|it| it.total_cmp(&feed).is_eq())
     }
 
-    /// The glitch of an axis that is predicted at a feed with a list.
+    /// Returns the glitch of an axis that is predicted at a feed with a list.
     pub fn predicted(&self, axis: &str, feed: f64, list: Option<&str>) -> Option<f64> {
         let found = self.glitches.iter().find(|it| {
             it.axis == axis && it.feed.total_cmp(&feed).is_eq() && it.list.as_deref() == list
@@ -315,7 +315,8 @@ impl PlantFound {
         compared.collect()
     }
 
-    /// The largest predicted glitch of an axis with a list over all recorded feeds; `None` without a prediction.
+    /// Returns the largest predicted glitch of an axis with a list over all recorded feeds; `None` without a
+    /// prediction.
     pub fn largest(&self, axis: &str, list: &str) -> Option<f64> {
         let feeds = self.feeds().into_iter();
         let predicted = feeds.filter_map(|feed| self.predicted(axis, feed, Some(list)));
@@ -334,8 +335,8 @@ impl PlantFound {
         })
     }
 
-    /// Held-out feeds at which a list is predicted to leave more than is left without a list, or with the old
-    /// one.
+    /// Returns the held-out feeds at which a list is predicted to leave more than is left without a list, or with the
+    /// old one.
     pub fn fails_held_out(&self, axis: &str, list: &str, old: Option<&str>) -> Vec<String> {
         let mut against = Vec::new();
         for &feed in &self.held_out {
@@ -390,7 +391,7 @@ pub fn against_plant(feeds: &[f64]) -> Vec<String> {
     against
 }
 
-/// The drive of a plant with the friction that `identify` found, in drive units.
+/// Returns the drive of a plant with the friction that `identify` found, in drive units.
 pub fn with_friction(drive: &DriveParameters, fit: &Fit) -> DriveParameters {
     const MM_PER_M: f64 = 1000.0;
     let mut drive = drive.clone();

@@ -10,7 +10,7 @@ use super::plant_found::{ComparedGlitch, PlantFound, TunedList};
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Plants {
-    /// Whether plants are fitted: the one known beforehand is given.
+    /// Whether plants are fitted, because the one known beforehand is given.
     pub is_wanted: bool,
     /// A plant for each round whose circles are recorded.
     pub verdicts: Vec<PlantVerdict>,
@@ -37,12 +37,12 @@ pub struct PlantVerdict {
 }
 
 impl Plants {
-    /// The plants themselves.
+    /// Returns the plants themselves.
     pub fn found(&self) -> impl Iterator<Item = &PlantFound> {
         self.verdicts.iter().map(|it| &it.found)
     }
 
-    /// Whether the recordings reject the last plant.
+    /// Returns whether the recordings reject the last plant.
     pub fn is_rejected(&self) -> bool {
         let last = self.verdicts.last();
         last.is_some_and(|it| !it.rejected.is_empty())
@@ -62,12 +62,12 @@ impl Plants {
 }
 
 impl PlantVerdict {
-    /// Whether recordings miss none of its predictions.
+    /// Returns whether recordings miss none of its predictions.
     pub fn holds(&self) -> bool {
         self.rejected.is_empty() && self.retired.is_empty()
     }
 
-    /// The tuned lists, unless the plant is rejected or retired.
+    /// Returns the tuned lists, unless the plant is rejected or retired.
     pub fn lists(&self) -> &[TunedList] {
         if self.holds() { &self.found.lists } else { &[] }
     }

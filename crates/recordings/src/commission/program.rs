@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 pub struct MeasuringProgram {
     /// The number of its signature, from 1 to 1023.
     pub number: u16,
-    /// Its file without a folder.
+    /// File without a folder.
     pub file: String,
     /// The measurement.
     pub role: Measurement,
-    /// Its time in s at 100 % override, from the first measured motion on.
+    /// Time in s at 100 % override, from the first measured motion on.
     pub time_s: f64,
     /// The motions after the approach.
     #[serde(skip)]

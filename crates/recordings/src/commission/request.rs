@@ -24,7 +24,7 @@ pub struct PlanRequest {
 /// An axis of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredAxis {
-    /// Its name in programs.
+    /// Name in programs.
     pub name: String,
     /// Linear or rotary.
     pub axis_type: AxisType,
@@ -41,7 +41,7 @@ pub struct MeasuredAxis {
 }
 
 impl MeasuredAxis {
-    /// The unit of its lengths.
+    /// Returns the unit of its lengths.
     pub fn unit(&self) -> &'static str {
         if self.axis_type == AxisType::Linear {
             "mm"
@@ -64,9 +64,9 @@ pub struct FreeTravel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Installed {
-    /// P-AXIS-00522 is 0: no command changes anything.
+    /// Compensation not configured, P-AXIS-00522 is 0: no command changes anything.
     Unconfigured,
-    /// On from the start of the control, or with the first valid list.
+    /// Compensation on from the start of the control, or with the first valid list.
     On,
     /// Configured, switched on only by programs.
     Off,
@@ -84,7 +84,7 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// The seconds from standstill to a speed, with ramps of the acceleration.
+    /// Returns the seconds from standstill to a speed, with ramps of the acceleration.
     pub fn time_to(&self, speed: f64) -> f64 {
         let (most, jerk) = (self.acceleration_per_s2, self.jerk_per_s3);
         if speed * jerk >= most * most {
@@ -94,7 +94,7 @@ impl Dynamics {
         }
     }
 
-    /// The travel from standstill to a speed.
+    /// Returns the travel from standstill to a speed.
     pub fn way_to(&self, speed: f64) -> f64 {
         self.time_to(speed) * speed / 2.0
     }

@@ -61,13 +61,13 @@ impl RecordingOutcome {
         }
     }
 
-    /// Whether it counts for its program: there are no reasons against it, and it was driven at the planned feeds or
-    /// near them. A first pass at 10 % override does not count.
+    /// Returns whether it counts for its program: there are no reasons against it, and it was driven at the planned
+    /// feeds or near them. A first pass at 10 % override does not count.
     pub fn is_used(&self) -> bool {
         self.against().is_empty() && self.reversals().all(|it| it.is_near())
     }
 
-    /// The recorded feeds as a part of the planned ones, if they are known.
+    /// Returns the recorded feeds as a part of the planned ones, if they are known.
     pub fn driven_part(&self) -> Option<f64> {
         match self {
             Self::Friction(found) => found.override_part,
@@ -95,7 +95,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// What it shows about the compensation; constant speeds show nothing.
+    /// Returns the evidence on the compensation; constant speeds give none.
     pub fn compensation(&self) -> Option<&CompensationShown> {
         match self {
             Self::Circles(found) => Some(&found.compensation),
@@ -104,7 +104,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// How the actual position of an axis, by its place in the plan, follows the commanded one.
+    /// Returns the relation of the actual position of an axis, by its place in the plan, to the commanded one.
     pub(super) fn followed(&self, axis: usize) -> Option<FollowedPosition> {
         match self {
             Self::Circles(found) => found.followed[axis],
@@ -113,7 +113,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// The time in s over which the positions of an axis are averages, if they are.
+    /// Returns the time in s over which the positions of an axis are averages, if they are.
     pub(super) fn averaged_s(&self, axis: usize) -> Option<f64> {
         let of_axis = self.followed(axis).and_then(|it| it.averaged_s);
         match self {
@@ -122,7 +122,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// The unit of its glitches.
+    /// Returns the unit of its glitches.
     pub(super) fn unit(&self) -> &str {
         match self {
             Self::Strokes(found) => &found.unit,
@@ -130,14 +130,14 @@ impl RecordingOutcome {
         }
     }
 
-    /// The largest glitch in µm or 0.001° that it shows; 0 if none.
+    /// Returns the largest glitch in µm or 0.001° that it shows; 0 if none.
     pub(super) fn largest_glitch(&self) -> f64 {
         let reversals = self.reversals();
         let glitches = reversals.flat_map(|it| it.glitches);
         glitches.fold(0.0, |most, (_, it)| most.max(it.um))
     }
 
-    /// What it shows about the compensation, to add to it.
+    /// Returns the evidence on the compensation, to add to it.
     pub fn compensation_mut(&mut self) -> Option<&mut CompensationShown> {
         match self {
             Self::Circles(found) => Some(&mut found.compensation),
@@ -146,7 +146,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// The results of reversals at each feed.
+    /// Returns the results of reversals at each feed.
     pub(super) fn reversals(&self) -> impl Iterator<Item = AtFeed> {
         let circles = match self {
             Self::Circles(found) => found.at_feed(),
@@ -168,7 +168,7 @@ impl RecordingOutcome {
 /// Refuses recordings that cannot belong to the others: the same bytes twice, and circles about another centre
 /// than those before them (R16.9).
 pub fn refuse_strangers(results: &mut [RecordingResult]) {
-    /// Centres of one machine are at most this far apart, in mm.
+    /// Largest distance of the centres of one machine, in mm.
     const SAME_CENTRE_MM: f64 = 1.0;
     let mut first: Option<([f64; 2], String)> = None;
     for at in 0..results.len() {

@@ -21,7 +21,7 @@ pub struct Round {
     pub number: usize,
     /// The lists.
     pub lists: Vec<ValueListUsed>,
-    /// Where friction shows.
+    /// Signal in which friction shows.
     pub shows: Shows,
     /// The unit of the glitches.
     pub unit: &'static str,
@@ -29,11 +29,11 @@ pub struct Round {
     pub recorded: Vec<BeforeAfter>,
     /// Reasons why the lists are not accepted; `None` before a feed is recorded off and on.
     pub against: Option<Vec<String>>,
-    /// What nothing shows, so that the lists are not accepted either (R16.13).
+    /// Requirements for which evidence is missing, so that the lists are not accepted either (R16.13).
     pub not_shown: Vec<String>,
 }
 
-/// The unit of the glitches of a plan.
+/// Returns the unit of the glitches of a plan.
 fn glitch_unit(plan: &Plan) -> &'static str {
     match plan.axes.first() {
         Some(axis) if axis.axis_type != AxisType::Linear => "0.001°",
@@ -42,7 +42,7 @@ fn glitch_unit(plan: &Plan) -> &'static str {
 }
 
 impl Round {
-    /// Whether there are no reasons against the lists, and everything that they rest on is shown.
+    /// Returns whether there are no reasons against the lists, and everything that they rest on is shown.
     pub fn is_accepted(&self) -> bool {
         self.not_shown.is_empty() && self.against.as_ref().is_some_and(Vec::is_empty)
     }
@@ -67,7 +67,7 @@ impl<'a> RecordedRound<'a> {
     /// said against the plants on which they were tuned; it is asked where a feed is recorded off and on.
     ///
     /// # Errors
-    /// Those of `files`.
+    /// The errors of `files`.
     pub fn judged<E>(
         &self,
         earlier: &[Round],

@@ -21,7 +21,7 @@ pub(super) struct RoomPrograms<'a> {
 }
 
 impl RoomPrograms<'_> {
-    /// Constant speeds up and then down, each back and forth.
+    /// Creates a program of constant speeds up and then down, each back and forth.
     pub(super) fn friction(
         &self,
         axis: usize,
@@ -69,7 +69,7 @@ impl RoomPrograms<'_> {
         Ok(made.program(file, Measurement::Strokes { axis, feeds }, vec![room.low]))
     }
 
-    /// Half a turn to speed up, two turns, half a turn to slow down, in each direction.
+    /// Returns half a turn to speed up, two turns, half a turn to slow down, in each direction.
     pub(super) fn circles(&self, feed: f64) -> MeasuringProgram {
         const REST_S: f64 = 1.0;
         let radius = self.radius.unwrap_or(RADIUS);
@@ -130,7 +130,7 @@ impl AxisMotions {
         }
     }
 
-    /// A motion and the pause after it.
+    /// Adds a motion and the pause after it.
     fn line(&mut self, axis: usize, to: f64, feed: f64, room: &Room<'_>) {
         self.move_to(axis, to, feed, room);
         self.dwell(PAUSE_S);
@@ -161,7 +161,7 @@ impl AxisMotions {
 }
 
 impl MeasuringProgram {
-    /// The axis of its signature.
+    /// Returns the axis of its signature.
     pub fn signed_axis(&self) -> usize {
         match self.role {
             Measurement::Friction { axis, .. } | Measurement::Strokes { axis, .. } => axis,
@@ -169,7 +169,7 @@ impl MeasuringProgram {
         }
     }
 
-    /// The feed of its circles in mm/min.
+    /// Returns the feed of its circles in mm/min.
     pub fn feed(&self) -> Option<f64> {
         match self.role {
             Measurement::Circles { feed, .. } => Some(feed),
@@ -177,7 +177,7 @@ impl MeasuringProgram {
         }
     }
 
-    /// Its time in s at 100 % override after the strokes of its signature.
+    /// Returns its time in s at 100 % override after the strokes of its signature.
     pub fn time_after_signature_s(&self) -> f64 {
         let strokes = Signature::new(self.number).map(Signature::strokes);
         let ways = strokes.into_iter().flatten();
@@ -185,7 +185,7 @@ impl MeasuringProgram {
         self.time_s - Signature::DWELL_S - strokes_s
     }
 
-    /// The feeds at which it shows reversals, in mm/min or °/min.
+    /// Returns the feeds at which it shows reversals, in mm/min or °/min.
     pub fn reversal_feeds(&self) -> &[f64] {
         match &self.role {
             Measurement::Circles { feed, .. } => std::slice::from_ref(feed),
@@ -231,12 +231,12 @@ impl MeasuringProgram {
     }
 }
 
-/// The time of a stroke of a signature, with the pause after it.
+/// Returns the time of a stroke of a signature, with the pause after it.
 fn stroke_s(way: f64) -> f64 {
     way / (Signature::FEED / 60.0) + PAUSE_S
 }
 
-/// The radius of the circles, at which each axis can follow each feed.
+/// Returns the radius of the circles, at which each axis can follow each feed.
 pub(super) fn circle_radius(
     rooms: [&Room<'_>; 2],
     feeds: &[f64],
@@ -346,7 +346,7 @@ impl<'a> Room<'a> {
         })
     }
 
-    /// The travel of a run at a speed, with its ramps: two seconds, or a pitch if that is longer; less if the
+    /// Returns the travel of a run at a speed, with its ramps: two seconds, or a pitch if that is longer; less if the
     /// travel of the axis ends.
     ///
     /// # Errors

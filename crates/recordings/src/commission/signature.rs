@@ -18,7 +18,7 @@ const REST_S: f64 = 1.2;
 /// The time between two samples of the position in s.
 const LOOK_S: f64 = 0.02;
 
-/// Slower motion is standstill, in mm/s or °/s: a tenth of half the feed of the strokes.
+/// Speed in mm/s or °/s below which motion is standstill: a tenth of half the feed of the strokes.
 const STANDSTILL: f64 = 0.5;
 
 /// The number of a program.
@@ -35,17 +35,17 @@ impl Signature {
     /// The greatest distance from the start in mm or degrees.
     pub const REACH: f64 = 2.0 * SHORT;
 
-    /// The signature of a number from 1 to 1023.
+    /// Returns the signature of a number from 1 to 1023.
     pub fn new(number: u16) -> Option<Self> {
         (1..1 << BITS).contains(&number).then_some(Self(number))
     }
 
-    /// The number.
+    /// Returns the number.
     pub fn number(self) -> u16 {
         self.0
     }
 
-    /// The lengths of the strokes in mm or degrees, each forth and then back.
+    /// Returns the lengths of the strokes in mm or degrees, each forth and then back.
     pub fn strokes(self) -> [f64; STROKES] {
         let check = u16::try_from(self.0.count_ones() % 4).unwrap_or_default();
         let bits = (self.0 << 2) | check;
@@ -77,7 +77,7 @@ pub fn signature_in(positions: &[f64], step_s: f64) -> Vec<(Signature, usize)> {
     found.collect()
 }
 
-/// The number that strokes back and forth encode.
+/// Returns the number that strokes back and forth encode.
 fn read(window: &[Move]) -> Option<Signature> {
     let mut bits = 0_u16;
     for stroke in window.chunks(2) {
@@ -135,7 +135,7 @@ impl Move {
     }
 }
 
-/// Number of samples between two positions.
+/// Returns the number of samples between two positions.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -179,7 +179,7 @@ mod tests {
         }
     }
 
-    /// A program at a part of its feeds, in steps of 1 µm, with 2 µm of vibration.
+    /// Returns a program at a part of its feeds, in steps of 1 µm, with 2 µm of vibration.
     fn recorded(strokes: &[f64], inwards: f64, part: f64) -> Vec<f64> {
         let mut places = vec![0.0];
         rest(&mut places, Signature::DWELL_S);

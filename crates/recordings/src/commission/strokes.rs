@@ -11,7 +11,7 @@ use crate::identify::{Track, count};
 /// Reversals without a stop at each feed: the ends of four strokes back and forth, without the last one.
 const REVERSALS: usize = 7;
 
-/// A feed belongs to the program if it and the fastest differ from the plan by the same part, within this.
+/// Part within which a feed and the fastest one differ equally from the plan, so that the feed belongs to the program.
 const ONE_RATIO: f64 = 0.05;
 
 /// Number of standard errors above which a glitch is visible.
@@ -30,9 +30,9 @@ pub struct StrokesFound {
     pub unit: String,
     /// The reversals at each feed, slowest first.
     pub reversals: Vec<FeedReversals>,
-    /// What they show about the compensation, besides the following error.
+    /// Evidence on the compensation, besides the following error.
     pub compensation: CompensationShown,
-    /// How the actual position follows the commanded one, where both were recorded.
+    /// Relation of the actual position to the commanded one, where both were recorded.
     pub followed: Option<FollowedPosition>,
     /// Remarks.
     pub notes: Vec<String>,
@@ -123,7 +123,7 @@ impl StrokesFound {
         self.reversals.iter().map(|it| it.count).sum()
     }
 
-    /// The largest glitch of all feeds.
+    /// Returns the largest glitch of all feeds.
     pub fn worst(&self) -> f64 {
         self.reversals
             .iter()
@@ -131,7 +131,7 @@ impl StrokesFound {
             .fold(0.0, f64::max)
     }
 
-    /// Whether friction is visible at any reversal.
+    /// Returns whether friction is visible at any reversal.
     pub fn is_seen(&self) -> bool {
         let mut reversals = self.reversals.iter();
         reversals.any(|it| it.glitch > (SEEN * it.error).max(LEAST_SEEN))

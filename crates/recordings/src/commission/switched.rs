@@ -1,4 +1,4 @@
-//! Whether a list was on in one stage, and no part of it in the other (R16.13).
+//! Evidence that a list was on in one stage, and no part of it in the other (R16.13).
 
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::Reading;
@@ -8,7 +8,7 @@ use super::plan::Plan;
 use super::plant_found::PlantAxis;
 use crate::identify::{AxisRecording, Predictor, Timing, TorqueKind, median, verify_followed};
 
-/// What a recording shows about the compensation of its axes, besides the path.
+/// Evidence of a recording on the compensation of its axes, besides the path.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CompensationShown {
@@ -26,11 +26,11 @@ pub struct ShareOfList {
     pub axis: String,
     /// The SHA-256 of the list.
     pub list: String,
-    /// What its torque shows; `None` where it is not known to be the actual one.
+    /// Evidence of its torque; `None` where it is not known to be the actual one.
     pub torque: Option<TorqueOfList>,
 }
 
-/// What a recorded torque shows about a list.
+/// Evidence of a recorded torque on a list.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TorqueOfList {
@@ -41,25 +41,25 @@ pub struct TorqueOfList {
     pub friction: f64,
 }
 
-/// What recordings of an axis say about a state of its compensation.
+/// Statement of the recordings of an axis on a state of its compensation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum SwitchedAs {
-    /// They show it.
+    /// Recordings in that state.
     Shown,
-    /// They show another state, in words.
+    /// Recordings in another state, in words.
     Otherwise(String),
-    /// They show nothing, with what would.
+    /// Recordings without evidence, with what would give some.
     NotShown(String),
 }
 
-/// Where friction shows in the recordings of a plan.
+/// Signal in which friction shows in the recordings of a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Shows {
-    /// On circles of two axes, recorded feed by feed.
+    /// Circles of two axes, recorded feed by feed.
     Contour,
-    /// In the following error after reversals of one axis, recorded once, to which no plant is fitted: motor side, not
+    /// Following error after reversals of one axis, recorded once, to which no plant is fitted: motor side, not
     /// contour.
     FollowingError,
 }
@@ -73,7 +73,7 @@ impl Shows {
         }
     }
 
-    /// The number of recordings that have to agree.
+    /// Returns the number of recordings that have to agree.
     fn fewest(self) -> usize {
         match self {
             Self::Contour => 2,
@@ -89,17 +89,17 @@ pub(super) struct StagesOfAxis<'a> {
     pub axis: &'a str,
     /// The SHA-256 of its list.
     pub list: &'a str,
-    /// What the recordings of stage 1 show.
+    /// Evidence of the recordings of stage 1.
     pub off: &'a [&'a CompensationShown],
-    /// What those of the round show.
+    /// Evidence of the recordings of the round.
     pub on: &'a [&'a CompensationShown],
-    /// Where friction shows in them.
+    /// Signal in which friction shows in them.
     pub shows: Shows,
     /// The plant that was fitted to them.
     pub plant: Option<&'a PlantAxis>,
 }
 
-/// What a recorded torque shows about a list; `None` where it is not known to be the actual one.
+/// Returns the evidence of a recorded torque on a list; `None` where it is not known to be the actual one.
 pub fn torque_of_list(
     recording: &AxisRecording,
     kind: Option<TorqueKind>,
@@ -129,8 +129,8 @@ pub fn torque_of_list(
 }
 
 impl StagesOfAxis<'_> {
-    /// Whether all of the list was on in the round: by the torque, otherwise by the fitted plant. A torque that holds
-    /// less proves nothing where a plant does.
+    /// Judges whether all of the list was on in the round: by the torque, otherwise by the fitted plant. A torque that
+    /// holds less proves nothing where a plant does.
     pub(super) fn was_on(&self) -> SwitchedAs {
         if self.torque_shows_on() {
             return SwitchedAs::Shown;
@@ -154,8 +154,8 @@ impl StagesOfAxis<'_> {
         }
     }
 
-    /// Whether no part of the list was on in stage 1: by a recorded state, by a torque that shows the list where it was
-    /// on, or by the fitted plant.
+    /// Judges whether no part of the list was on in stage 1: by a recorded state, by a torque that shows the list where
+    /// it was on, or by the fitted plant.
     pub(super) fn was_off(&self) -> SwitchedAs {
         let axis = self.axis;
         if let Some(words) = self.plant.and_then(PlantAxis::other_friction_off) {
@@ -195,7 +195,7 @@ impl StagesOfAxis<'_> {
         ))
     }
 
-    /// Whether the share of the torque is at least 0.7 often enough, and nowhere below 0.75 for certain.
+    /// Returns whether the share of the torque is at least 0.7 often enough, and nowhere below 0.75 for certain.
     fn torque_shows_on(&self) -> bool {
         const LEAST: f64 = 0.7;
         let shares = self.shares(self.on);
@@ -236,7 +236,7 @@ impl StagesOfAxis<'_> {
         own.filter_map(|it| it.torque)
     }
 
-    /// What the torque of recordings leaves open, and what to record, after what else would show it.
+    /// Returns in words what the torque of recordings leaves open, and what to record, after other sources of evidence.
     fn what_would_show(&self, other: &str, recordings: &[&CompensationShown]) -> String {
         let or_a_plant = match self.shows {
             Shows::Contour => ", or name a plant to be fitted",
@@ -252,7 +252,7 @@ impl StagesOfAxis<'_> {
         )
     }
 
-    /// The range of the shares that show something, if they are enough and more than the others.
+    /// Returns the range of the shares that show something, if they are enough and more than the others.
     fn agreed(&self, shares: &[[f64; 2]], shows: impl Fn(&[f64; 2]) -> bool) -> Option<[f64; 2]> {
         let agree: Vec<&[f64; 2]> = shares.iter().filter(|it| shows(it)).collect();
         let is_enough = agree.len() >= self.shows.fewest() && 2 * agree.len() > shares.len();
@@ -266,7 +266,7 @@ impl StagesOfAxis<'_> {
     }
 }
 
-/// The range of shares of several recordings together, each weighted by its own range.
+/// Returns the range of shares of several recordings together, each weighted by its own range.
 fn together(shares: &[[f64; 2]]) -> Option<[f64; 2]> {
     /// The least half of a range: what the delays that all recordings share leave unknown.
     const LEAST: f64 = 0.02;
@@ -303,7 +303,8 @@ mod tests {
 
     const LIST: &str = "0123";
 
-    /// What a recording shows with a share of the list in its torque, and a friction as a part of the list.
+    /// Returns the evidence of a recording with a share of the list in its torque, and a friction as a part of the
+    /// list.
     fn shown(share: Option<[f64; 2]>, friction: f64) -> CompensationShown {
         CompensationShown {
             switched: Vec::new(),
@@ -315,7 +316,7 @@ mod tests {
         }
     }
 
-    /// The states of an axis in a round and in stage 1, whose recordings show these.
+    /// Returns the states of an axis in a round and in stage 1, whose recordings show these.
     fn states(off: &[CompensationShown], on: &[CompensationShown]) -> [SwitchedAs; 2] {
         let [off, on] = [off, on].map(|it| it.iter().collect::<Vec<_>>());
         let stages = StagesOfAxis {

@@ -33,7 +33,7 @@ const MISFIT: f64 = 0.1;
 /// The part of the samples that may be unexplained.
 const UNEXPLAINED: f64 = 0.02;
 
-/// The noise may be this part of the largest current.
+/// Largest noise as a part of the largest current.
 const NOISIEST: f64 = 0.25;
 
 /// The part by which the recorded current as a whole may be larger or smaller than that of the list.
@@ -67,7 +67,7 @@ struct Judgement<'a> {
     open: Vec<Question>,
 }
 
-/// How clearly the recording deviates from a combination.
+/// Margin by which the recording deviates from a combination.
 struct Margin {
     rival: Explained,
     /// Samples in which it differs from the best one.
@@ -230,7 +230,7 @@ impl<'a> Judgement<'a> {
         }
     }
 
-    /// The sample in which two combinations differ most.
+    /// Returns the sample in which two combinations differ most.
     fn at_most(&self, question: Question, margin: &Margin) -> String {
         let pairs = self.best.currents.iter().zip(&margin.rival.currents);
         let differences = pairs.map(|(best, other)| (best - other).abs()).enumerate();
@@ -251,7 +251,7 @@ impl<'a> Judgement<'a> {
         )
     }
 
-    /// Why the recording does not distinguish a reading from another.
+    /// Returns the reason why the recording does not distinguish a reading from another.
     fn not_told(&self, question: Question, margin: &Margin) -> String {
         if let Some(reason) = not_moved(question, self.list, &self.motion) {
             return reason;
@@ -289,7 +289,7 @@ impl<'a> Judgement<'a> {
     }
 }
 
-/// Every combination of readings of some questions, the assumed ones first.
+/// Returns every combination of readings of some questions, the assumed ones first.
 fn combinations(open: &[Question]) -> impl Iterator<Item = Reading> {
     let open = open.to_vec();
     (0..1_u32 << open.len()).map(move |bits| {
@@ -301,7 +301,7 @@ fn combinations(open: &[Question]) -> impl Iterator<Item = Reading> {
     })
 }
 
-/// The reading of a question in a combination.
+/// Returns the reading of a question in a combination.
 fn taken(reading: Reading, question: Question) -> Alternative {
     if reading == reading.with(question, Alternative::First) {
         Alternative::First
@@ -310,7 +310,7 @@ fn taken(reading: Reading, question: Question) -> Alternative {
     }
 }
 
-/// The usual difference of the samples from their explanation, as a standard deviation.
+/// Returns the usual difference of the samples from their explanation, as a standard deviation.
 fn noise_of(best: &Explained, counted: &Counted) -> f64 {
     let mut rests: Vec<f64> = best.rests(counted).collect();
     let middle = rests.len() / 2;

@@ -1,4 +1,4 @@
-//! Why a recording cannot decide a question.
+//! Reasons why a recording cannot decide a question.
 
 use super::recorded::{CycleMotion, EvidenceRecording};
 use frictcomp::diagnostic::ReadableNumber;
@@ -6,7 +6,7 @@ use frictcomp::lists::FrictionList;
 use frictcomp::readings::Question;
 use frictcomp_physics::current::{CommandedRow, Switched};
 
-/// Why the readings of a question give the same current with a value list, whatever the motion.
+/// Returns the reason why the readings of a question give the same current with a value list, whatever the motion.
 pub(super) fn no_difference(question: Question, list: &FrictionList) -> Option<String> {
     let first = list.table.first();
     let is_silent = list.scaling_factor == 0 || list.table.iter().all(|it| it.output == 0.0);
@@ -37,7 +37,7 @@ pub(super) fn no_difference(question: Question, list: &FrictionList) -> Option<S
     Some(reason.to_owned())
 }
 
-/// Why no sample counts.
+/// Returns the reason why no sample counts.
 pub(super) fn unseen(recorded: &EvidenceRecording, motion: &CycleMotion) -> &'static str {
     let mut rows = motion.rows.iter();
     let state = recorded.state.as_ref();
@@ -50,7 +50,7 @@ pub(super) fn unseen(recorded: &EvidenceRecording, motion: &CycleMotion) -> &'st
     }
 }
 
-/// The motion that a question needs and the recording lacks.
+/// Returns the motion that a question needs and the recording lacks.
 pub(super) fn not_moved(
     question: Question,
     list: &FrictionList,
@@ -88,7 +88,7 @@ pub(super) fn not_moved(
     Some(lacking.to_owned())
 }
 
-/// The standstills after a motion, by the velocities before and after each.
+/// Returns the standstills after a motion, by the velocities before and after each.
 fn stops<'a>(rows: &'a [&'a CommandedRow]) -> impl Iterator<Item = (f64, Option<f64>)> + 'a {
     let pairs = rows.windows(2).enumerate();
     let begins = pairs.filter(|(_, pair)| pair[0].velocity != 0.0 && pair[1].velocity == 0.0);

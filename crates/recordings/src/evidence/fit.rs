@@ -38,7 +38,7 @@ pub(super) struct Model<'a> {
 }
 
 impl Counted {
-    /// The samples in which the current does not depend on anything before the recording, or before
+    /// Returns the samples in which the current does not depend on anything before the recording, or before
     /// compensation was switched on.
     pub(super) fn of(
         recorded: &EvidenceRecording,
@@ -64,7 +64,7 @@ impl Counted {
     }
 }
 
-/// For each cycle, whether its current is known from the recorded motion alone.
+/// Returns for each cycle whether its current is known from the recorded motion alone.
 fn settled(motion: &CycleMotion, list: &FrictionList) -> Vec<bool> {
     let rows = &motion.rows;
     let lookahead = usize::from(list.reversal_lookahead);
@@ -108,7 +108,7 @@ impl Model<'_> {
             .collect()
     }
 
-    /// The currents of a reading at the samples, for each shift.
+    /// Returns the currents of a reading at the samples, for each shift.
     pub(super) fn explain(
         &self,
         reading: Reading,
@@ -131,18 +131,18 @@ impl Model<'_> {
 }
 
 impl Explained {
-    /// The sum of the unexplained currents.
+    /// Returns the sum of the unexplained currents.
     pub(super) fn cost(&self, counted: &Counted) -> f64 {
         self.rests(counted).sum()
     }
 
-    /// The unexplained current in each sample.
+    /// Returns the unexplained current in each sample.
     pub(super) fn rests<'a>(&'a self, counted: &'a Counted) -> impl Iterator<Item = f64> + 'a {
         let pairs = self.currents.iter().zip(&counted.samples);
         pairs.map(|(current, (_, recorded))| (recorded - current).abs())
     }
 
-    /// The largest current.
+    /// Returns the largest current.
     pub(super) fn amplitude(&self) -> f64 {
         let currents = self.currents.iter();
         currents.fold(0.0, |most, current| most.max(current.abs()))

@@ -36,7 +36,7 @@ pub struct EvidenceRecording {
     pub velocities: Option<Vec<f64>>,
     /// The additive current in drive units, on its own clock.
     pub current: Option<Samples>,
-    /// Whether friction compensation is active, 0 or 1, on its own clock.
+    /// State of friction compensation, 0 or 1, on its own clock.
     pub state: Option<Samples>,
     /// The CNC cycle, if it is known.
     pub cycle_s: Option<f64>,
@@ -52,7 +52,7 @@ pub(super) struct CycleMotion {
 }
 
 impl Samples {
-    /// The value at a time: that of the last sample up to it.
+    /// Returns the value at a time: that of the last sample up to it.
     pub(super) fn at(&self, time_s: f64) -> Option<f64> {
         let after = self.times_s.partition_point(|it| *it <= time_s);
         self.values.get(after.checked_sub(1)?).copied()
@@ -60,7 +60,7 @@ impl Samples {
 }
 
 impl EvidenceRecording {
-    /// The motion in CNC cycles, compensation switched as recorded.
+    /// Returns the motion in CNC cycles, compensation switched as recorded.
     ///
     /// # Errors
     /// The times are not those of a recording, or have a gap.
@@ -102,20 +102,20 @@ impl EvidenceRecording {
         self.cycle_s.or(of_motion).unwrap_or(USUAL_CYCLE_S)
     }
 
-    /// The step of the slower of motion and current.
+    /// Returns the step of the slower of motion and current.
     pub(super) fn step_s(&self) -> f64 {
         let current = self.current.as_ref().and_then(|it| step(&it.times_s));
         let motion = step(&self.times_s);
         motion.into_iter().chain(current).fold(0.0, f64::max)
     }
 
-    /// Whether each CNC cycle was recorded.
+    /// Returns whether each CNC cycle was recorded.
     pub(super) fn has_every_cycle(&self) -> bool {
         self.step_s() <= ONE_CYCLE * self.cycle_s()
     }
 }
 
-/// The usual step of times.
+/// Returns the usual step of times.
 pub(super) fn step(times_s: &[f64]) -> Option<f64> {
     let mut steps: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = steps.len() / 2;
@@ -125,7 +125,7 @@ pub(super) fn step(times_s: &[f64]) -> Option<f64> {
     Some(*steps.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// The time at which a gap begins.
+/// Returns the time at which a gap begins.
 fn gap(times_s: &[f64]) -> Option<f64> {
     let usual = step(times_s)?;
     let mut pairs = times_s.windows(2);

@@ -2,13 +2,13 @@
 
 use super::recorded::{CycleMotion, EvidenceRecording, step};
 
-/// The axis has turned back once it is below this part of the stroke.
+/// Part of the stroke below which the axis counts as turned back.
 const BACK: f64 = 0.95;
 
 /// Maximum distance of samples, as a part of the stroke.
 const NEAR: f64 = 0.015;
 
-/// Cycles within this part of the stroke are around a place.
+/// Part of the stroke within which cycles are around a place.
 const AROUND: f64 = 0.03;
 
 /// A switch of the state, as a part of the stroke.
@@ -22,13 +22,13 @@ pub(super) struct StrokeSwitch {
 pub(super) struct StrokeOut {
     /// Time, part of the stroke and speed of each cycle until the axis moves back.
     out: Vec<(f64, f64, f64)>,
-    /// Whether compensation was on at its beginning.
+    /// Whether compensation was on at the beginning of the stroke.
     pub(super) begins_on: bool,
     pub(super) switches: Vec<StrokeSwitch>,
 }
 
 impl StrokeOut {
-    /// The stroke of a recording.
+    /// Returns the stroke of a recording.
     ///
     /// # Errors
     /// Nothing moves, no state was recorded, or too rarely.
@@ -92,7 +92,7 @@ impl StrokeOut {
         })
     }
 
-    /// The lowest speed around a part of the stroke, as a part of its usual speed.
+    /// Returns the lowest speed around a part of the stroke, as a part of its usual speed.
     pub(super) fn slowest_at(&self, part: f64) -> f64 {
         let around = self.out.iter().filter(|it| (it.1 - part).abs() <= AROUND);
         let slowest = around.fold(f64::INFINITY, |least, it| least.min(it.2));

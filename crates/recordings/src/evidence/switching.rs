@@ -1,4 +1,4 @@
-//! Where a COMP command acts in a motion (R1.9), and whether it stops the path (R1.57).
+//! Position in a motion at which a COMP command acts (R1.9), and whether it stops the path (R1.57).
 
 use super::answer::Conclusion;
 use super::recorded::EvidenceRecording;
@@ -12,7 +12,7 @@ pub const WITH_MOTION_PARTS: [f64; 4] = [0.3, 0.2, 0.3, 0.2];
 /// The blocks in which the program of R1.57 moves: between them off, on, nothing, off; on follows the last.
 pub const LOOK_AHEAD_PARTS: [f64; 5] = [0.3, 0.2, 0.15, 0.15, 0.2];
 
-/// A switch of the state lies within this part of the stroke from where it is expected.
+/// Part of the stroke within which a switch of the state lies from where it is expected.
 const NEAR: f64 = 0.05;
 
 /// Part of the usual speed below which the path stops.
@@ -102,7 +102,7 @@ fn look_ahead(recorded: &EvidenceRecording) -> Result<(Alternative, String), Str
     ))
 }
 
-/// Whether the switches are those of a program, at their places.
+/// Returns whether the switches are those of a program, at their places.
 fn are_at(switches: &[StrokeSwitch], expected: &[(bool, f64)]) -> bool {
     let mut pairs = switches.iter().zip(expected);
     let fits = pairs.all(|(switch, (is_on, part))| {

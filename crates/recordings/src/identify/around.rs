@@ -19,11 +19,11 @@ pub(super) struct SignalWindow {
 
 /// Instruments for signals around reversals: time since the reversal, motion, the list.
 pub(super) struct Instruments {
-    /// For each window its rows.
+    /// Rows of each window.
     rows: Vec<Vec<Vec<f64>>>,
-    /// For each window the products of the instruments.
+    /// Products of the instruments in each window.
     products: Vec<Vec<Vec<f64>>>,
-    /// For each window the inverse for the other windows.
+    /// Inverse for the other windows, for each window.
     others: Vec<Vec<Vec<f64>>>,
     /// The inverse for all windows.
     all: Vec<Vec<f64>>,
@@ -74,7 +74,7 @@ impl Instruments {
         })
     }
 
-    /// A signal in all windows, divided by its size.
+    /// Returns a signal in all windows, divided by its size.
     pub(super) fn column(
         &self,
         windows: &[SignalWindow],
@@ -131,7 +131,7 @@ impl Instruments {
         }
     }
 
-    /// The squares of the part of a signal with these moments that the instruments find.
+    /// Returns the squares of the part of a signal with these moments that the instruments find.
     pub(super) fn found_in(&self, moments: &[f64]) -> f64 {
         dot(moments, &times(&self.all, moments))
     }
@@ -139,27 +139,27 @@ impl Instruments {
 
 /// A signal around reversals.
 pub(super) struct SignalAround {
-    /// For each window its samples, divided by the size.
+    /// Samples of each window, divided by the size.
     pub(super) values: Vec<Vec<f64>>,
     pub(super) size: f64,
-    /// For each window the products with the instruments.
+    /// Products with the instruments in each window.
     moments: Vec<Vec<f64>>,
-    /// Their sum.
+    /// Sum of the products.
     pub(super) total: Vec<f64>,
-    /// For each window the prediction of the other windows, by instrument.
+    /// Prediction of the other windows for each window, by instrument.
     expected: Vec<Vec<f64>>,
     /// The products of the instruments with that.
     spread: Vec<Vec<f64>>,
 }
 
 impl SignalAround {
-    /// The product of the prediction of this signal with another signal.
+    /// Returns the product of the prediction of this signal with another signal.
     pub(super) fn expected_with(&self, other: &Self) -> f64 {
         let pairs = self.expected.iter().zip(&other.moments);
         pairs.map(|(one, other)| dot(one, other)).sum()
     }
 
-    /// The product of the predictions of both.
+    /// Returns the product of the predictions of both.
     pub(super) fn both_expected(&self, other: &Self) -> f64 {
         let pairs = self.expected.iter().zip(&other.spread);
         pairs.map(|(one, other)| dot(one, other)).sum()

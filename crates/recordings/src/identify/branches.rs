@@ -36,12 +36,12 @@ pub struct DirectionBranches {
     pub points: Vec<BranchPoint>,
     /// The change of the common part from the slowest to the fastest speed, in drive units.
     pub change: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error: f64,
 }
 
 impl DirectionBranches {
-    /// The branches of pairs; `None` where both directions differ by an offset at most.
+    /// Returns the branches of pairs; `None` where both directions differ by an offset at most.
     pub(super) fn of(pairs: &[Pair]) -> Option<Self> {
         let both: Vec<(&Pair, f64)> = pairs
             .iter()
@@ -79,7 +79,7 @@ impl DirectionBranches {
         })
     }
 
-    /// The point at which one list for both directions is farthest from them, and the distance in drive units:
+    /// Returns the point at which one list for both directions is farthest from them, and the distance in drive units:
     /// at positive velocity the torque is larger by it, at negative velocity smaller.
     pub fn cost(&self) -> Option<(f64, f64)> {
         let costs = self.points.iter();
@@ -90,7 +90,7 @@ impl DirectionBranches {
 
 /// A straight line through the common parts over a function of the speed.
 struct Line {
-    /// From the slowest to the fastest speed.
+    /// Change from the slowest to the fastest speed.
     change: f64,
     error: f64,
     /// The weighted squares of what it leaves.

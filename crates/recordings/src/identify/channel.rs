@@ -14,13 +14,13 @@ const MOST_HELD: f64 = 0.5;
 /// Least number of reversals that show a delay.
 const FEWEST: usize = 3;
 
-/// Delays below this are those of drives and filters, in s.
+/// Delay in s below which it is that of drives and filters.
 const USUAL_S: f64 = 0.1;
 
 /// Means of the torque that noise does not reverse, in s.
 const SMOOTHED_S: f64 = 0.02;
 
-/// Speeds below this have no direction, in mm/s or °/s.
+/// Speed below which there is no direction, in mm/s or °/s.
 const STANDSTILL: f64 = 0.05;
 
 /// Drops segments in which the torque keeps its last digit over a reversal, which no friction does, and reports them.
@@ -65,8 +65,8 @@ pub(super) fn drop_held(
     Ok(Some(TraceFinding::new(Code::Fc525, message, help)))
 }
 
-/// FC522 for a torque that reverses later than drives and filters cause: at three quarters of the reversals between
-/// segments or more.
+/// Returns FC522 for a torque that reverses later than drives and filters cause: at three quarters of the reversals
+/// between segments or more.
 pub(super) fn late(samples: &AxisSamples, segments: &[Segment]) -> Option<TraceFinding> {
     let torques = moving_average(&samples.torques, samples_in(SMOOTHED_S, samples.step_s));
     let mean = |segment: &Segment| trimmed_mean(&samples.torques[segment.samples.clone()]);

@@ -29,7 +29,7 @@ pub struct OnCircles {
 }
 
 impl OnCircles {
-    /// The value list: the points, the first one held down to standstill.
+    /// Returns the value list: the points, the first one held down to standstill.
     pub fn list(&self) -> FrictionList {
         let held = self.points.first().map(|point| [0.0, point[1]]);
         let points = held.into_iter().chain(self.points.iter().copied());
@@ -64,7 +64,7 @@ const SETTLING_S: f64 = 0.05;
 /// A point with fewer samples is left out.
 const FEWEST: f64 = 200.0;
 
-/// An axis on a circle has a constant speed for a smaller part of the time.
+/// Largest part of the time at constant speed for an axis on a circle.
 const MOST_STEADY: f64 = 0.5;
 
 /// Returns the friction in recordings of an axis on circles, of which only what all of them have in common is known

@@ -7,11 +7,11 @@ use super::segment::Segment;
 use super::statistics::{count, trimmed_mean};
 use super::track::AxisSamples;
 
-/// Fewer samples at the limit are not clipping.
+/// Least number of samples at the limit that are clipping.
 const FEWEST: usize = 5;
 
-/// Noise alone puts fewer samples at the extreme of a segment: this many times the usual part, or
-/// half-way from it to the whole.
+/// Multiple of the usual part of samples at the extreme of a segment that noise alone does not reach, at most half-way
+/// from it to the whole.
 const UNUSUAL: f64 = 3.0;
 
 /// A segment with this part at the limit does not show its mean.
@@ -27,7 +27,7 @@ struct AtLimit {
     beside: usize,
 }
 
-/// The segments whose torque is cut off at the greatest or the least value of the recording.
+/// Returns the segments whose torque is cut off at the greatest or the least value of the recording.
 pub(super) fn clipped(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize> {
     let mut found: Vec<usize> = [1.0, -1.0]
         .into_iter()
@@ -39,8 +39,8 @@ pub(super) fn clipped(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize>
     found
 }
 
-/// The segments of one direction whose mean torque is the same at the limit while that of the other direction changes with
-/// the speed: noise that was added after a limit hides it.
+/// Returns the segments of one direction whose mean torque is the same at the limit while that of the other direction
+/// changes with the speed: noise that was added after a limit hides it.
 fn levelled(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize> {
     /// Speeds at the same limit.
     const SPEEDS: usize = 3;
@@ -91,7 +91,7 @@ fn levelled(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize> {
     found
 }
 
-/// The segments cut off at one end: at the greatest value, or with the sign -1 at the least.
+/// Returns the segments cut off at one end: at the greatest value, or with the sign -1 at the least.
 fn clipped_at(samples: &AxisSamples, segments: &[Segment], sign: f64) -> Vec<usize> {
     let torque = |at: usize| sign * samples.torques[at];
     let limit = (0..samples.torques.len()).map(torque).fold(0.0, f64::max);
@@ -127,7 +127,7 @@ fn clipped_at(samples: &AxisSamples, segments: &[Segment], sign: f64) -> Vec<usi
     cut.map(|it| it.segment).collect()
 }
 
-/// The greatest value of a segment, and its samples there.
+/// Returns the greatest value of a segment, and its samples there.
 fn extreme(index: usize, segment: &Segment, torque: impl Fn(usize) -> f64) -> (f64, AtLimit) {
     let range = segment.samples.clone();
     let most = range.clone().map(&torque).fold(f64::NEG_INFINITY, f64::max);
@@ -153,8 +153,8 @@ fn extreme(index: usize, segment: &Segment, torque: impl Fn(usize) -> f64) -> (f
     (most, found)
 }
 
-/// Whether the torque between the segments, where it is below the limit, changes in most samples
-/// from one to the next.
+/// Returns whether the torque between the segments, where it is below the limit, changes in most samples from one to
+/// the next.
 fn varies_elsewhere(samples: &AxisSamples, segments: &[Segment], limit: f64) -> bool {
     const ENOUGH: usize = 20;
     let is_within = |at: &usize| segments.iter().any(|it| it.samples.contains(at));

@@ -47,8 +47,8 @@ const HUBER: f64 = 1.345;
 const STEPS: u32 = 80;
 
 impl FrictionCurve {
-    /// The friction at a speed in mm/s. Below the slowest and above the fastest point of lines the value
-    /// is held.
+    /// Returns the friction at a speed in mm/s. Below the slowest and above the fastest point of lines the value is
+    /// held.
     pub fn at(&self, speed: f64) -> f64 {
         match self {
             Self::Fit(fit) => fit.at(speed),
@@ -57,7 +57,7 @@ impl FrictionCurve {
     }
 }
 
-/// The value of straight lines, held outside.
+/// Returns the value of straight lines, held outside.
 pub(crate) fn along(points: &[[f64; 2]], x: f64) -> f64 {
     let after = points.partition_point(|point| point[0] < x);
     match (after.checked_sub(1).map(|at| points[at]), points.get(after)) {
@@ -68,7 +68,7 @@ pub(crate) fn along(points: &[[f64; 2]], x: f64) -> f64 {
 }
 
 impl Fit {
-    /// The friction at a speed in mm/s.
+    /// Returns the friction at a speed in mm/s.
     pub fn at(&self, speed: f64) -> f64 {
         let fading = (-(speed / self.stribeck).powf(self.shape)).exp();
         self.coulomb + (self.breakaway - self.coulomb) * fading + self.viscous * speed
@@ -82,7 +82,7 @@ struct SignedPoints {
     errors: Vec<f64>,
 }
 
-/// The best fit through the pairs; `None` if there are fewer of them than parameters.
+/// Returns the best fit through the pairs; `None` if there are fewer of them than parameters.
 pub(super) fn fit(pairs: &[Pair]) -> Option<Fit> {
     if pairs.len() < 4 {
         return None;
@@ -123,7 +123,7 @@ pub(super) fn fit(pairs: &[Pair]) -> Option<Fit> {
     Some(best)
 }
 
-/// The best place between the neighbours of a place on the grid, by the golden section.
+/// Returns the best place between the neighbours of a place on the grid, by the golden section.
 fn refined(at: f64, start: Fit, step: f64, try_at: impl Fn(f64) -> Option<Fit>) -> Fit {
     const GOLDEN: f64 = 0.618_033_988_75;
     let (mut low, mut high) = (at - step, at + step);
@@ -148,8 +148,8 @@ fn refined(at: f64, start: Fit, step: f64, try_at: impl Fn(f64) -> Option<Fit>) 
 }
 
 impl SignedPoints {
-    /// The linear parameters for one vs: Fc above 0, Fs not below Fc, fv not below 0; repeated with
-    /// less weight for outliers.
+    /// Returns the linear parameters for one vs: Fc above 0, Fs not below Fc, fv not below 0; repeated with less weight
+    /// for outliers.
     fn solve(&self, stribeck: f64, shape: f64) -> Option<Fit> {
         let rows: Vec<[f64; 3]> = self
             .speeds
@@ -185,8 +185,7 @@ impl SignedPoints {
         found
     }
 
-    /// Weighted least squares with Fs - Fc and fv not negative: the best of all choices of those that
-    /// are 0.
+    /// Fits weighted least squares with Fs - Fc and fv not negative: the best of all choices of those that are 0.
     fn least_squares(&self, rows: &[[f64; 3]], weights: &[f64]) -> Option<[f64; 3]> {
         const CHOICES: [&[usize]; 4] = [&[0, 1, 2], &[0, 1], &[0, 2], &[0]];
         let mut best: Option<(f64, [f64; 3])> = None;

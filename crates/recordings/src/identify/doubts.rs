@@ -15,17 +15,16 @@ use frictcomp_physics::current::Switched;
 /// Part of the clipped speeds above which nothing is identified.
 const MOST_CLIPPED: f64 = 0.2;
 
-/// Friction below this part of the rated torque is that of a compensated loop.
+/// Part of the rated torque below which friction is that of a compensated loop.
 const LEAST_OF_RATED: f64 = 0.02;
 
-/// Friction above this part of the rated torque is questionable; above the whole of it no axis moves for
-/// long.
+/// Part of the rated torque above which friction is questionable; above the whole of it no axis moves for long.
 const MUCH_OF_RATED: f64 = 0.5;
 
 /// Number of standard errors that is significant.
 const SIGNIFICANT: f64 = 3.0;
 
-/// A fault that rules out a list.
+/// Returns a fault that rules out a list.
 pub(super) fn refused(code: Code, message: String, help: &str) -> IdentifyError {
     IdentifyError::Refused(TraceFinding::new(code, message, help))
 }
@@ -69,9 +68,9 @@ pub(super) fn check_directions(
     }
 }
 
-/// Whether all segments have one direction; without segments, whether all velocities do.
+/// Returns whether all segments have one direction; without segments, whether all velocities do.
 fn is_one_way(samples: &AxisSamples, segments: &[Segment]) -> bool {
-    /// Noise around standstill is a smaller part of the fastest speed.
+    /// Largest noise around standstill, as a part of the fastest speed.
     const NOISE: f64 = 0.1;
     if !segments.is_empty() {
         let ways = |sign: f64| segments.iter().any(|it| it.velocity * sign > 0.0);
@@ -93,7 +92,7 @@ fn unsigned_velocity(message: &str) -> IdentifyError {
     )
 }
 
-/// A speed in apparently one direction with torques that differ as in both directions.
+/// Returns a speed in apparently one direction with torques that differ as in both directions.
 fn two_torques(samples: &AxisSamples, segments: &[Segment]) -> Option<(f64, [f64; 2])> {
     /// A difference by this part of the greater one is not drift.
     const APART: f64 = 0.3;
@@ -163,7 +162,7 @@ pub(super) fn missing_rows(times_s: &[f64], step_s: f64) -> Option<TraceFinding>
     })
 }
 
-/// Whether the torque changes so little that it contains no friction.
+/// Returns whether the torque changes so little that it contains no friction.
 pub(super) fn is_still(samples: &AxisSamples, measured: &Measured) -> bool {
     let torques = samples.torques.iter();
     let [low, high] = torques.fold([f64::MAX, f64::MIN], |[low, high], it| {
@@ -191,7 +190,7 @@ pub(super) fn check_points(
     samples: &AxisSamples,
     measured: &Measured,
 ) -> Result<Vec<TraceFinding>, IdentifyError> {
-    /// Points from circles are exact to this part of the largest friction.
+    /// Error of points from circles, as a part of the largest friction.
     const EXACT: f64 = 0.02;
     let largest = points.iter().map(|it| it[1].abs()).fold(0.0, f64::max);
     let pair = |&[speed, friction]: &[f64; 2]| Pair {
@@ -207,7 +206,8 @@ pub(super) fn check_points(
     Ok(said.into_iter().flatten().collect())
 }
 
-/// A torque that never changes its sign has the friction in the part that is equal in both directions.
+/// Checks that a torque changes its sign: one that never does has the friction in the part that is equal in both
+/// directions.
 fn check_unsigned_torque(pairs: &[Pair], samples: &AxisSamples) -> Result<(), IdentifyError> {
     let torques = || samples.torques.iter().copied();
     let is_unsigned = torques().all(|it| it >= 0.0) || torques().all(|it| it <= 0.0);
@@ -237,7 +237,7 @@ fn check_unsigned_torque(pairs: &[Pair], samples: &AxisSamples) -> Result<(), Id
     Ok(())
 }
 
-/// Friction that opposes the motion at some speeds, or at all of them.
+/// Checks for friction that opposes the motion at some speeds, or at all of them.
 fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, IdentifyError> {
     let is_so = |sign: f64| {
         move |it: &&Pair| it.friction * sign > SIGNIFICANT * it.error && it.offset.is_some()
@@ -278,7 +278,7 @@ fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, 
     )))
 }
 
-/// Whether the torque has the sign of the acceleration, if that is strong enough to show.
+/// Returns whether the torque has the sign of the acceleration, if that is strong enough to show.
 fn accelerates_rightly(samples: &AxisSamples) -> bool {
     /// A correlation that noise does not produce.
     const CLEAR: f64 = 0.2;
@@ -296,7 +296,7 @@ fn accelerates_rightly(samples: &AxisSamples) -> bool {
     product > CLEAR * (squares * torques).sqrt() && squares > 0.0
 }
 
-/// The part of the rated torque that is friction.
+/// Returns the part of the rated torque that is friction.
 fn against_rated(
     pairs: &[Pair],
     measured: &Measured,
@@ -357,7 +357,7 @@ fn against_rated(
     }))
 }
 
-/// Whether the torque contains what compensation adds; for one that does not, compensation was off.
+/// Checks that compensation was off, or that the torque contains what it adds.
 pub(super) fn check_compensation(
     measured: &Measured,
 ) -> Result<Option<TraceFinding>, IdentifyError> {
@@ -390,7 +390,7 @@ pub(super) fn check_compensation(
     }
 }
 
-/// The recording contradicts a statement about it: no list unless it does not matter.
+/// Returns a finding on a recording that contradicts a statement about it; there is no list unless it does not matter.
 fn contradicted(
     contradiction: Contradiction,
     measured: &Measured,
@@ -417,7 +417,7 @@ fn contradicted(
     Err(refused(Code::Fc521, message, help))
 }
 
-/// A place where the axis moves harder in both directions.
+/// Returns a place where the axis moves harder in both directions.
 pub(super) fn tight(
     samples: &AxisSamples,
     segments: &[Segment],

@@ -8,7 +8,7 @@ use frictcomp::diagnostic::{Code, Severity};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TraceFinding {
-    /// Its number.
+    /// Number.
     pub code: Code,
     /// Severity.
     pub severity: Severity,

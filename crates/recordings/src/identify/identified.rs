@@ -1,4 +1,4 @@
-//! From a recording to a friction curve and the points of a value list.
+//! Computation of a friction curve and of the points of a value list from a recording.
 
 use thiserror::Error;
 
@@ -28,7 +28,7 @@ pub struct IdentifyOptions {
 }
 
 impl Default for IdentifyOptions {
-    /// Eight points, 2 %, 1 m/min, the actual torque of the drive.
+    /// Returns the default options: eight points, 2 %, 1 m/min, the actual torque of the drive.
     fn default() -> Self {
         Self {
             wanted: RequestedPoints::Points(8),
@@ -39,7 +39,7 @@ impl Default for IdentifyOptions {
     }
 }
 
-/// Why nothing was identified.
+/// Reason why nothing was identified.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IdentifyError {
@@ -68,7 +68,7 @@ pub enum IdentifyError {
     NoFriction {
         /// Half of the difference between the directions.
         friction: f64,
-        /// Its standard error.
+        /// Standard error.
         spread: f64,
     },
 }
@@ -124,7 +124,7 @@ pub struct Identified {
 }
 
 impl Identified {
-    /// The value list: the points, and everything else as the control assumes it.
+    /// Returns the value list: the points, and everything else as the control assumes it.
     pub fn list(&self) -> FrictionList {
         let points = u32::try_from(self.points.len()).unwrap_or(DEFAULT_MAX_POINTS);
         FrictionList {
@@ -137,18 +137,18 @@ impl Identified {
         }
     }
 
-    /// Both directions where they differ by more than an offset (R6.25): neither a value list nor an offset holds
-    /// that.
+    /// Returns both directions where they differ by more than an offset (R6.25): neither a value list nor an offset
+    /// holds that.
     pub fn branches(&self) -> Option<DirectionBranches> {
         DirectionBranches::of(&self.pairs)
     }
 
-    /// Whether the offset is less than a hundredth of the friction.
+    /// Returns whether the offset is less than a hundredth of the friction.
     pub fn is_offset_small(&self) -> bool {
         self.offset.abs() < 0.01 * self.level()
     }
 
-    /// The fit if the curve is one.
+    /// Returns the fit if the curve is one.
     pub fn used_fit(&self) -> Option<&Fit> {
         match &self.curve {
             FrictionCurve::Fit(fit) => Some(fit),
@@ -156,7 +156,7 @@ impl Identified {
         }
     }
 
-    /// The smallest friction of the pairs, without its sign.
+    /// Returns the smallest friction of the pairs, without its sign.
     pub(super) fn level(&self) -> f64 {
         let levels = self.pairs.iter().map(|pair| pair.friction.abs());
         levels.fold(f64::INFINITY, f64::min)

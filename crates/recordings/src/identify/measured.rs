@@ -69,7 +69,7 @@ const WORDS: [(TorqueKind, &[&str]); 3] = [
 ];
 
 impl TorqueKind {
-    /// The kind named by the name, symbol or comment of a channel.
+    /// Returns the kind named by the name, symbol or comment of a channel.
     pub fn of(channel: &Channel) -> Option<Self> {
         let texts = [&channel.name, &channel.symbol, &channel.comment];
         let plain = texts.map(|text| text.to_lowercase().replace(['_', ' ', '.', '-'], ""));
@@ -110,7 +110,7 @@ pub enum Contradiction {
 pub struct Measured {
     /// Kind of torque; `None` if it is not known.
     pub kind: Option<TorqueKind>,
-    /// Whether friction compensation was on; `None` if that is not known.
+    /// State of friction compensation; `None` if that is not known.
     pub compensation: Option<Switched>,
     /// The rated torque in the unit of the channel, if it is known.
     pub rated: Option<f64>,
@@ -157,7 +157,7 @@ impl Measured {
 pub(super) const RATED_UNITS: f64 = 1000.0;
 
 impl Default for Measured {
-    /// The actual torque in drive units, 0.1 % of the rated torque.
+    /// Returns the actual torque in drive units, 0.1 % of the rated torque.
     fn default() -> Self {
         Self {
             kind: Some(TorqueKind::Actual),

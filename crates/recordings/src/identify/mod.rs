@@ -1,4 +1,4 @@
-//! From recorded torque to a value list (chapter 6 of the rules).
+//! Computation of a value list from recorded torque (chapter 6 of the rules).
 //!
 //! [`identify`] finds constant speeds in a [`Track`], takes friction and offset from the torques in both
 //! directions, draws a curve through them and chooses the points of a value list.

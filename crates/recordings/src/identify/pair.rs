@@ -10,7 +10,7 @@ use super::track::AxisSamples;
 /// Blocks for the standard error, in s.
 const BLOCK_S: f64 = 0.1;
 
-/// A common range of positions is used if it is this part of both.
+/// Part of both ranges of positions from which their common range is used.
 const COMMON: f64 = 0.5;
 
 /// The friction at one speed.
@@ -39,7 +39,7 @@ pub struct Visit {
     pub time_s: f64,
     /// The friction in drive units.
     pub friction: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error: f64,
 }
 
@@ -62,7 +62,7 @@ pub(super) struct PairedSpeeds {
 }
 
 impl PairedSpeeds {
-    /// The pairs of a recording of a length in s, with their offset and their drift.
+    /// Returns the pairs of a recording of a length in s, with their offset and their drift.
     pub(super) fn of(samples: &AxisSamples, segments: &[Segment], duration_s: f64) -> Self {
         let groups = speeds_of(segments);
         let step = resolution(&samples.torques);
@@ -78,7 +78,7 @@ impl PairedSpeeds {
             }
         }
         let offsets: Vec<f64> = pairs.iter().filter_map(|pair| pair.offset).collect();
-        // Not weighted: ripple makes errors at high speeds small, but not right.
+        // Unweighted: because of ripple, the errors at high speeds are too small.
         let offset = median(&offsets).unwrap_or(0.0);
         for pair in pairs.iter_mut().filter(|pair| pair.offset.is_none()) {
             // Only one direction: its torque without the offset of the others.
@@ -179,8 +179,8 @@ impl Measure<'_> {
         }
     }
 
-    /// The samples of two segments where both were at the same positions: what depends on the position
-    /// is then the same in both.
+    /// Returns the samples of two segments where both were at the same positions: what depends on the position is then
+    /// the same in both.
     fn common(&self, forth: &Segment, back: &Segment) -> [Range<usize>; 2] {
         let positions = &self.samples.positions;
         let ends = |segment: &Segment| {
@@ -250,11 +250,11 @@ fn couples(segments: &[Segment], group: &[usize]) -> Vec<(usize, usize)> {
 pub struct Drift {
     /// The part by which friction is larger at the end of the recording than at its beginning.
     pub part: f64,
-    /// Whether it is more than the errors of the visits.
+    /// Whether the change exceeds the errors of the visits.
     pub is_seen: bool,
 }
 
-/// The drift of all speeds that were visited more than once; `None` if there are too few.
+/// Returns the drift of all speeds that were visited more than once; `None` if there are too few.
 fn drift(pairs: &[Pair], duration_s: f64) -> Option<Drift> {
     /// Standard errors from which a difference counts as real.
     const SIGNIFICANT: f64 = 4.0;

@@ -18,7 +18,7 @@ pub struct AxisChannels {
     velocity: Option<Pick>,
     position: Option<Pick>,
     torque: Option<Pick>,
-    /// Whether friction compensation was on.
+    /// Channel of the state of friction compensation.
     state: Option<Pick>,
     /// The actual position in addition to the commanded one, or the following error itself.
     followed: Option<(FollowingForm, Pick)>,
@@ -27,9 +27,9 @@ pub struct AxisChannels {
 /// Form of the recorded following error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum FollowingForm {
-    /// As itself.
+    /// The following error itself.
     Error,
-    /// As the actual position.
+    /// The actual position.
     Actual,
 }
 
@@ -74,8 +74,8 @@ impl AxisRecording {
 }
 
 impl AxisChannels {
-    /// The channels that the user names, those with the short names `t`, `v`, `x`, `torque`, and the
-    /// state of friction compensation.
+    /// Returns the channels that the user names, those with the short names `t`, `v`, `x`, `torque`, and the state of
+    /// friction compensation.
     ///
     /// # Errors
     /// A channel that is named or needed is missing.
@@ -143,7 +143,7 @@ impl AxisChannels {
             .filter_map(|(quantity, pick)| Some((quantity, pick?)))
     }
 
-    /// The samples of the channels at common times. Rows without times are `cycle_s` apart.
+    /// Returns the samples of the channels at common times. Rows without times are `cycle_s` apart.
     ///
     /// # Errors
     /// The channels have no common times.
@@ -216,7 +216,7 @@ impl AxisChannels {
         }
     }
 
-    /// The units of channels that were chosen by their short names alone.
+    /// Returns the units of channels that were chosen by their short names alone.
     fn names_that_were_taken(&self, recording: &TraceRecording) -> Option<String> {
         let taken = self.picks().filter_map(|(quantity, pick)| {
             let channel = &recording.channels()[pick.channel.get()];
@@ -228,7 +228,7 @@ impl AxisChannels {
         (!taken.is_empty()).then(|| format!("taken by their names: {}", taken.join(", ")))
     }
 
-    /// FC519 for every unit that gives reason for it.
+    /// Returns FC519 for every unit that gives reason for it.
     fn unit_findings(&self, recording: &TraceRecording) -> Vec<TraceFinding> {
         let findings = self.picks().filter_map(|(quantity, pick)| {
             unit_finding(&recording.channels()[pick.channel.get()], quantity, pick)
@@ -237,8 +237,8 @@ impl AxisChannels {
     }
 }
 
-/// FC519 for a unit that the recording does not give, unless the channel has a short name that implies it; for a torque that
-/// is not in drive units; and for angles, which may be those of the motor of a linear axis (R6.26).
+/// Returns FC519 for a unit that the recording does not give, unless the channel has a short name that implies it; for
+/// a torque that is not in drive units; and for angles, which may be those of the motor of a linear axis (R6.26).
 pub fn unit_finding(
     channel: &Channel,
     quantity: ChannelQuantity,
@@ -277,7 +277,8 @@ pub fn unit_finding(
     Some(TraceFinding::new(Code::Fc519, message, help))
 }
 
-/// The following error: the channel that the user names, `e`, the actual position `x_act`, or one that is recognised.
+/// Returns the following error: the channel that the user names, `e`, the actual position `x_act`, or one that is
+/// recognised.
 fn followed_of(
     selection: &ChannelSelection,
     channels: &[Channel],
@@ -305,7 +306,7 @@ fn followed_of(
     Ok(None)
 }
 
-/// Whether a channel has the short name that implies its unit.
+/// Returns whether a channel has the short name that implies its unit.
 fn is_short(name: &str) -> bool {
     ["v", "x", "torque"]
         .iter()
@@ -318,13 +319,13 @@ fn is_short(name: &str) -> bool {
 pub enum StatedAxis {
     /// The one of the recording: `comp`, or a variable without its axis.
     Own,
-    /// By its name: `active_<axis>`, `V.A.FRICT_COMP_ACTIVE.<axis>`.
+    /// Axis by its name: `active_<axis>`, `V.A.FRICT_COMP_ACTIVE.<axis>`.
     Named(String),
-    /// By its number in a CNC object.
+    /// Axis by its number in a CNC object.
     Numbered(u32),
 }
 
-/// The axis whose friction compensation a channel states as on or off; `None` for any other channel (R6.29).
+/// Returns the axis whose friction compensation a channel states as on or off; `None` for any other channel (R6.29).
 pub fn stated_axis(channel: &Channel) -> Option<StatedAxis> {
     const VARIABLE: &str = "FRICT_COMP_ACTIVE";
     const MEMBER: &str = "FRICT_COMP.F_IS_ACTIVE";
@@ -352,7 +353,7 @@ pub fn stated_axis(channel: &Channel) -> Option<StatedAxis> {
     is_own.then_some(StatedAxis::Own)
 }
 
-/// The channel that states whether the friction compensation of the axis is on: the only one, or that of the
+/// Returns the channel that states whether the friction compensation of the axis is on: the only one, or that of the
 /// selected axis.
 pub fn state_channel(selection: &ChannelSelection, channels: &[Channel]) -> Option<Pick> {
     let states = channels.iter().enumerate();

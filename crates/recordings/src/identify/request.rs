@@ -1,4 +1,4 @@
-//! What a user asks of an identified value list.
+//! Wishes of a user for an identified value list.
 
 use thiserror::Error;
 
@@ -23,7 +23,7 @@ pub struct ListRequest {
     pub feed_mm_per_min: f64,
 }
 
-/// Why a list cannot be as it is asked for.
+/// Reason why a list cannot be made as requested.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ListRequestError {

@@ -38,7 +38,7 @@ pub(super) struct Wave {
 }
 
 impl Wave {
-    /// Period and amplitude.
+    /// Returns the period and the amplitude.
     pub(super) fn ripple(&self) -> Ripple {
         let [cosine, sine] = self.parts;
         Ripple {
@@ -47,13 +47,13 @@ impl Wave {
         }
     }
 
-    /// The torque at a position in mm or degrees.
+    /// Returns the torque at a position in mm or degrees.
     pub(super) fn at(&self, position: f64) -> f64 {
         let (sine, cosine) = (TAU * self.frequency * position).sin_cos();
         self.parts[0] * cosine + self.parts[1] * sine
     }
 
-    /// The wave of a frequency that fits best if every segment has a separate mean: a segment shorter than a
+    /// Returns the wave of a frequency that fits best if every segment has a separate mean: a segment shorter than a
     /// period says little about it.
     fn fitted(samples: &AxisSamples, segments: &[Segment], frequency: f64) -> Option<Self> {
         let mut sums = [[0.0; 3]; 2];
@@ -87,7 +87,7 @@ impl Wave {
     }
 }
 
-/// The largest ripple of the segments, if it stands out from the noise.
+/// Returns the largest ripple of the segments, if it stands out from the noise.
 pub(super) fn wave(samples: &AxisSamples, segments: &[Segment]) -> Option<Wave> {
     let residuals = residuals(samples, segments);
     let positions = residuals.iter().map(|it| it[0]);
@@ -112,7 +112,7 @@ pub(super) fn wave(samples: &AxisSamples, segments: &[Segment]) -> Option<Wave> 
     (amplitude > 2.0 * by_chance).then(|| Wave::fitted(samples, segments, frequency))?
 }
 
-/// The frequency between its neighbours at which the amplitude is greatest.
+/// Returns the frequency between its neighbours at which the amplitude is greatest.
 fn sharpened(residuals: &[[f64; 2]], frequency: f64, step: f64) -> f64 {
     let near = (-10..=10).map(|at| frequency + f64::from(at) * step / 10.0);
     let greatest = near

@@ -22,7 +22,7 @@ const STEADY_PART: f64 = 0.01;
 /// … or within this many standard deviations of the averaged noise.
 const STEADY_SIGMA: f64 = 5.0;
 
-/// Slower segments are ignored, in mm/s.
+/// Speed in mm/s below which segments are ignored.
 const SLOWEST: f64 = 0.1;
 
 /// Part cut off at the start, or duration if that is more; and part cut off at the end.
@@ -46,16 +46,16 @@ pub struct Segment {
     pub velocity_error: f64,
 }
 
-/// Two speeds are the same within this part.
+/// Part within which two speeds are the same.
 const SAME: f64 = 0.05;
 
 impl Segment {
-    /// The time in its middle, in s.
+    /// Returns the time in its middle, in s.
     pub(super) fn middle_s(&self) -> f64 {
         f64::midpoint(self.from_s, self.to_s)
     }
 
-    /// Whether two segments have the same speed, in any direction, to the extent that noise permits.
+    /// Returns whether two segments have the same speed, in any direction, to the extent that noise permits.
     pub(super) fn is_as_fast_as(&self, other: &Self) -> bool {
         let [one, another] = [self.velocity.abs(), other.velocity.abs()];
         let unsure = 3.0 * self.velocity_error.hypot(other.velocity_error);
@@ -63,7 +63,7 @@ impl Segment {
     }
 }
 
-/// The segments of a recording in their order.
+/// Returns the segments of a recording in their order.
 pub(super) fn segments(samples: &AxisSamples) -> Vec<Segment> {
     let speeds = SteadySpeeds::of(samples);
     let mut found = Vec::new();
@@ -126,7 +126,7 @@ impl<'a> SteadySpeeds<'a> {
         }
     }
 
-    /// A stretch without its ends, unless nothing is left of it or the axis hardly moves.
+    /// Returns a stretch without its ends, unless nothing is left of it or the axis hardly moves.
     fn cut(&self, samples: &AxisSamples, range: Range<usize>) -> Option<Segment> {
         let length = count(range.len());
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // parts of a length
@@ -237,7 +237,7 @@ fn unbroken(samples: &AxisSamples) -> Vec<Range<usize>> {
     stretches
 }
 
-/// The longest successive stretches within which no two speeds differ by more than twice the permitted
+/// Returns the longest successive stretches within which no two speeds differ by more than twice the permitted
 /// difference.
 fn steady(averaged: &[f64], noise: f64, shortest: usize) -> Vec<Range<usize>> {
     let admitted = |speed: f64| {

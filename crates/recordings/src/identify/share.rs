@@ -13,7 +13,7 @@ use frictcomp_physics::linear::inverse;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Share {
     pub(super) value: f64,
-    /// Its standard error, with that of the unknown delays.
+    /// Standard error, with that of the unknown delays.
     pub(super) error: f64,
 }
 
@@ -72,7 +72,7 @@ const LEAST_ERROR: f64 = 0.005;
 const LEAST_NOISE: f64 = 0.28;
 
 impl Signals<'_> {
-    /// The share, if two reversals or more were recorded that do not follow each other too soon.
+    /// Returns the share, if two reversals or more were recorded that do not follow each other too soon.
     pub(super) fn share(&self) -> Option<Share> {
         let windows = self.windows();
         if windows.len() < 2 {
@@ -191,7 +191,7 @@ struct TorqueFit {
 }
 
 impl TorqueFit {
-    /// The fit of a torque by signals, the last of which is the current.
+    /// Returns the fit of a torque by signals, the last of which is the current.
     fn of(
         instruments: &Instruments,
         torque: &SignalAround,
@@ -240,7 +240,7 @@ impl TorqueFit {
         })
     }
 
-    /// The combined share of the fits, each weighted by its likelihood.
+    /// Returns the combined share of the fits, each weighted by its likelihood.
     fn together(fits: &[Self]) -> Option<Share> {
         let valid = || {
             fits.iter()
@@ -312,7 +312,7 @@ fn integrated(signal: &[f64], step_s: f64) -> Vec<f64> {
     signal.iter().map(&mut add).collect()
 }
 
-/// The signal at parts of each sample, on cubic curves through four neighbours.
+/// Returns the signal at parts of each sample, on cubic curves through four neighbours.
 fn between(signal: &[f64]) -> Vec<f64> {
     let last = signal.len() - 1;
     let curve = |at: usize| {

@@ -1,4 +1,4 @@
-//! From a recording at constant speeds to the points of a value list.
+//! Evaluation of a recording at constant speeds for the points of a value list.
 
 use super::channel::{drop_held, late};
 use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
@@ -28,7 +28,7 @@ const DOUBTS: [Code; 8] = [
     Code::Fc526,
 ];
 
-/// What makes a recording of any motion doubtful (R6.21).
+/// Returns the findings that make a recording of any motion doubtful (R6.21).
 ///
 /// # Errors
 /// The recording cannot show any friction.
@@ -80,7 +80,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     let residuals = residuals(&samples, &segments);
     let wave = wave(&samples, &segments);
     if let Some(wave) = wave {
-        // What repeats along the travel is neither friction nor weight.
+        // A torque that repeats along the travel is neither friction nor weight.
         samples.take_away(|position| wave.at(position));
     }
     let PairedSpeeds {
@@ -138,7 +138,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     };
     let lacks = warnings::findings(&identified, options);
     identified.findings.extend(lacks);
-    // What makes the values doubtful comes before what only limits them.
+    // Findings that make the values doubtful come before those that only limit them.
     let is_minor = |it: &TraceFinding| !DOUBTS.contains(&it.code);
     identified.findings.sort_by_key(is_minor);
     Ok(identified)

@@ -2,7 +2,7 @@
 
 use super::identified::Identified;
 
-/// Two speeds are the same within this part.
+/// Part within which two speeds are the same.
 const SAME: f64 = 0.05;
 
 /// Friction of one axis in several states, at the speeds of the state that the list is for.
@@ -58,7 +58,7 @@ impl ComparedStates {
         }
     }
 
-    /// The row with the largest spread; `None` if no two states have a common speed.
+    /// Returns the row with the largest spread; `None` if no two states have a common speed.
     pub fn widest(&self) -> Option<&StateRow> {
         let spread = |row: &&StateRow| row.spread;
         let rows = self.rows.iter().filter(|row| spread(row).is_some());

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 /// Factor from the median of deviations to a standard deviation.
 const NORMAL: f64 = 1.4826;
 
-/// The middle value; the mean of the two middle ones of an even number.
+/// Returns the middle value; the mean of the two middle ones of an even number.
 pub(crate) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     let middle = sorted.len() / 2;
@@ -21,8 +21,8 @@ pub(crate) fn median(values: &[f64]) -> Option<f64> {
     Some(f64::midpoint(lower, upper))
 }
 
-/// The standard deviation of the noise on a signal, from its second differences: a signal that rises
-/// evenly has none.
+/// Returns the standard deviation of the noise on a signal, from its second differences: a signal that rises evenly has
+/// none.
 pub(crate) fn noise_of(values: &[f64]) -> f64 {
     let second = values
         .windows(3)
@@ -32,7 +32,7 @@ pub(crate) fn noise_of(values: &[f64]) -> f64 {
     median(&second).unwrap_or(0.0) * NORMAL / 6.0_f64.sqrt()
 }
 
-/// The mean of the values between the 5th and the 95th percentile.
+/// Returns the mean of the values between the 5th and the 95th percentile.
 pub(super) fn trimmed_mean(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -41,7 +41,7 @@ pub(super) fn trimmed_mean(values: &[f64]) -> f64 {
     kept.iter().sum::<f64>() / count(kept.len())
 }
 
-/// The standard error of a mean, from the means of blocks: neighbours may be alike.
+/// Returns the standard error of a mean, from the means of blocks: neighbours may be alike.
 pub(super) fn standard_error(values: &[f64], block: usize) -> f64 {
     let block = block.min(values.len() / 4).max(1);
     let means: Vec<f64> = values
@@ -56,7 +56,7 @@ pub(super) fn standard_error(values: &[f64], block: usize) -> f64 {
     (squares / count(means.len() - 1) / count(means.len())).sqrt()
 }
 
-/// The smallest step between two values: the resolution of the drive.
+/// Returns the smallest step between two values: the resolution of the drive.
 pub(super) fn resolution(values: &[f64]) -> f64 {
     let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     let least = steps
@@ -77,7 +77,7 @@ pub(crate) fn count(samples: usize) -> f64 {
     samples as f64
 }
 
-/// The mean of the samples around each one.
+/// Returns the mean of the samples around each one.
 pub(crate) fn moving_average(values: &[f64], width: usize) -> Vec<f64> {
     // Running sums, as far back as a mean still needs them.
     let mut sums = VecDeque::from([0.0]);

@@ -6,9 +6,9 @@ use super::curve::FrictionCurve;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RequestedPoints {
-    /// At most this many.
+    /// This number of points at most.
     Points(usize),
-    /// As few as keep the error below this part of the friction, but at most `most`.
+    /// The smallest number that keeps the error below this part of the friction, but at most `most`.
     Error {
         /// The part of the Coulomb friction.
         part: f64,
@@ -37,8 +37,8 @@ pub(super) struct Support {
 /// Places for points.
 const PLACES: u32 = 200;
 
-/// The points, ascending, the first at standstill and the last at the fastest speed. The largest error
-/// of the lines is the smallest that a number of points can have (dynamic programming).
+/// Returns the points, ascending, the first at standstill and the last at the fastest speed. The largest error of the
+/// lines is the smallest that a number of points can have (dynamic programming).
 pub(super) fn support(
     curve: &FrictionCurve,
     speeds: SpeedRange,
@@ -117,9 +117,8 @@ impl CandidateTable {
         }
     }
 
-    /// The same number of points off the curve if that makes the largest error smaller: lines between points
-    /// of a bent curve are all on one side of it. The first point stays, since the value at standstill is
-    /// known.
+    /// Returns the same number of points off the curve if that makes the largest error smaller: lines between points of
+    /// a bent curve are all on one side of it. The first point stays, since the value at standstill is known.
     fn balanced(&self, on_curve: Support) -> Support {
         /// Number of rounds by which nothing changes any more.
         const ROUNDS: usize = 60;
@@ -161,15 +160,15 @@ impl CandidateTable {
         })
     }
 
-    /// The largest error of a line between two places.
+    /// Returns the largest error of a line between two places.
     fn error(&self, from: usize, to: usize) -> f64 {
         let place = |at: usize| [self.speeds[at], self.values[at]];
         let [below, above] = self.beside([place(from), place(to)]);
         above.max(-below)
     }
 
-    /// For every number of lines up to one less than `most` points, the smallest largest error and its
-    /// places. The first one, without a line, is not used.
+    /// Returns for every number of lines up to one less than `most` points the smallest largest error and its places.
+    /// The first one, without a line, is not used.
     fn best(&self, most: usize) -> Vec<(f64, Vec<usize>)> {
         let places = self.speeds.len();
         let mut errors = vec![0.0; places * places];

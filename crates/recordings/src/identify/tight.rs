@@ -24,7 +24,7 @@ const PART: f64 = 0.05;
 /// A place where the axis moves harder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TightSpot {
-    /// Its ends in mm or degrees.
+    /// Ends in mm or degrees.
     pub(super) from: f64,
     pub(super) to: f64,
     /// Least additional torque, in drive units.
@@ -46,7 +46,7 @@ impl Sums {
         self.squares += value * value;
     }
 
-    /// The mean if it is significant.
+    /// Returns the mean if it is significant.
     fn significant(&self) -> Option<f64> {
         let mean = self.sum / self.count;
         let spread = (self.squares / self.count - mean * mean).max(0.0);
@@ -56,7 +56,7 @@ impl Sums {
     }
 }
 
-/// The tightest place of the travel, against a friction of `level` with its sign.
+/// Returns the tightest place of the travel, against a friction of `level` with its sign.
 pub(super) fn tight_spot(
     samples: &AxisSamples,
     segments: &[Segment],

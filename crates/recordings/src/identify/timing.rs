@@ -1,5 +1,4 @@
-//! Whether the additive current of a list acted during a recording, and whether it was early or late
-//! (R6.22).
+//! Action of the additive current of a list during a recording, and its timing: early or late (R6.22).
 //!
 //! The total of the torque is friction, whatever supplies it, and the build-up of the loops looks like a
 //! lag: only the following error shows the effect of the list. The output of the loops is linear in the
@@ -23,7 +22,7 @@ const AFTER_S: f64 = 0.15;
 /// … and before it.
 const BEFORE_S: f64 = 0.05;
 
-/// Following errors at reversals below this do not count, in mm.
+/// Size in mm below which following errors at reversals do not count.
 const NOTICEABLE: f64 = 0.0003;
 
 /// Number of standard errors that is significant.
@@ -50,7 +49,7 @@ pub struct ActingShare {
 #[serde(rename_all = "kebab-case", tag = "state")]
 #[non_exhaustive]
 pub enum Timing {
-    /// No following error was recorded, or fewer than two reversals.
+    /// No evidence: no following error was recorded, or fewer than two reversals.
     Open,
     /// The list did not act, or its current is not in the torque.
     Off(ActingShare),
@@ -97,13 +96,14 @@ impl ActingShare {
         self.low > ACTING && self.high < 2.0 - ACTING
     }
 
-    /// Neither this list nor none, by an interval no wider than that of a list that acted.
+    /// Returns whether the share is neither that of this list nor none, by an interval no wider than that of a list
+    /// that acted.
     fn is_other(&self) -> bool {
         let excludes = |value: f64| !(self.low..=self.high).contains(&value);
         excludes(0.0) && excludes(1.0) && self.high - self.low < 2.0 * (1.0 - ACTING)
     }
 
-    /// The part with its interval, for a sentence.
+    /// Returns the part with its interval, for a sentence.
     fn words(&self) -> String {
         let Self { share, low, high } = self;
         format!("{share:.2} of its current is in the torque, between {low:.2} and {high:.2}")
@@ -111,7 +111,7 @@ impl ActingShare {
 }
 
 impl Timing {
-    /// The sentence about it.
+    /// Returns the sentence about it.
     pub fn sentence(&self) -> String {
         match self {
             Self::Open => "whether the list acted, and its timing, are open: that takes the following error at two \
@@ -145,7 +145,7 @@ impl Timing {
         }
     }
 
-    /// `early` or `late`, if the following error shows it.
+    /// Returns `early` or `late`, if the following error shows it.
     pub fn early_or_late(&self) -> Option<&'static str> {
         let Self::On {
             swing_um, error_um, ..
@@ -208,7 +208,7 @@ impl FollowedRecording<'_> {
         }
     }
 
-    /// The first swing of the following error at the reversals.
+    /// Returns the first swing of the following error at the reversals.
     fn swing(&self, share: ActingShare) -> Timing {
         let [before, after] = [BEFORE_S, AFTER_S].map(|it| samples_in(it, self.samples.step_s));
         let swing = |&turn: &usize| {

@@ -31,7 +31,7 @@ impl Track {
         }
     }
 
-    /// The samples from a time in s on.
+    /// Returns the samples from a time in s on.
     #[must_use]
     pub fn since(mut self, time_s: f64) -> Self {
         let before = self.times_s.partition_point(|it| *it < time_s);
@@ -46,7 +46,7 @@ impl Track {
     }
 }
 
-/// Why a track cannot be used.
+/// Reason why a track cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TrackError {
@@ -60,7 +60,7 @@ pub enum TrackError {
         time_s: f64,
         /// The quantity, in words.
         what: &'static str,
-        /// Its value.
+        /// Value.
         value: f64,
     },
     /// Fewer samples than a segment has.
@@ -107,9 +107,9 @@ impl TrackError {
 #[derive(Debug, Clone)]
 pub(super) struct AxisSamples {
     pub(super) times_s: Vec<f64>,
-    /// In mm/s or °/s.
+    /// Velocities in mm/s or °/s.
     pub(super) velocities: Vec<f64>,
-    /// In mm or degrees.
+    /// Positions in mm or degrees.
     pub(super) positions: Vec<f64>,
     /// Whether the positions were recorded, not computed from the velocities.
     pub(super) has_positions: bool,

@@ -44,7 +44,7 @@ pub struct Level {
 pub struct FrictionLevels([Level; 4]);
 
 impl FrictionLevels {
-    /// The parameters of an identified friction; `None` if its curve does not have them.
+    /// Returns the parameters of an identified friction; `None` if its curve does not have them.
     ///
     /// Each speed is moved by its error, and the effects on a parameter are added in squares.
     pub fn of(found: &Identified) -> Option<Self> {
@@ -73,7 +73,7 @@ impl FrictionLevels {
         Some(Self([level(0), level(1), level(2), offset]))
     }
 
-    /// The value of a parameter.
+    /// Returns the value of a parameter.
     pub fn get(&self, parameter: FrictionParameter) -> Level {
         let [coulomb, breakaway, viscous, offset] = self.0;
         match parameter {
@@ -85,7 +85,7 @@ impl FrictionLevels {
     }
 }
 
-/// The standard error of the median of the offsets: from their scatter, or from the torque if that is more.
+/// Returns the standard error of the median of the offsets: from their scatter, or from the torque if that is more.
 fn offset_error(found: &Identified) -> f64 {
     const OF_MEDIAN: f64 = 1.2533;
     let offsets: Vec<f64> = found.pairs.iter().filter_map(|it| it.offset).collect();
@@ -112,9 +112,8 @@ pub struct FrictionChange {
     pub errors: f64,
 }
 
-/// The changes over recordings in the order of their dates. Each parameter is compared with the first
-/// recording, and after a change with the one in which it changed, so that a slow drift is found as well as a
-/// step.
+/// Returns the changes over recordings in the order of their dates. Each parameter is compared with the first
+/// recording, and after a change with the one in which it changed, so that a slow drift is found as well as a step.
 pub fn friction_changes(levels: &[FrictionLevels]) -> Vec<FrictionChange> {
     let mut changes = Vec::new();
     for parameter in FrictionParameter::ALL {

@@ -42,7 +42,7 @@ const UNITS: [&str; 18] = [
     "m",
 ];
 
-/// FC524 if the fastest speed is one that no axis or no recording of friction has.
+/// Returns FC524 if the fastest speed is one that no axis or no recording of friction has.
 pub(super) fn improbable_speed(
     channel: &Channel,
     pick: &Pick,
@@ -92,7 +92,7 @@ pub(super) fn improbable_speed(
     ))
 }
 
-/// The fastest speed of positions, over a twentieth of a second.
+/// Returns the fastest speed of positions, over a twentieth of a second.
 fn fastest(positions: &[f64], track: &Track) -> f64 {
     const SPAN_S: f64 = 0.05;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1 to some hundreds

@@ -44,7 +44,7 @@ pub struct Verified {
     pub one_sided: Option<ScaleRange>,
     /// Whether only motion farther than [`CONTACT_MM`] from the last reversal counts for the scales.
     pub is_away_from_reversals: bool,
-    /// Whether the recording is not what it seems, or friction changes in it (R6.21).
+    /// Whether the recording may be of something else, or friction changes in it (R6.21).
     pub is_doubted: bool,
 }
 
@@ -72,10 +72,10 @@ pub struct Reversal {
     pub predicted: f64,
 }
 
-/// Ranges of speeds end here, in mm/s: between speeds that people record, so that the noise of none is split.
+/// Ends of the ranges of speeds in mm/s: between speeds that people record, so that the noise of none is split.
 const BOUNDS: [f64; 8] = [1.4, 3.4, 7.6, 14.0, 34.0, 76.0, 140.0, f64::INFINITY];
 
-/// Slower motion in mm/s is rest.
+/// Speed in mm/s below which motion is rest.
 const REST: f64 = 0.05;
 
 /// Velocities with less noise in mm/s are commanded ones.
@@ -116,7 +116,7 @@ pub fn verify_recording(
 ) -> Result<Verified, IdentifyError> {
     let verified = verify_followed(&recording.track, &recording.following_errors, predictor)?;
     let doubts = doubts_about(&recording.track, recording.measured)?.into_iter();
-    // What is wrong goes before what is not known.
+    // Definite faults come before what is not known.
     let (open, wrong): (Vec<_>, Vec<_>) = doubts.partition(|it| it.code == Code::Fc521);
     let is_doubted = !wrong.is_empty();
     recording.findings.splice(0..0, wrong);
@@ -237,7 +237,7 @@ pub fn verify_followed(
 const MOST_CYCLES: f64 = 100.0;
 
 impl Predictor<'_> {
-    /// The speeds from rest to the last point of the list that no range holds.
+    /// Returns the speeds from rest to the last point of the list that no range holds.
     fn not_judged(&self, ranges: &[ScaleRange]) -> Vec<RangeInclusive<f64>> {
         let last = self.list.table.last();
         let fastest = last.map_or(0.0, |point| point.input / 1000.0);
@@ -252,7 +252,7 @@ impl Predictor<'_> {
             .collect()
     }
 
-    /// The additive current at each sample, of an axis with these velocities in mm/s.
+    /// Returns the additive current at each sample, of an axis with these velocities in mm/s.
     fn currents(&self, samples: &AxisSamples, velocities: &[f64]) -> Vec<f64> {
         let mut current = AdditiveCurrent::new(self.list, self.reading);
         let cycle_s = self.cycle_s.unwrap_or(samples.step_s);
@@ -307,7 +307,7 @@ impl Predictor<'_> {
 struct PredictedMotion {
     velocities: Vec<f64>,
     accelerations: Vec<f64>,
-    /// Slower motion in mm/s has no direction.
+    /// Speed in mm/s below which motion has no direction.
     rest: f64,
     /// The direction of each sample; at rest the last one applies.
     signs: Vec<f64>,
@@ -349,7 +349,7 @@ impl PredictedMotion {
         }
     }
 
-    /// The speed from which on there are enough samples to judge a list.
+    /// Returns the speed from which on there are enough samples to judge a list.
     fn slowest(&self, used: &[usize]) -> f64 {
         let mut speeds: Vec<f64> = used.iter().map(|&at| self.velocities[at].abs()).collect();
         speeds.sort_unstable_by(f64::total_cmp);
@@ -369,7 +369,7 @@ impl PredictedMotion {
             .collect()
     }
 
-    /// The samples in motion, without those shortly after a change of direction: some samples, and some way.
+    /// Returns the samples in motion, without those shortly after a change of direction: some samples, and some way.
     fn used(&self, after: usize, (positions, way): (&[f64], f64)) -> Vec<usize> {
         let mut since = 0;
         let mut from = positions[0];
@@ -389,7 +389,7 @@ impl PredictedMotion {
         used
     }
 
-    /// Whether the axis reverses without standstill: only then the timing is visible.
+    /// Returns whether the axis reverses without standstill: only then the timing is visible.
     fn turns_at_once(&self, at: usize) -> bool {
         const LONGEST: usize = 20;
         let moving = |index: usize| self.velocities[index].abs() > self.rest;
@@ -421,7 +421,7 @@ fn range_of(speed: f64) -> usize {
 
 /// A least-squares fit of the recorded torque.
 struct Regression {
-    /// By range; `None` with too few samples.
+    /// Scales by range; `None` with too few samples.
     scales: Vec<Option<f64>>,
     inertia: f64,
     offset: f64,
@@ -462,7 +462,7 @@ impl Regression {
     }
 }
 
-/// The torque as the prediction times a scale, which may differ between ranges, an inertia times the
+/// Returns the torque as the prediction times a scale, which may differ between ranges, an inertia times the
 /// acceleration, and an offset.
 fn regress(
     samples: &AxisSamples,
@@ -510,19 +510,19 @@ fn regress(
 }
 
 impl Verified {
-    /// Whether the list fits the recorded torque, and nothing makes the recording doubtful.
+    /// Returns whether the list fits the recorded torque, and nothing makes the recording doubtful.
     pub fn fits(&self) -> bool {
         self.agrees() && !self.is_doubted
     }
 
-    /// Whether the list has no fault, and no other list acted.
+    /// Returns whether the list has no fault, and no other list acted.
     pub fn agrees(&self) -> bool {
         self.verdict().is_empty() && !matches!(self.timing, Timing::Other(_))
     }
 
     /// Returns the faults of the list, each a sentence.
     pub fn verdict(&self) -> Vec<String> {
-        /// A list within this part is right.
+        /// Deviation of a scale from 1 within which a list is right.
         const RIGHT: f64 = 0.03;
         let mut said = Vec::new();
         if self.scale < 0.0 {

@@ -14,10 +14,10 @@ const SLOW: f64 = 0.5;
 /// Minimum number of speeds for a curve.
 const FEWEST: usize = 4;
 
-/// Ripple of this part of the friction is reported.
+/// Part of the friction from which ripple is reported.
 const RIPPLE: f64 = 0.01;
 
-/// All findings, in the order of the codes.
+/// Returns all findings, in the order of the codes.
 pub(super) fn findings(found: &Identified, options: &IdentifyOptions) -> Vec<TraceFinding> {
     let checks: [fn(&Identified, &IdentifyOptions) -> Option<TraceFinding>; 8] = [
         slow_speeds,

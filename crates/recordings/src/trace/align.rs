@@ -17,7 +17,7 @@ use frictcomp::diagnostic::ReadableNumber;
 pub struct Aligned {
     /// The times in seconds, rising.
     pub times_s: Vec<f64>,
-    /// For each channel its samples in the units of lists and traces.
+    /// Samples of each channel in the units of lists and traces.
     pub columns: Vec<Vec<f64>>,
     /// The usual time between two samples.
     pub step_s: f64,
@@ -25,7 +25,7 @@ pub struct Aligned {
     pub remarks: Vec<String>,
 }
 
-/// Why channels cannot be brought together.
+/// Reason why channels cannot be brought together.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotAligned {
@@ -48,7 +48,7 @@ pub enum NotAligned {
     Apart {
         /// A channel with the times of its group.
         one: String,
-        /// Another one.
+        /// Name of the other channel.
         other: String,
     },
     /// Too few samples for any statement.
@@ -85,8 +85,8 @@ impl NotAligned {
 const BRIDGED: f64 = 5.0;
 
 impl TraceRecording {
-    /// The samples of some channels on the clock of the fastest one, the others interpolated. Rows
-    /// without times are `cycle_s` apart.
+    /// Returns the samples of some channels on the clock of the fastest one, the others interpolated. Rows without
+    /// times are `cycle_s` apart.
     ///
     /// # Errors
     /// The channels have no times in common, or none that rise.
@@ -152,7 +152,7 @@ impl TraceRecording {
         Ok(aligned)
     }
 
-    /// A channel with the times of its group.
+    /// Returns a channel with the times of its group.
     fn span(&self, track: &TimedChannel<'_>) -> String {
         format!(
             "`{}` ({} to {} s)",
@@ -162,7 +162,7 @@ impl TraceRecording {
         )
     }
 
-    /// What is said about groups of channels that were not recorded over the same time (R6.27).
+    /// Returns the remark on groups of channels that were not recorded over the same time (R6.27).
     fn unequal_spans(&self, tracks: &[TimedChannel<'_>]) -> Option<String> {
         /// The greatest difference of the ends of channels that were recorded together, in steps.
         const TOGETHER: f64 = 3.0;
@@ -256,7 +256,7 @@ impl TraceRecording {
     }
 }
 
-/// A time without the rounding error of a difference.
+/// Returns a time without the rounding error of a difference.
 fn readable(seconds: f64) -> ReadableNumber {
     ReadableNumber((seconds * 1e6).round() / 1e6)
 }
@@ -270,7 +270,7 @@ struct TimedChannel<'a> {
     channel: ChannelIndex,
     clock: Option<usize>,
     has_holes: bool,
-    /// Those of the recording if none is left out.
+    /// Times of the samples; those of the recording if none is left out.
     times_s: Cow<'a, [f64]>,
     values: Vec<f64>,
     step_s: f64,
@@ -285,7 +285,7 @@ impl TimedChannel<'_> {
         self.times_s.last().copied().unwrap_or(f64::NEG_INFINITY)
     }
 
-    /// Whether there are samples around a time, not too far from each other.
+    /// Returns whether there are samples around a time, not too far from each other.
     fn covers(&self, time: f64) -> bool {
         let after = self.times_s.partition_point(|&it| it < time);
         match (
@@ -298,7 +298,7 @@ impl TimedChannel<'_> {
         }
     }
 
-    /// The values at some rising times.
+    /// Returns the values at some rising times.
     fn at(&self, times_s: &[f64]) -> Vec<f64> {
         let mut after = 0;
         let value = |&time: &f64| {

@@ -3,7 +3,7 @@
 /// Separator of two cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Separator {
-    /// One such byte.
+    /// The given byte.
     Byte(u8),
     /// Any number of blanks, as in tables that are aligned.
     Blanks,
@@ -21,7 +21,7 @@ impl Separator {
         }
     }
 
-    /// The cells of a row without quotes.
+    /// Returns the cells of a row without quotes.
     pub(super) fn cells(self, row: &[u8]) -> Cells<'_> {
         Cells {
             rest: match self {
@@ -32,7 +32,7 @@ impl Separator {
         }
     }
 
-    /// The cells of a row in which some may be in quotes, without these.
+    /// Returns the cells of a row in which some may be in quotes, without these.
     pub(super) fn quoted_cells(self, row: &[u8]) -> Vec<Vec<u8>> {
         let mut cells = Vec::new();
         let mut rest = Some(row);
@@ -58,7 +58,7 @@ impl Separator {
     }
 }
 
-/// The text up to the closing quote, and what follows it. Two quotes are one.
+/// Returns the text up to the closing quote, and what follows it. Two quotes are one.
 fn unquoted(row: &[u8]) -> (Vec<u8>, &[u8]) {
     let mut cell = Vec::new();
     let mut at = 0;
@@ -109,16 +109,16 @@ impl<'a> Iterator for Cells<'a> {
 pub(super) enum CellValue {
     /// A number.
     Number(f64),
-    /// Nothing, or a computer's word for a missing number.
+    /// No value, or a computer's word for a missing number.
     Missing,
-    /// Something else.
+    /// Any other text.
     Other,
 }
 
 /// Decimal marks found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Decimals {
-    /// None yet.
+    /// No decimal mark yet.
     #[default]
     Unseen,
     /// Points.
@@ -167,7 +167,7 @@ pub(super) fn value(cell: &[u8]) -> (CellValue, Decimals) {
     }
 }
 
-/// Whether a cell begins as numbers do.
+/// Returns whether a cell begins as numbers do.
 pub(super) fn starts_number(cell: &[u8]) -> bool {
     let digits = cell.strip_prefix(b"-").or_else(|| cell.strip_prefix(b"+"));
     match digits.unwrap_or(cell) {
@@ -206,7 +206,7 @@ fn is_no_number(cell: &[u8]) -> bool {
         || cell == "\u{221e}".as_bytes()
 }
 
-/// Whether a switch is on: `on`, `off`, `true`, `1`.
+/// Returns the state of a switch as a number: 1 for `on`, `true` and `1`, 0 for `off`, `false` and `0`.
 pub(super) fn switch(cell: &[u8]) -> Option<f64> {
     let cell = cell.trim_ascii();
     let is = |word: &str| cell.eq_ignore_ascii_case(word.as_bytes());
@@ -219,7 +219,7 @@ pub(super) fn switch(cell: &[u8]) -> Option<f64> {
     }
 }
 
-/// Whether a line is a row of numbers: its first cell is one, and so are at least half of its cells.
+/// Returns whether a line is a row of numbers: its first cell is one, and so are at least half of its cells.
 pub(super) fn is_data(line: &[u8], separator: Option<Separator>) -> bool {
     let is_value = |cell: &[u8]| {
         let cell = cell.trim_ascii();
@@ -247,7 +247,7 @@ pub(super) fn is_data(line: &[u8], separator: Option<Separator>) -> bool {
     begins && values >= others
 }
 
-/// A text of a header.
+/// Returns a text of a header.
 pub(super) fn text(cell: &[u8]) -> String {
     let text = match std::str::from_utf8(cell) {
         Ok(text) => text.to_owned(),

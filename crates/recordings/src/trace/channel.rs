@@ -9,12 +9,12 @@ use super::unit::split_unit;
 pub struct ChannelIndex(pub(super) usize);
 
 impl ChannelIndex {
-    /// From an index of [`TraceRecording::channels`](super::TraceRecording::channels).
+    /// Converts from an index of [`TraceRecording::channels`](super::TraceRecording::channels).
     pub(crate) fn new(index: usize) -> Self {
         Self(index)
     }
 
-    /// As an index of [`TraceRecording::channels`](super::TraceRecording::channels).
+    /// Converts to an index of [`TraceRecording::channels`](super::TraceRecording::channels).
     pub fn get(self) -> usize {
         self.0
     }
@@ -24,7 +24,7 @@ impl ChannelIndex {
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Channel {
-    /// Its name in the file; without a header `column 1` and so on.
+    /// Name in the file; without a header `column 1` and so on.
     pub name: String,
     /// The comment or the description that the file gives.
     pub comment: String,
@@ -45,7 +45,7 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// The unit that the file gives, in a row of units or in the name.
+    /// Returns the unit that the file gives, in a row of units or in the name.
     pub fn named_unit(&self) -> Option<&str> {
         let unit = self.unit.as_deref();
         let unit = unit.or_else(|| split_unit(&self.name).1);
@@ -67,15 +67,15 @@ pub struct ScopeDrawing {
     pub range: Option<[f64; 2]>,
 }
 
-/// Whether samples contain the factor and the offset of the drawing.
+/// Treatment of the factor and the offset of the drawing in the samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Contains {
-    /// They are in the samples.
+    /// Factor and offset are in the samples.
     Scale,
     /// The samples are those of the variable.
     Raw,
-    /// Nothing in the file shows it.
+    /// No evidence in the file.
     Open,
 }
 
@@ -147,25 +147,25 @@ pub struct CncObject {
 }
 
 impl CncObject {
-    /// The number of the axis, 0 for an object without an axis.
+    /// Returns the number of the axis, 0 for an object without an axis.
     pub fn axis(self) -> u32 {
         self.offset >> 16
     }
 
-    /// The number of the object below its axis.
+    /// Returns the number of the object below its axis.
     pub fn element(self) -> u32 {
         self.offset & 0xffff
     }
 }
 
 impl fmt::Display for CncObject {
-    /// `0x120300:0x501D3`.
+    /// Writes `0x120300:0x501D3`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "0x{:X}:0x{:X}", self.group, self.offset)
     }
 }
 
-/// A whole number as headers write it, `1180416` or `0x120300`.
+/// Returns a whole number as headers write it, `1180416` or `0x120300`.
 pub(super) fn parse_address(text: &str) -> Option<u32> {
     let text = text.trim();
     match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {

@@ -19,15 +19,15 @@ pub struct Choice {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum TimeSource {
-    /// From the columns of times that the layout has; a table with a header has none.
+    /// The columns of times that the layout has; a table with a header has none.
     #[default]
     Layout,
-    /// From a channel.
+    /// A channel.
     Channel(Pick),
 }
 
 impl Choice {
-    /// All channels that are there, with the times of one of them where the layout has none.
+    /// Chooses all channels that are there, with the times of one of them where the layout has none.
     pub fn all(channels: &[Channel], time: Option<Pick>) -> Self {
         Self {
             values: (0..channels.len()).map(ChannelIndex).collect(),

@@ -53,7 +53,7 @@ impl Clock {
     }
 }
 
-/// The median of some numbers.
+/// Returns the median of some numbers.
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     let middle = values.len() / 2;

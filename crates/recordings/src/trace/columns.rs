@@ -14,9 +14,9 @@ pub(super) struct FileLine {
 /// Form of the times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum TimeScale {
-    /// As Scope does: ms from the first point, or FILETIME, 100 ns since the year 1601.
+    /// Times of Scope: ms from the first point, or FILETIME, 100 ns since the year 1601.
     Scope,
-    /// In a unit of a length in seconds.
+    /// Times in a unit of the given length in seconds.
     Seconds(f64),
 }
 

@@ -21,7 +21,7 @@ pub(super) struct CsvTable {
 
 #[derive(Default)]
 enum CsvStage {
-    /// Above the numbers.
+    /// The lines above the numbers.
     Head(Head),
     /// Among the numbers.
     Rows(Box<ChannelTable>),

@@ -1,11 +1,11 @@
-//! Why a recorded trace cannot be read, or a channel cannot be found.
+//! Failures in reading a recorded trace or in finding a channel.
 
 use std::fmt::Write as _;
 
 use super::unit::ChannelQuantity;
 use thiserror::Error;
 
-/// Why a trace cannot be read: one sentence in lower case, with its line if there is one.
+/// Reason why a trace cannot be read: one sentence in lower case, with its line if there is one.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TraceProblem {
@@ -105,7 +105,7 @@ pub enum TraceProblem {
 }
 
 impl TraceProblem {
-    /// The line of the file, if it is about one value.
+    /// Returns the line of the file, if it is about one value.
     pub fn line(&self) -> Option<u64> {
         match self {
             Self::Number { line, .. } | Self::Switch { line, .. } => Some(*line),
@@ -146,7 +146,7 @@ impl TraceProblem {
     }
 }
 
-/// Why a channel was not found.
+/// Reason why a channel was not found.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SelectError {
@@ -165,7 +165,7 @@ pub enum SelectError {
     Several {
         /// Requested item.
         wanted: String,
-        /// Those that fit.
+        /// Channels that fit.
         found: Vec<String>,
     },
     /// A unit that Scope scales, so that the samples are in another one.

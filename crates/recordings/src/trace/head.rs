@@ -74,7 +74,7 @@ impl Head {
         self.columns()
     }
 
-    /// The rows of numbers that have come so far.
+    /// Returns the rows of numbers that have come so far.
     pub(super) fn rows(self) -> Vec<FileLine> {
         self.rows
     }

@@ -7,10 +7,10 @@ use super::recording::ChannelSamples;
 /// The part of an interval by which a record may lie off the grid.
 const OFF_GRID: f64 = 0.01;
 
-/// Times are decimals of a second with at most so many digits.
+/// Factor for rounding times: decimals of a second with at most nine digits.
 const DECIMALS: f64 = 1e9;
 
-/// What the head of a trace says about its samples.
+/// Statements in the head of a trace about its samples.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StatedSamples {
     /// The time between two samples in s.
@@ -75,7 +75,7 @@ impl HeldSignal {
 }
 
 impl Grid {
-    /// The times without a record before the one at `time`.
+    /// Returns the times without a record before the one at `time`.
     pub(super) fn until(&self, time: f64, stated: StatedSamples) -> impl Iterator<Item = f64> {
         let steps = self.last.zip(stated.interval_s).map(|(last, interval)| {
             let steps = (time - last) / interval;
@@ -89,7 +89,7 @@ impl Grid {
             .map(move |step| decimal(last + step * interval))
     }
 
-    /// The times after the last record, up to the stated number of samples.
+    /// Returns the times after the last record, up to the stated number of samples.
     pub(super) fn rest(&self, stated: StatedSamples) -> impl Iterator<Item = f64> {
         let left = stated.count.unwrap_or_default().saturating_sub(self.count);
         let from = self.last.zip(stated.interval_s);
@@ -111,12 +111,12 @@ impl Grid {
     }
 }
 
-/// A time as a file writes it.
+/// Returns a time as a file writes it.
 fn decimal(time: f64) -> f64 {
     (time * DECIMALS).round() / DECIMALS
 }
 
-/// What is said about signals that do not stand in every record.
+/// Returns the remarks on signals that do not stand in every record.
 pub(super) fn remarks<'a>(
     signals: impl Iterator<Item = (&'a str, &'a HeldSignal)>,
     (records, grid): (usize, &Grid),

@@ -22,7 +22,7 @@ const SEPARATORS: [Separator; 5] = [
     Separator::Blanks,
 ];
 
-/// The columns below a row of names.
+/// Returns the columns below a row of names.
 pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColumns, TraceProblem> {
     let lines: Vec<&[u8]> = above
         .iter()
@@ -67,7 +67,7 @@ pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColum
     Ok(named(&[last], Separator::Byte(b';')))
 }
 
-/// The columns by the last of some rows, or by the one above it if the last holds units.
+/// Returns the columns by the last of some rows, or by the one above it if the last holds units.
 fn named(lines: &[&[u8]], separator: Separator) -> TableColumns {
     let mut rows = lines.iter().rev().map(|line| cells_of(line, separator));
     let mut names = rows.next().unwrap_or_default();
@@ -112,14 +112,14 @@ fn named(lines: &[&[u8]], separator: Separator) -> TableColumns {
     }
 }
 
-/// Whether a cell of a row below the names is a unit, in brackets or not, or a dash for none.
+/// Returns whether a cell of a row below the names is a unit, in brackets or not, or a dash for none.
 fn is_unit(cell: &str) -> bool {
     let bare = cell.trim_matches(['[', ']', '(', ')']);
     bare.is_empty() || bare == "-" || Unit::parse(bare).is_some()
 }
 
-/// The columns of numbers without names: the first one is the time if it counts, and so is each that counts like
-/// it.
+/// Returns the columns of numbers without names: the first one is the time if it counts, and so is each that counts
+/// like it.
 pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> TableColumns {
     let separator = separator.unwrap_or_else(|| separator_of(&rows[0].bytes));
     let table: Vec<Vec<String>> = rows
@@ -176,7 +176,7 @@ pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> Table
     columns
 }
 
-/// Whether numbers rise as times do: in steps that are alike.
+/// Returns whether numbers rise as times do: in steps that are alike.
 fn counts(numbers: &[f64]) -> bool {
     /// The greatest step as a multiple of the least: a few samples may be missing.
     const ALIKE: f64 = 20.0;
@@ -188,7 +188,7 @@ fn counts(numbers: &[f64]) -> bool {
     numbers.len() < 3 || least > 0.0 && most <= ALIKE * least
 }
 
-/// Whether numbers rise in equal steps from the start of the times, as times do.
+/// Returns whether numbers rise in equal steps from the start of the times, as times do.
 fn counts_like(numbers: &[f64], times: &[f64]) -> bool {
     const ENOUGH: usize = 8;
     /// Ten seconds in units of 100 ns: the greatest distance between the starts of the times of two tasks.
@@ -212,14 +212,14 @@ fn counts_like(numbers: &[f64], times: &[f64]) -> bool {
         && steps.iter().all(is_even)
 }
 
-/// The separator of a row of numbers.
+/// Returns the separator of a row of numbers.
 fn separator_of(row: &[u8]) -> Separator {
     let fits = |separator: &&Separator| cells_of(row, **separator).len() > 1;
     let found = SEPARATORS.iter().find(fits);
     found.copied().unwrap_or(Separator::Byte(b';'))
 }
 
-/// The texts of a row; an empty one at the end is not a column.
+/// Returns the texts of a row; an empty one at the end is not a column.
 fn cells_of(row: &[u8], separator: Separator) -> Vec<String> {
     let cells = separator.quoted_cells(row);
     let mut texts: Vec<String> = cells.iter().map(|cell| text(cell)).collect();
@@ -231,7 +231,7 @@ fn cells_of(row: &[u8], separator: Separator) -> Vec<String> {
 
 /// The marks of comments.
 trait Marked {
-    /// Without `#` or `%` at its start, with which some programs mark the names.
+    /// Trims `#` or `%` at the start, with which some programs mark the names.
     fn trim_start_matches_marks(&self) -> &[u8];
 }
 

@@ -27,7 +27,7 @@ frictcomp::words! {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RecognisedChannel {
-    /// Its quantity.
+    /// Quantity.
     pub role: ChannelRole,
     /// The axis, by its name or by its number in a CNC object.
     pub axis: Option<String>,
@@ -54,7 +54,7 @@ const OBJECTS: [(u32, ChannelRole); 4] = [
 ];
 
 impl ChannelRole {
-    /// The role of a commanded or measured quantity.
+    /// Returns the role of a commanded or measured quantity.
     pub(super) fn of(quantity: ChannelQuantity) -> Option<Self> {
         match quantity {
             ChannelQuantity::Time => None,
@@ -64,7 +64,7 @@ impl ChannelRole {
         }
     }
 
-    /// The quantity of its unit.
+    /// Returns the quantity of its unit.
     pub(super) fn quantity(self) -> ChannelQuantity {
         match self {
             Self::Position | Self::ActualPosition | Self::FollowingError => {
@@ -77,7 +77,7 @@ impl ChannelRole {
 }
 
 impl fmt::Display for RecognisedChannel {
-    /// `actual position of X`.
+    /// Writes `actual position of X`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.role.as_str())?;
         self.axis
@@ -126,7 +126,7 @@ fn variable(text: &str) -> Option<(ChannelRole, Option<String>)> {
     is_axis_name(rest).then(|| (role, Some(rest.to_uppercase())))
 }
 
-/// Whether a text is the name of an axis, a letter and up to two digits.
+/// Returns whether a text is the name of an axis, a letter and up to two digits.
 fn is_axis_name(text: &str) -> bool {
     let (letter, digits) = text.split_at_checked(1).unwrap_or_default();
     letter.bytes().all(|it| it.is_ascii_alphabetic())
@@ -139,7 +139,7 @@ impl CncObject {
     /// The object group of axes, without the part of the platform.
     const AXES: u32 = 0x2_0300;
 
-    /// Whether it is an object of an axis.
+    /// Returns whether it is an object of an axis.
     pub fn is_of_axis(self) -> bool {
         self.group & 0xF_FFFF == Self::AXES
     }

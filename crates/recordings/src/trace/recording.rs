@@ -12,10 +12,10 @@ pub struct Layout {
 /// Form of the rows of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum RowForm {
-    /// Each has all numbers.
+    /// Rows with all numbers.
     Whole,
-    /// As Scope writes them: shorter where channels have ended, repeated for slow ones, and followed
-    /// by other lines after a blank one.
+    /// Rows of Scope: shorter where channels have ended, repeated for slow ones, and followed by other lines after a
+    /// blank one.
     Ragged,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct ChannelSamples {
 pub struct TraceRecording {
     pub(super) layout: Layout,
     pub(super) channels: Vec<Channel>,
-    /// In the order of the channels; none for those that were not requested.
+    /// Samples in the order of the channels; `None` for channels that were not requested.
     pub(super) samples: Vec<Option<ChannelSamples>>,
     /// The times of the clocks in seconds.
     pub(super) clocks: Vec<Vec<f64>>,
@@ -69,7 +69,7 @@ impl TraceRecording {
         self.layout
     }
 
-    /// Every channel of the file, including those whose samples were not requested.
+    /// Returns every channel of the file, including those whose samples were not requested.
     pub fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -79,13 +79,13 @@ impl TraceRecording {
         &self.remarks
     }
 
-    /// The channels whose samples were requested.
+    /// Returns the channels whose samples were requested.
     pub fn kept(&self) -> impl Iterator<Item = ChannelIndex> {
         let kept = self.samples.iter().enumerate();
         kept.filter_map(|(index, samples)| samples.is_some().then_some(ChannelIndex(index)))
     }
 
-    /// The samples of a channel as the file has them; NaN where one is missing in the middle.
+    /// Returns the samples of a channel as the file has them; NaN where one is missing in the middle.
     pub fn values(&self, channel: ChannelIndex) -> &[f64] {
         self.of(channel).map_or(&[], |samples| &samples.values)
     }
@@ -96,15 +96,14 @@ impl TraceRecording {
         samples.map_or_else(Vec::new, |samples| std::mem::take(&mut samples.values))
     }
 
-    /// The times of the samples of a channel in seconds, if the file has times. There are as many as
-    /// samples.
+    /// Returns the times of the samples of a channel in seconds, if the file has times. There are as many as samples.
     pub fn times_s(&self, channel: ChannelIndex) -> Option<&[f64]> {
         let samples = self.of(channel)?;
         let times = self.clocks.get(samples.clock?)?;
         Some(&times[..times.len().min(samples.values.len())])
     }
 
-    /// The cells of a channel that do not hold a number.
+    /// Returns the cells of a channel that do not hold a number.
     pub fn missing(&self, channel: ChannelIndex) -> Missing {
         let missing = self.of(channel).map(|samples| samples.missing.clone());
         missing.unwrap_or_default()
@@ -114,7 +113,7 @@ impl TraceRecording {
         self.samples.get(channel.0)?.as_ref()
     }
 
-    /// The number of the clock of a channel: channels with the same one were sampled together.
+    /// Returns the number of the clock of a channel: channels with the same one were sampled together.
     pub fn clock(&self, channel: ChannelIndex) -> Option<usize> {
         self.of(channel)?.clock
     }

@@ -44,7 +44,7 @@ const NEVER_FIRST: [&str; 2] = ["Min", "Max"];
 /// The rows about the file, above those about channels.
 const OF_FILE: [&str; 3] = ["File", "Starttime of export", "Endtime of export"];
 
-/// The name that a line begins with, and the separator after it.
+/// Returns the name that a line begins with, and the separator after it.
 fn key_of(line: &[u8]) -> Option<(&'static str, Option<u8>)> {
     let (bare, quote) = match line.strip_prefix(b"\"") {
         Some(bare) => (bare, &b"\""[..]),
@@ -73,7 +73,7 @@ fn is_of_file(key: &str) -> bool {
     OF_FILE.contains(&key)
 }
 
-/// The separator, if the lines are those of Scope.
+/// Returns the separator, if the lines are those of Scope.
 pub(super) fn separator_of(above: &[FileLine]) -> Option<Separator> {
     let first = above
         .iter()
@@ -89,7 +89,7 @@ pub(super) fn separator_of(above: &[FileLine]) -> Option<Separator> {
     })
 }
 
-/// The rows of attributes, without those about the file.
+/// Returns the rows of attributes, without those about the file.
 fn attributes(above: &[FileLine]) -> impl Iterator<Item = (&'static str, &FileLine)> {
     let keyed = |line: &'_ FileLine| key_of(&line.bytes).map(|(key, _)| key);
     above.iter().enumerate().filter_map(move |(at, line)| {
@@ -101,7 +101,7 @@ fn attributes(above: &[FileLine]) -> impl Iterator<Item = (&'static str, &FileLi
     })
 }
 
-/// Whether channels are described.
+/// Returns whether channels are described.
 pub(super) fn has_attributes(above: &[FileLine]) -> bool {
     separator_of(above).is_some() && attributes(above).next().is_some()
 }
@@ -121,7 +121,7 @@ pub(super) struct OpenRow {
 }
 
 impl OpenRow {
-    /// The last of some lines, if it is a row of attributes.
+    /// Returns the last of some lines, if it is a row of attributes.
     pub(super) fn last(above: &[FileLine]) -> Option<Self> {
         let Separator::Byte(separator) = separator_of(above)? else {
             return None;
@@ -154,7 +154,7 @@ impl OpenRow {
         Some(row)
     }
 
-    /// Whether a line belongs to the row.
+    /// Returns whether a line belongs to the row.
     pub(super) fn continues(&self, line: &[u8]) -> bool {
         if self.is_quoted {
             return true;
@@ -193,7 +193,7 @@ impl OpenRow {
     }
 }
 
-/// The columns of an export with rows of attributes.
+/// Returns the columns of an export with rows of attributes.
 pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColumns, TraceProblem> {
     let separator = separator_of(above).unwrap_or(Separator::Byte(b'\t'));
     let of_numbers = separator.of_numbers();
@@ -255,7 +255,7 @@ pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColum
     Ok(columns)
 }
 
-/// The channel of a column by its attributes.
+/// Returns the channel of a column by its attributes.
 fn channel(cell: &dyn Fn(&str) -> Option<String>, at: usize) -> Channel {
     let symbol = cell("SymbolName").unwrap_or_default();
     let address = |key: &str| cell(key).as_deref().and_then(parse_address);
@@ -290,7 +290,7 @@ fn channel(cell: &dyn Fn(&str) -> Option<String>, at: usize) -> Channel {
     }
 }
 
-/// Whether a type of a variable has no decimals.
+/// Returns whether a type of a variable has no decimals.
 fn is_whole(data_type: &str) -> bool {
     let name = data_type.trim().to_uppercase();
     let bare = name.trim_end_matches(|it: char| it.is_ascii_digit());
@@ -325,7 +325,7 @@ struct Division {
     /// The columns with the names of attributes.
     starts: Vec<usize>,
     count: usize,
-    /// Names may contain the separator: each group is one channel, whatever its cells.
+    /// Whether names may contain the separator: each group is one channel, whatever its cells.
     is_joined: bool,
     /// Single blanks separate the cells.
     is_blank: bool,
@@ -388,7 +388,7 @@ impl Division {
         widths.map(|(start, end)| end - start - 1).collect()
     }
 
-    /// The cells of a row, by group.
+    /// Returns the cells of a row, by group.
     fn segments(&self, row: &AttributeRow) -> Vec<Vec<String>> {
         let widths = self.widths();
         let filled = width(&row.cells);
@@ -423,7 +423,7 @@ impl Division {
                     return vec![cells.join(between)];
                 }
                 if self.is_blank && cells.len() > width {
-                    // Nothing shows which words are one name.
+                    // The line does not show which words form a name.
                     return Vec::new();
                 }
                 if cells.len() == 2 * width {

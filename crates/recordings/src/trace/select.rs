@@ -32,7 +32,7 @@ pub struct ChannelSelection {
     pub following_error: Option<String>,
     /// Units of channels that the file does not name, or names wrongly.
     pub units: Vec<(String, Unit)>,
-    /// The units are those of several recordings, each of which need not have every channel.
+    /// Whether the units are those of several recordings, each of which need not have every channel.
     pub is_for_several: bool,
     /// The way of the axis in mm in a turn of its motor, where positions and velocities are those of the motor.
     pub lead_mm: Option<f64>,
@@ -44,9 +44,9 @@ pub struct ChannelSelection {
 pub struct Pick {
     /// Index of the channel.
     pub channel: ChannelIndex,
-    /// Its unit.
+    /// Unit.
     pub unit: Unit,
-    /// No unit is named: that of the CNC is assumed.
+    /// Whether the unit is assumed to be that of the CNC, because none is named.
     pub is_unit_assumed: bool,
 }
 
@@ -57,7 +57,7 @@ struct ChannelNames {
     hints: &'static [&'static str],
 }
 
-/// For each quantity; the first hint that is found in a name counts.
+/// Hints for each quantity; the first hint that is found in a name counts.
 const NAMES: [ChannelNames; 4] = [
     ChannelNames {
         quantity: ChannelQuantity::Time,
@@ -99,8 +99,8 @@ impl ChannelSelection {
         }
     }
 
-    /// The channel of a quantity, if there is one: that which the user names, else that of its short name, else the only
-    /// one that is recognised.
+    /// Returns the channel of a quantity, if there is one: that which the user names, else that of its short name, else
+    /// the only one that is recognised.
     ///
     /// # Errors
     /// No channel fits what the user names, or several do; or it is in an unknown unit.
@@ -111,7 +111,7 @@ impl ChannelSelection {
     ) -> Result<Option<Pick>, SelectError> {
         let found = match self.asked(quantity) {
             Some(wanted) => Some(self.named(wanted, channels).map_err(|error| {
-                // Nothing is spelled like it, but a similar channel may be meant.
+                // No channel has a similar spelling, but one of a similar kind may be meant.
                 error.or_guess(|| guess(quantity, channels))
             })?),
             None => Self::taken(quantity, channels)?
@@ -134,7 +134,7 @@ impl ChannelSelection {
         }
     }
 
-    /// The only channel of the axis that is recognised as a quantity.
+    /// Returns the only channel of the axis that is recognised as a quantity.
     ///
     /// # Errors
     /// Scope scales its unit.
@@ -178,7 +178,7 @@ impl ChannelSelection {
         Ok(())
     }
 
-    /// What a recording lacks that has a quantity of other axes than that of the user.
+    /// Returns an error if the recording has the quantity only for other axes than that of the user.
     fn of_other_axes(
         &self,
         quantity: ChannelQuantity,
@@ -205,7 +205,7 @@ impl ChannelSelection {
         role.map_or_else(Vec::new, |role| self.candidates(role, channels))
     }
 
-    /// The channels that are recognised as a quantity: those of the axis, or else those that name none.
+    /// Returns the channels that are recognised as a quantity: those of the axis, or else those that name none.
     fn candidates(&self, role: ChannelRole, channels: &[Channel]) -> Vec<usize> {
         let recognised = channels.iter().enumerate().filter_map(|(at, channel)| {
             let found = channel.recognised().filter(|it| it.role == role)?;
@@ -261,7 +261,7 @@ impl ChannelSelection {
         })
     }
 
-    /// A channel by the user's description, with the unit for a quantity.
+    /// Returns a channel by the user's description, with the unit for a quantity.
     ///
     /// # Errors
     /// No channel fits, or several do.
@@ -274,8 +274,9 @@ impl ChannelSelection {
         self.pick(self.named(wanted, channels)?, quantity, channels)
     }
 
-    /// The channel of the positions of an axis: the one that has the name of the axis alone, with its unit if that is
-    /// one of positions, in mm where it names none; or the one that is recognised as the actual position of the axis.
+    /// Returns the channel of the positions of an axis: the one that has the name of the axis alone, with its unit if
+    /// that is one of positions, in mm where it names none; or the one that is recognised as the actual position of the
+    /// axis.
     ///
     /// # Errors
     /// Scope scales the unit.
@@ -301,7 +302,7 @@ impl ChannelSelection {
         Ok(Some(pick))
     }
 
-    /// The only channel that is recognised as the actual position of an axis, by its name or its number.
+    /// Returns the only channel that is recognised as the actual position of an axis, by its name or its number.
     ///
     /// # Errors
     /// Scope scales the unit.
@@ -324,7 +325,7 @@ impl ChannelSelection {
             .transpose()
     }
 
-    /// The channel that has the short name of a quantity.
+    /// Returns the channel that has the short name of a quantity.
     fn taken(
         quantity: ChannelQuantity,
         channels: &[Channel],
@@ -404,7 +405,7 @@ impl ChannelSelection {
         })
     }
 
-    /// Whether a channel is one of the axis that the user names.
+    /// Returns whether a channel is one of the axis that the user names.
     pub(crate) fn is_of_axis(&self, channel: &Channel) -> bool {
         let Some(axis) = &self.axis else {
             return false;
@@ -420,7 +421,7 @@ impl ChannelSelection {
             })
     }
 
-    /// The channel whose unit the user gives.
+    /// Returns the channel whose unit the user gives.
     fn unit_target(
         &self,
         name: &str,
@@ -492,7 +493,7 @@ impl ChannelSelection {
     }
 }
 
-/// The names of channels, for a list of the existing ones.
+/// Returns the names of channels, for a list of the existing ones.
 fn shown(channels: &[Channel]) -> Vec<String> {
     channels
         .iter()
@@ -504,7 +505,7 @@ fn holds(text: &str, wanted: &str) -> bool {
     wanted.len() > 2 && text.to_lowercase().contains(&wanted.to_lowercase())
 }
 
-/// The only one of some channels; Scope writes a channel once for each chart that shows it.
+/// Returns the only one of some channels; Scope writes a channel once for each chart that shows it.
 fn only(found: &[usize], channels: &[Channel]) -> Option<ChannelIndex> {
     let first = found.first()?;
     all_alike(found, channels).then_some(ChannelIndex(*first))
@@ -543,7 +544,7 @@ fn full_name(channel: &Channel) -> String {
     }
 }
 
-/// The channel that by its name, symbol or comment may be a quantity.
+/// Returns the channel that by its name, symbol or comment may be a quantity.
 pub(super) fn guess(quantity: ChannelQuantity, channels: &[Channel]) -> Option<String> {
     let names = NAMES.iter().find(|names| names.quantity == quantity)?;
     names.hints.iter().find_map(|hint| {
@@ -727,7 +728,7 @@ mod tests {
                 .help()
                 .is_some_and(|help| help.contains("perhaps `MotorTorque`"))
         );
-        // Those of two axes are recognised, and none is taken.
+        // The channels of two axes are recognised, and none is taken.
         let error = require(&two_axes());
         assert!(matches!(error, SelectError::Several { .. }), "{error}");
     }

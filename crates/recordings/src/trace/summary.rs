@@ -21,7 +21,7 @@ pub struct ChannelSummary<'a> {
 }
 
 impl TraceRecording {
-    /// The requested channels, at a glance.
+    /// Returns the requested channels, at a glance.
     pub fn summaries(&self) -> impl Iterator<Item = ChannelSummary<'_>> {
         self.kept().map(|index| self.summary(index))
     }

@@ -15,7 +15,7 @@ pub(super) struct ChannelTable {
     channels: Vec<Channel>,
     groups: Vec<Times>,
     wanted: Vec<WantedChannel>,
-    /// For each column that is read, its cell in the current row.
+    /// Cell in the current row for each column that is read.
     read: Vec<usize>,
     rows: usize,
     most_rows: usize,
@@ -269,7 +269,7 @@ impl ChannelTable {
         Ok(())
     }
 
-    /// Whether a row is as wide as the header. Rows of Scope may be short.
+    /// Checks that a row is as wide as the header. Rows of Scope may be short.
     fn check_width(&self, line: u64, cells: usize) -> Result<(), TraceProblem> {
         let columns = self.count;
         let may_be_short = self.layout.rows == RowForm::Ragged;
@@ -290,7 +290,7 @@ impl ChannelTable {
         })
     }
 
-    /// The channels with their samples.
+    /// Returns the channels with their samples.
     pub(super) fn finish(mut self) -> TraceRecording {
         let mut samples: Vec<Option<ChannelSamples>> = vec![None; self.channels.len()];
         let mut clocks: Vec<Vec<f64>> = self.groups.into_iter().map(|it| it.values).collect();
@@ -327,7 +327,7 @@ impl ChannelTable {
     }
 }
 
-/// A time as Scope writes it, in seconds.
+/// Returns a time as Scope writes it, in seconds.
 fn scope_time(cell: &[u8], origin: &mut Option<u64>) -> (CellValue, Decimals) {
     /// Fewer digits count milliseconds: a hundred thousand years of them.
     const FILETIME_DIGITS: usize = 15;

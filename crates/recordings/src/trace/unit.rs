@@ -7,19 +7,19 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
     #[non_exhaustive]
     pub enum ChannelQuantity {
-        /// In seconds.
+        /// Time in seconds.
         Time = "time",
-        /// In 0.1 µm or 0.0001°.
+        /// Position in 0.1 µm or 0.0001°.
         Position = "position",
-        /// In µm/s or 0.001°/s.
+        /// Velocity in µm/s or 0.001°/s.
         Velocity = "velocity",
-        /// In drive units, or in a unit that the drive measures.
+        /// Torque in drive units, or in a unit that the drive measures.
         Torque = "torque",
     }
 }
 
 impl ChannelQuantity {
-    /// The unit in which the CNC records it, used if a file names none.
+    /// Returns the unit in which the CNC records it, used if a file names none.
     pub fn own_unit(self) -> &'static str {
         match self {
             Self::Time => "s",
@@ -29,7 +29,7 @@ impl ChannelQuantity {
         }
     }
 
-    /// A usual unit of it, for an example.
+    /// Returns a usual unit of it, for an example.
     pub(crate) fn example(self) -> &'static str {
         match self {
             Self::Time => "ms",
@@ -58,7 +58,7 @@ pub struct Unit {
     pub quantity: ChannelQuantity,
     /// Factor to the units of lists and traces.
     pub factor: f64,
-    /// Whether it is one of lengths or of angles.
+    /// Kind of motion that the unit measures, if it is one of lengths or of angles.
     pub motion: Option<AxisMotion>,
     /// Whether the result is in drive units; amperes, newtons and newton metres are not.
     pub is_of_the_drive: bool,
@@ -133,7 +133,7 @@ impl Unit {
                              m/min, mm/min, deg/s, 0.001deg/s, rad/s, turn/s, rev/s, rpm, 1/min, %, 0.1%, permille, A, mA, \
                              N, kN, Nm, Ncm";
 
-    /// The unit of a text such as `mm/s`, `µm`, `%`, `V (Voltage)`. `Nm` is a torque, `nm` a length.
+    /// Returns the unit of a text such as `mm/s`, `µm`, `%`, `V (Voltage)`. `Nm` is a torque, `nm` a length.
     pub fn parse(text: &str) -> Option<Self> {
         let name = plain(text);
         let (name, quantity, factor, motion) = *UNITS.iter().find(|(known, ..)| *known == name)?;
@@ -145,7 +145,7 @@ impl Unit {
         })
     }
 
-    /// The unit of the path of an axis that moves `lead_mm` in a turn of its motor, where this is one of the
+    /// Returns the unit of the path of an axis that moves `lead_mm` in a turn of its motor, where this is one of the
     /// motor's turns.
     pub fn along_path(self, lead_mm: f64) -> Self {
         match (self.motion, self.quantity) {
@@ -158,7 +158,7 @@ impl Unit {
         }
     }
 
-    /// The unit in which a quantity is recorded by the CNC itself.
+    /// Returns the unit in which a quantity is recorded by the CNC itself.
     pub fn own(quantity: ChannelQuantity) -> Self {
         Self {
             quantity,
@@ -169,7 +169,7 @@ impl Unit {
     }
 }
 
-/// A unit in one way of writing: `mm / s`, `µm/s`, `grad/sec` and `V (Voltage)`.
+/// Returns a unit in one way of writing: `mm / s`, `µm/s`, `grad/sec` and `V (Voltage)`.
 fn plain(text: &str) -> String {
     let text = text.trim();
     // Scope appends the quantity: `mm/s (Velocity)`.
@@ -192,7 +192,7 @@ fn plain(text: &str) -> String {
         .replace("sec", "s")
 }
 
-/// A header cell such as `v [mm/s]`, `x_um`, `torque (A)`, `t/s` as a name and the unit in it.
+/// Returns a header cell such as `v [mm/s]`, `x_um`, `torque (A)`, `t/s` as a name and the unit in it.
 pub(super) fn split_unit(header: &str) -> (&str, Option<&str>) {
     let header = header.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {

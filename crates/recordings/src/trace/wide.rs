@@ -48,7 +48,7 @@ impl Letters {
         mark
     }
 
-    /// The next piece with one byte per letter, or UTF-8.
+    /// Returns the next piece with one byte per letter, or UTF-8.
     pub(super) fn narrow<'a>(&mut self, piece: &'a [u8]) -> Cow<'a, [u8]> {
         match self {
             Self::Wide(wide) => Cow::Owned(wide.narrow(piece)),

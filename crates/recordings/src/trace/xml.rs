@@ -49,7 +49,7 @@ pub(super) struct Xml {
     records: usize,
     records_of_frame: usize,
     remarks: Vec<String>,
-    /// The bytes are letters of an old code page.
+    /// Whether the bytes are letters of an old code page.
     is_legacy: bool,
 }
 
@@ -71,7 +71,7 @@ struct RecordedSignal {
     held: HeldSignal,
 }
 
-/// The number, from 0, of a value that is written as `f1`, `f2` and so on.
+/// Returns the number, from 0, of a value that is written as `f1`, `f2` and so on.
 fn number_of_value(key: &str) -> Option<usize> {
     key.strip_prefix('f')?.parse::<usize>().ok()?.checked_sub(1)
 }
@@ -356,7 +356,7 @@ impl Xml {
         Ok(())
     }
 
-    /// The requested signals.
+    /// Returns the requested signals.
     pub(super) fn finish(
         mut self,
         demand: &mut Demand<'_>,
@@ -415,7 +415,7 @@ impl Xml {
         })
     }
 
-    /// A channel by its description in its frame, and by the one of its key elsewhere.
+    /// Returns a channel by its description in its frame, and by the one of its key elsewhere.
     fn channel(&self, at: usize, signal: &Signal) -> Channel {
         let same = |it: &&Signal| !it.key.is_empty() && it.key == signal.key;
         let elsewhere = self.described.iter().find(same);

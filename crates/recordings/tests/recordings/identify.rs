@@ -28,7 +28,7 @@ fn identified(bench: &Bench) -> Identified {
     identify(&track(bench.record()), &IdentifyOptions::default()).expect("friction")
 }
 
-/// The value of a list at a speed in mm/s.
+/// Returns the value of a list at a speed in mm/s.
 fn along(points: &[TablePoint], speed: f64) -> f64 {
     let at = points.partition_point(|point| point.input < speed * 1000.0);
     match (at.checked_sub(1).map(|at| &points[at]), points.get(at)) {
@@ -70,9 +70,9 @@ struct Case {
 /// Permitted error of the offset, in N.
 const OFFSET: f64 = 2.0;
 
-/// No estimate of the offset from the samples of R6.10 is better than its Cramér–Rao bound, whose
-/// 95th percentile is 2.24 N for coloured noise and 1.78 N for white noise of 5 %. The median of the
-/// pairs comes within a fifth of it, of which forty recordings alone explain 15 %.
+/// Permitted 95th percentile of the error of the offset in N: 1.2 times the Cramér–Rao bound from the samples of R6.10,
+/// which is 2.24 N for coloured noise and 1.78 N for white noise of 5 %. The median of the pairs comes within a fifth
+/// of it, of which forty recordings alone explain 15 %.
 const COLOURED: f64 = 1.2 * 2.24;
 const LOUD: f64 = 1.2 * 1.78;
 
@@ -137,7 +137,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// The 95th percentile.
+/// Returns the 95th percentile.
 fn percentile(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[(values.len() * 95).div_ceil(100) - 1]

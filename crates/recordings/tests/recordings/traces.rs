@@ -28,7 +28,7 @@ fn read(text: &str) -> Result<TraceRecording, TraceProblem> {
     read_pieces(text.as_bytes(), 7)
 }
 
-/// The channel of a name, taken as a torque.
+/// Returns the channel of a name, taken as a torque.
 fn torque(recording: &TraceRecording, name: &str) -> Pick {
     let (selection, channels) = (ChannelSelection::default(), recording.channels());
     let picked = selection.pick_named(name, ChannelQuantity::Torque, channels);
@@ -39,7 +39,7 @@ fn problem(text: &str) -> TraceProblem {
     read(text).expect_err("a problem")
 }
 
-/// The samples of a channel by its name.
+/// Returns the samples of a channel by its name.
 fn values<'a>(recording: &'a TraceRecording, name: &str) -> &'a [f64] {
     let found = recording
         .kept()
@@ -142,8 +142,8 @@ fn export() -> impl Strategy<Value = Export> {
     })
 }
 
-/// Scope numbers channels of one name; the first channel of a file gets a unique name here, so that
-/// `Name` next to `Name` is not ambiguous if nothing else is above the numbers.
+/// Numbers channels of one name as Scope does; the first channel of a file gets a unique name here, so that `Name` next
+/// to `Name` is not ambiguous if nothing else is above the numbers.
 fn number_the_names(export: &mut Export) {
     let signals = export.tasks.iter_mut().flat_map(|task| &mut task.signals);
     for (number, signal) in signals.enumerate() {
@@ -153,7 +153,7 @@ fn number_the_names(export: &mut Export) {
     }
 }
 
-/// The words of a comment, wherever its lines end.
+/// Returns the words of a comment, wherever its lines end.
 fn words_of(comment: &str) -> Vec<&str> {
     comment.split_whitespace().collect()
 }
@@ -290,11 +290,11 @@ proptest! {
     }
 }
 
-/// Which values a SINUMERIK trace writes.
+/// Values that a SINUMERIK trace writes.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Whole,
-    /// Only what changed; records in which nothing did are left out.
+    /// Only changed values; records in which nothing changed are left out.
     Changes,
 }
 

@@ -1,5 +1,5 @@
-//! Whether a list acted in a recording, and whether it came early or late (R6.22): recordings of drives
-//! that the tests simulate themselves, with lists that are right, early, late, and others.
+//! Action and timing of a list in a recording (R6.22): recordings of drives that the tests simulate themselves, with
+//! lists that are right, early, late, and others.
 
 use frictcomp::lists::FrictionList;
 use frictcomp::lists::TablePoint;
@@ -24,7 +24,7 @@ fn track(recorded: &Recorded) -> Track {
     }
 }
 
-/// The list of the axis, whose whole current is a share of 1.
+/// Returns the list of the axis, whose whole current is a share of 1.
 fn list(bench: &Bench) -> FrictionList {
     // Finer steps at low speeds, where the curve bends.
     let speed = |at: u32| 0.25 * (f64::from(at) / 200.0).powi(3);

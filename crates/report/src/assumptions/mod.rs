@@ -1,6 +1,6 @@
-//! What frictcomp assumes where the documents leave something open, and where it differs from the
-//! control on purpose: two tables as data. They are the source of `docs/assumptions.md`, of the page of
-//! differences and of the part of a report that names what its run depends on.
+//! Assumptions of frictcomp where the documents leave something open, and its deliberate differences from the control:
+//! two tables as data. They are the source of `docs/assumptions.md`, of the page of differences and of the part of a
+//! report that names what its run depends on.
 
 mod in_force;
 mod simulated;

@@ -1,4 +1,4 @@
-//! What a simulated machine does not have.
+//! Properties of a machine that a simulation leaves out.
 
 use frictcomp_physics::simulation::DriveParameters;
 

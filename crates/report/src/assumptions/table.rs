@@ -44,15 +44,15 @@ pub struct Assumption {
 #[serde(try_from = "String")]
 #[non_exhaustive]
 pub enum When {
-    /// In every session.
+    /// Every session.
     Always,
-    /// If no machine is described.
+    /// Sessions without a description of the machine.
     NoMachine,
-    /// If something was passed over.
+    /// Sessions in which something was passed over.
     PassedOver,
-    /// If an error ended it.
+    /// Sessions that an error ended.
     Stopped,
-    /// If this was reported.
+    /// Sessions with this message.
     Reported(Code),
 }
 
@@ -131,7 +131,7 @@ impl TryFrom<String> for When {
 }
 
 impl Assumption {
-    /// Whether a session is known to depend on it.
+    /// Returns whether a session is known to depend on it.
     pub(crate) fn is_met(&self, met: &SessionFacts) -> bool {
         self.when.iter().any(|case| match case {
             When::Always => true,

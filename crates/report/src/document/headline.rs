@@ -8,16 +8,16 @@ use crate::wording::{leading, visible_line};
 use frictcomp::diagnostic::Severity;
 use frictcomp_recordings::identify::TraceFinding;
 
-/// Whether a result is as it should be.
+/// Standing of a result: as it should be or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Standing {
-    /// It is.
+    /// A result that is as it should be.
     Good,
-    /// It is not.
+    /// A result that is not as it should be.
     Bad,
-    /// It depends on what is not known.
+    /// A result that depends on what is not known.
     #[default]
     Open,
     /// The result is a measurement or a simulation that judges nothing.
@@ -40,7 +40,7 @@ impl Standing {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 #[non_exhaustive]
 pub struct Headline {
-    /// Whether the result is as it should be.
+    /// Standing of the result: as it should be or not.
     pub standing: Standing,
     /// The sentences, without a period at the end.
     pub text: String,

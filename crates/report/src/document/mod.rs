@@ -26,11 +26,11 @@ use frictcomp_recordings::identify::TraceFinding;
 #[derive(Debug)]
 pub struct Document<'a> {
     pub(crate) title: String,
-    /// What has to be known before the verdict.
+    /// Remark that has to be known before the verdict.
     pub(crate) remark: Option<String>,
     pub(crate) headline: Headline,
     verdict: VerdictPlace,
-    /// What a command says on standard error, and a page in its verdict.
+    /// Remark that a command prints to standard error, and a page shows in its verdict.
     aside: Option<String>,
     pub(crate) sections: Vec<DocumentSection<'a>>,
 }
@@ -39,7 +39,7 @@ pub struct Document<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum VerdictPlace {
     First,
-    /// It is below everything else, as for each command that streams (R18.20).
+    /// Below everything else, as for each command that streams (R18.20).
     Last,
 }
 
@@ -57,9 +57,9 @@ pub(crate) struct DocumentSection<'a> {
 /// The extent of output to which a section belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SectionExtent {
-    /// It is shown everywhere.
+    /// All output.
     Brief,
-    /// It is shown everywhere, in a page below all others that are open.
+    /// All output; a page shows the section below all others that are open.
     Below,
     /// A terminal shows it in full detail only.
     Full,

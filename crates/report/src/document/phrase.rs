@@ -17,11 +17,11 @@ pub(crate) struct ProgramLine {
 /// Meaning of a text for the states of compensation, shown in a page by more than colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Tone {
-    /// Away from the start-up state.
+    /// State away from the start-up state.
     Away,
-    /// As this state.
+    /// The given state.
     State(State),
-    /// Nothing to look at.
+    /// Text that needs no attention.
     Quiet,
 }
 
@@ -30,7 +30,7 @@ pub(crate) enum Tone {
 pub(crate) enum PhrasePiece {
     Plain(String),
     Code(String),
-    /// It leads to a line, in a page that shows this line.
+    /// Text that leads to a line, in a page that shows this line.
     Leading(String, ProgramLine),
 }
 

@@ -16,10 +16,10 @@ use frictcomp_recordings::identify::TraceFinding;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Length {
-    /// Their beginnings; the rest is counted.
+    /// The beginnings of tables and lists; the rest is counted.
     #[default]
     Folded,
-    /// All of them.
+    /// All rows and entries.
     Whole,
 }
 

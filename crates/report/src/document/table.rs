@@ -10,7 +10,7 @@ use super::Length;
 use super::phrase::Phrase;
 use crate::wording::counted;
 
-/// Whether the cells of a column are aligned at their ends or at their beginnings.
+/// Alignment of the cells of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Alignment {
@@ -92,7 +92,7 @@ impl Table {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
-    /// Whether the headings are only for screen readers.
+    /// Returns whether the headings are only for screen readers.
     pub(crate) fn is_plain(&self) -> bool {
         self.is_plain
     }
@@ -191,7 +191,7 @@ impl Table {
     }
 }
 
-/// Whether a row has a word, and not a name that reads like it.
+/// Returns whether a row has a word, and not a name that reads like it.
 fn has(row: &[Phrase], word: &Phrase) -> bool {
     let is_word = |cell: &Phrase| (cell.tone, cell.text()) == (word.tone, word.text());
     row.iter().any(is_word)

@@ -14,7 +14,7 @@ const COLUMNS: [ColumnHeading<'_>; 4] = [
     ColumnHeading::Text("how it shows"),
 ];
 
-/// The assumptions of this run, and all others in a fold.
+/// Returns the assumptions of this run, and all others in a fold.
 pub(super) fn render(met: &SessionFacts, readings: &(Readings, Option<CncBuild>)) -> Markup {
     let made = |assumption: &&Assumption| assumption.is_met(met);
     let all = chapters().iter().flat_map(|chapter| &chapter.assumptions);

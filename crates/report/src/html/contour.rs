@@ -25,7 +25,7 @@ const MAX_LINES: usize = 500;
 /// line shows its reversals.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn render_contour(
     (contour, recorder): (&ContourReport, &ContourRecorder<'_>),
     subject: &ContourSubject,
@@ -56,7 +56,7 @@ pub fn render_contour(
     })
 }
 
-/// The reversals of each line, the lines with the worst first.
+/// Returns the reversals of each line, the lines with the worst first.
 fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
     let mut lines: BTreeMap<(&str, u32, &str), Vec<&ContourReversal>> = BTreeMap::new();
     for reversal in reversals {

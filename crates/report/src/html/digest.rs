@@ -86,7 +86,7 @@ pub(super) struct AxisDigest {
     /// Origin of P-AXIS-00522, in words.
     pub(super) origin: String,
     pub(super) friction: Parameterisation,
-    /// Whether the records list it.
+    /// Whether the records list the axis.
     pub(super) listed: bool,
 }
 
@@ -130,7 +130,7 @@ pub(super) struct LineDigest {
     pub(super) met: Vec<JoinedStates>,
     /// Different changes beyond [`MAX_CHANGES`].
     pub(super) more_changes: u64,
-    /// By their numbers in the report.
+    /// Messages by their numbers in the report.
     pub(super) messages: Vec<usize>,
 }
 
@@ -179,7 +179,7 @@ pub(super) struct SummaryDigest {
 }
 
 impl RunDigest {
-    /// A digest of FRICT and some other kinds.
+    /// Returns a digest of FRICT and some other kinds.
     pub fn new(mut kinds: KindSet) -> Self {
         kinds.insert(Kind::Frict);
         Self {
@@ -188,7 +188,7 @@ impl RunDigest {
         }
     }
 
-    /// The name of an axis.
+    /// Returns the name of an axis.
     pub(super) fn axis_name(&self, axis: AxisIndex) -> &str {
         self.axes.get(axis.get()).map_or("", |axis| &axis.name)
     }
@@ -441,8 +441,7 @@ impl RunDigest {
         self.messages.push(message);
     }
 
-    /// The main program that runs, by its number in the session and its file, if a place is not in
-    /// that file.
+    /// Returns the main program that runs, by its number in the session and its file, if a place is not in that file.
     fn program_of(&self, place: &Place) -> Option<(u32, Arc<str>)> {
         let program = self.programs.last()?;
         let file = self.files[program.file].name.as_str();

@@ -24,7 +24,7 @@ const OPEN_ITEMS: usize = 10;
 /// Writes a document as one page, with what is folded below the rest.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn render_document(document: &Document<'_>, out: &mut dyn Write) -> io::Result<()> {
     let page = DocumentPage {
         document,

@@ -24,7 +24,7 @@ const AROUND: u32 = 2;
 /// line.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn render_with_lines(
     document: &Document<'_>,
     sources: &mut dyn Sources,

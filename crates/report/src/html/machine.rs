@@ -33,7 +33,7 @@ pub(super) fn render(digest: &RunDigest, given: &RunInputs<'_>) -> Markup {
     }
 }
 
-/// The curve of each axis with an accepted value list.
+/// Returns the curve of each axis with an accepted value list.
 pub(super) fn render_curves(digest: &RunDigest) -> Markup {
     html! {
         @for (number, accepted) in digest.accepted.iter().enumerate() {

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::digest::{Message, RunDigest};
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, linked, times, with_code};
 
-/// The table of all messages, in the order in which they were given.
+/// Returns the table of all messages, in the order in which they were given.
 pub(super) fn render(digest: &RunDigest) -> Markup {
     if digest.messages.is_empty() {
         return html! { p { "There are no messages about these programs." } };
@@ -48,7 +48,7 @@ fn row(message: &Message) -> HtmlRow {
     HtmlRow::new(diagnostic.code.as_str(), cells)
 }
 
-/// A message as an item of the list below its line.
+/// Returns a message as an item of the list below its line.
 pub(super) fn item(message: &Message) -> Markup {
     let diagnostic = &message.diagnostic;
     let severity = diagnostic.severity.as_str();
@@ -62,7 +62,7 @@ pub(super) fn item(message: &Message) -> Markup {
     }
 }
 
-/// The main programs that reach a message in a called program (R17.1).
+/// Returns the main programs that reach a message in a called program (R17.1).
 fn reached(message: &Message) -> Markup {
     let reached_from = &message.diagnostic.reached_from;
     html! {

@@ -13,11 +13,11 @@ pub(super) struct HtmlTable<'a> {
     pub(super) columns: &'a [ColumnHeading<'a>],
 }
 
-/// Whether the headings of a table are seen.
+/// Visibility of the headings of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Headings {
     Shown,
-    /// Only for screen readers.
+    /// Headings for screen readers only.
     Heard,
 }
 
@@ -27,20 +27,20 @@ const MOST_COLUMNS: usize = 7;
 /// Caption of a table.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Caption<'a> {
-    /// Above the table.
+    /// Caption above the table.
     Shown(&'a str),
-    /// Only for screen readers: the heading above the table has the same text.
+    /// Caption for screen readers only: the heading above the table has the same text.
     Heard(&'a str),
 }
 
 /// The name of a column.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum ColumnHeading<'a> {
-    /// Of texts.
+    /// Heading of a column of texts.
     Text(&'a str),
-    /// Of numbers.
+    /// Heading of a column of numbers.
     Number(&'a str),
-    /// Of single words.
+    /// Heading of a column of single words.
     Word(&'a str),
 }
 
@@ -50,7 +50,7 @@ impl<'a> ColumnHeading<'a> {
         name
     }
 
-    /// The name, with the unit below it.
+    /// Returns the name, with the unit below it.
     fn heading(self) -> Markup {
         let (name, unit) = self.name().split_once('\n').unwrap_or((self.name(), ""));
         html! { (name) @if !unit.is_empty() { " " span.unit { (unit) } } }
@@ -76,7 +76,7 @@ impl HtmlRow {
         Self::under(html! { (heading) }, cells)
     }
 
-    /// A row with a heading of markup.
+    /// Returns a row with a heading of markup.
     pub(super) fn under(heading: Markup, cells: impl Into<Vec<Markup>>) -> Self {
         let cells = cells.into();
         Self { heading, cells }
@@ -84,13 +84,13 @@ impl HtmlRow {
 }
 
 impl HtmlTable<'_> {
-    /// The table, in a frame that scrolls by itself on narrow screens; the rows of a wide one and of one of words become blocks
-    /// there.
+    /// Returns the table, in a frame that scrolls by itself on narrow screens; the rows of a wide one and of one of
+    /// words become blocks there.
     pub(super) fn render(&self, rows: impl IntoIterator<Item = HtmlRow>) -> Markup {
         self.render_under(Headings::Shown, rows)
     }
 
-    /// The table with headings that are seen or heard.
+    /// Returns the table with headings that are seen or heard.
     pub(super) fn render_under(
         &self,
         headings: Headings,
@@ -137,18 +137,18 @@ impl HtmlTable<'_> {
     }
 }
 
-/// A picture.
+/// Returns a picture.
 pub(super) fn figure(svg: String) -> Markup {
     html! { figure.picture { (PreEscaped(svg)) } "\n" }
 }
 
-/// A state, distinguished by more than colour, especially if it is away from its start-up state.
+/// Returns a state, distinguished by more than colour, especially if it is away from its start-up state.
 pub(super) fn state_word(state: State, relation: StartUpRelation) -> Markup {
     let word = state.as_str();
     html! { span.state.(word).away[relation == StartUpRelation::Away] { (word) } }
 }
 
-/// A sentence whose words in backquotes become code.
+/// Returns a sentence whose words in backquotes become code.
 pub(super) fn with_code(text: &str) -> Markup {
     html! {
         @for (at, piece) in text.split('`').enumerate() {
@@ -157,7 +157,7 @@ pub(super) fn with_code(text: &str) -> Markup {
     }
 }
 
-/// A text that leads to a place of the page, if there is one.
+/// Returns a text that leads to a place of the page, if there is one.
 pub(super) fn linked(text: &str, href: Option<String>) -> Markup {
     html! {
         @match href {
@@ -172,7 +172,7 @@ pub(super) fn times(times: u64) -> Markup {
     html! { @if times > 1 { " " span.quiet { "(" (times) " times)" } } }
 }
 
-/// The identifier of a line of source in the page.
+/// Returns the identifier of a line of source in the page.
 pub(super) fn line_id(file: usize, line: u32) -> String {
     format!("f{file}l{line}")
 }

@@ -16,7 +16,7 @@ use frictcomp_physics::motion::Movement;
 /// Lines without a reversal that a page holds at most, in all files together.
 const MAX_QUIET: usize = 50_000;
 
-/// A fold of fewer lines is not worth the click.
+/// Least number of lines of a fold: one of fewer lines is not worth the click.
 const MIN_FOLD: usize = 4;
 
 /// The reversals of an axis in a line.
@@ -51,7 +51,7 @@ impl<'a> ReversedFiles<'a> {
         Self(files)
     }
 
-    /// The link to a line with reversals.
+    /// Returns the link to a line with reversals.
     pub(super) fn link(&self, file: &str, line: u32) -> Option<String> {
         let at = self.0.iter().position(|(name, _)| *name == file)?;
         let is_shown = self.0[at].1.contains_key(&line);
@@ -166,7 +166,7 @@ impl OfAxis {
         }
     }
 
-    /// "X: 3 reversals, 2 without compensation, at most 23.8 µm (all on 1.5, all off 23.8)"
+    /// Returns text such as "X: 3 reversals, 2 without compensation, at most 23.8 µm (all on 1.5, all off 23.8)".
     fn words(&self, axis: &str) -> Markup {
         html! {
             (axis) ": "

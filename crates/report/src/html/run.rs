@@ -32,7 +32,7 @@ const READING: PagePart = PagePart::new("reading", "Assumptions");
 /// Writes the report of a session as one page. The sources are read once more, line by line.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn render_run(
     digest: &RunDigest,
     given: &RunInputs<'_>,
@@ -216,7 +216,7 @@ fn changed_by(digest: &RunDigest, blocks: &[ChangedBy], total: u64) -> Markup {
     }
 }
 
-/// The name of a block, as a link if the page shows its line.
+/// Returns the name of a block, as a link if the page shows its line.
 fn changing_block(digest: &RunDigest, block: &ChangedBy) -> Markup {
     let name = match block.number {
         Some(number) => format!("N{number} ({}:{})", block.file, block.line),

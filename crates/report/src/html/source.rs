@@ -16,7 +16,7 @@ use frictcomp::text::LineSource;
 
 /// Gives the lines of a program once more, after its run.
 pub trait Sources {
-    /// The lines of the file with this name in the records; `None` if it cannot be read again.
+    /// Returns the lines of the file with this name in the records; `None` if it cannot be read again.
     fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>>;
 }
 
@@ -26,7 +26,7 @@ const MAX_LINES: usize = 300_000;
 /// Lines around one with an event that are never folded.
 const CONTEXT: usize = 3;
 
-/// A fold of fewer lines is not worth the click.
+/// Least number of lines of a fold: one of fewer lines is not worth the click.
 const MIN_FOLD: usize = 6;
 
 /// Lines of one fold.
@@ -274,7 +274,7 @@ impl SourceLines<'_, '_> {
         }
     }
 
-    /// The line with the spans of its messages underlined.
+    /// Returns the line with the spans of its messages underlined.
     fn marked(&self, line: u32, text: &str, event: &LineDigest) -> Markup {
         let spans = self.spans(line, text, event);
         let begins = iter::once(0).chain(spans.iter().map(|span| span.end));

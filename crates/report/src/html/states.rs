@@ -69,7 +69,7 @@ fn chart(digest: &RunDigest, program: &ProgramDigest) -> BandChart {
     }
 }
 
-/// The states of a row in words, at most the first few.
+/// Returns the states of a row in words, at most the first few.
 fn describe(row: &BandRow) -> String {
     const TOLD: usize = 6;
     let mut states: Vec<&str> = row.bands.iter().map(|band| band.state.as_str()).collect();
@@ -125,7 +125,7 @@ fn told(digest: &RunDigest, label: &str, stretch: &StateSpan) -> String {
     }
 }
 
-/// The line that caused it if the source shows it separately, otherwise its file.
+/// Returns the line that caused it if the source shows it separately, otherwise its file.
 fn target(digest: &RunDigest, program: &ProgramDigest, stretch: &StateSpan) -> String {
     match stretch.spot {
         Some(spot) if digest.files[spot.file].events.contains_key(&spot.line) => {
@@ -136,7 +136,7 @@ fn target(digest: &RunDigest, program: &ProgramDigest, stretch: &StateSpan) -> S
     }
 }
 
-/// A block as a place on the axis of a chart; beyond 2^52, neighbours coincide.
+/// Returns a block as a place on the axis of a chart; beyond 2^52, neighbours coincide.
 fn block(number: u64) -> f64 {
     let high = u32::try_from(number >> 32).unwrap_or(u32::MAX);
     let low = u32::try_from(number & 0xffff_ffff).unwrap_or(u32::MAX);

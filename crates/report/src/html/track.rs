@@ -46,7 +46,7 @@ pub(super) struct StateTrack {
 const MAX_STRETCHES: usize = 2048;
 
 impl StateTrack {
-    /// A track that begins with a state.
+    /// Returns a track that begins with a state.
     pub(super) fn new(axis: AxisIndex, kind: Kind, now: StateOnWays, start_up: State) -> Self {
         Self {
             axis,
@@ -83,7 +83,7 @@ impl StateTrack {
         }
     }
 
-    /// Whether it has a state other than that the kind does not exist here.
+    /// Returns whether it has a state other than that the kind does not exist here.
     pub(super) fn is_configured(&self) -> bool {
         let absent = BandState::One(State::Unconfigured);
         self.stretches.iter().any(|stretch| stretch.state != absent)

@@ -30,7 +30,7 @@ pub(super) struct Ways {
 }
 
 impl Ways {
-    /// The state of a kind on an axis, as seen from a file.
+    /// Returns the state of a kind on an axis, as seen from a file.
     pub(super) fn find(
         &mut self,
         view: StateView<'_>,
@@ -57,7 +57,7 @@ impl Ways {
         Some(number)
     }
 
-    /// A text.
+    /// Returns a text.
     pub(super) fn text(&self, number: WaysIndex) -> &str {
         self.texts.get(number.0).map_or("", AsRef::as_ref)
     }

@@ -6,7 +6,7 @@ use crate::wording::{integer, leading, visible_line};
 
 use super::message_format::MessageFormat;
 
-/// A diagnostic as one line, without its end.
+/// Returns a diagnostic as one line, without its end.
 pub fn concise_line(diagnostic: &Diagnostic) -> String {
     let mut line = Vec::new();
     append(&mut line, diagnostic);

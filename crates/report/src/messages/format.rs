@@ -33,7 +33,7 @@ macro_rules! formats {
             /// Every format.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$format),+];
 
-            /// The name of the format.
+            /// Returns the name of the format.
             pub fn as_str(self) -> &'static str {
                 match self { $(Self::$format => $name,)+ }
             }
@@ -71,7 +71,7 @@ formats! {
 }
 
 impl ListingFormat {
-    /// Whether it is for diagnostics only, without records of other kinds.
+    /// Returns whether it is for diagnostics only, without records of other kinds.
     pub fn is_for_diagnostics(self) -> bool {
         self.holds() == Holds::Messages
     }

@@ -22,7 +22,7 @@ pub struct Listing<W> {
 }
 
 impl<W: Write> Listing<W> {
-    /// A list in a format; `look` matters for text only.
+    /// Returns a list in a format; `look` matters for text only.
     pub fn new(writer: W, format: ListingFormat, look: Look) -> Self {
         let mut output = Output::new(writer);
         let mut format = format.begin(look);
@@ -99,7 +99,7 @@ impl<W: Write> Listing<W> {
         self.output.finish()
     }
 
-    /// Whether the reader closed the pipe.
+    /// Returns whether the reader closed the pipe.
     pub fn is_closed(&self) -> bool {
         self.output.is_closed()
     }

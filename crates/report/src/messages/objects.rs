@@ -25,7 +25,7 @@ pub(super) struct Objects {
 }
 
 impl Objects {
-    /// One document, `{"schema":2,"records":[…]}`.
+    /// Creates the form of one document, `{"schema":2,"records":[…]}`.
     pub(super) fn document() -> Self {
         Self {
             opening: json::OPENING,
@@ -37,7 +37,7 @@ impl Objects {
         }
     }
 
-    /// One object per line.
+    /// Creates the form of one object per line.
     pub(super) fn lines() -> Self {
         Self {
             opening: b"",

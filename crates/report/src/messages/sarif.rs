@@ -115,7 +115,7 @@ fn result(diagnostic: &Diagnostic) -> Value {
     result
 }
 
-/// The places that explain a message, and the programs that reach its place (R17.1).
+/// Returns the places that explain a message, and the programs that reach its place (R17.1).
 fn related(diagnostic: &Diagnostic) -> Vec<Value> {
     let labels = diagnostic.labels.iter();
     let labels = labels.map(|label| (label.text.as_str(), location(&label.place)));
@@ -160,7 +160,7 @@ fn location(place: &Place) -> Value {
     })
 }
 
-/// A path as a relative reference: `/` between its parts, everything unusual percent-encoded.
+/// Returns a path as a relative reference: `/` between its parts, everything unusual percent-encoded.
 fn uri(path: &str) -> String {
     let mut uri = String::with_capacity(path.len());
     for byte in path.bytes() {

@@ -13,19 +13,19 @@ use crate::wording::{counted, listed};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum ProgramResult {
-    /// It has an error: the control stops.
+    /// Program with an error: the control stops.
     Failed,
-    /// It leaves friction compensation of an axis off.
+    /// Program that leaves friction compensation of an axis off.
     LeavesOff,
-    /// It leaves an axis otherwise away from its start-up state.
+    /// Program that leaves an axis otherwise away from its start-up state.
     LeavesAway,
-    /// It may leave an axis away from its start-up state.
+    /// Program that may leave an axis away from its start-up state.
     MayLeaveAway,
-    /// What it does depends on what only the machine knows.
+    /// Program whose effect depends on values known only to the machine.
     Depends,
-    /// It has another warning.
+    /// Program with another warning.
     Warned,
-    /// It has no warning.
+    /// Program without a warning.
     Clean,
 }
 
@@ -49,7 +49,7 @@ impl ProgramResult {
         }
     }
 
-    /// Whether it is that of an axis.
+    /// Returns whether it is that of an axis.
     pub fn is_of_axis(self) -> bool {
         matches!(
             self,

@@ -50,9 +50,9 @@ pub struct FollowedContour {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct BlockStretch {
-    /// Its file.
+    /// File.
     pub file: Arc<str>,
-    /// Its line, from 1.
+    /// Line, from 1.
     pub line: u32,
     /// A line through points of the picture, in its units.
     pub points: Vec<[f64; 2]>,
@@ -90,7 +90,7 @@ pub struct ContourPicture {
 }
 
 impl ContourPicture {
-    /// The contour in the plane of two axes, before its first cycle.
+    /// Returns the contour in the plane of two axes, before its first cycle.
     pub fn new(axes: [String; 2]) -> Self {
         Self {
             axes,
@@ -145,7 +145,7 @@ impl ContourPicture {
         }
     }
 
-    /// Of the cycles that make a point, keeps the one with the largest deviation.
+    /// Keeps the cycle with the largest deviation among those that make a point.
     fn keep(&mut self, (point, spot, time_s): (PlanePoint, MarkedSpot, f64)) {
         let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
         let is_full = self.filled >= self.every;
@@ -217,7 +217,7 @@ impl ContourPicture {
         }
     }
 
-    /// The path alone, in which an editor finds the block of a place and the place of a block.
+    /// Returns the path alone, in which an editor finds the block of a place and the place of a block.
     pub fn followed(mut self, program: &str) -> FollowedContour {
         let points = self.points.iter();
         let spots: Vec<MarkedSpot> = points.clone().map(|(_, spot, _)| spot.clone()).collect();
@@ -259,12 +259,12 @@ impl ContourPicture {
             .sort_by(|one, other| other.0.weight.total_cmp(&one.0.weight));
     }
 
-    /// The picture: the path above, deviations over time below.
+    /// Returns the picture: the path above, deviations over time below.
     pub fn chart(self, program: &str) -> PlaneChart {
         self.linked_chart(program, |_, _| None)
     }
 
-    /// The picture in a page: each mark links to what `link` gives for its file and line.
+    /// Returns the picture in a page: each mark links to what `link` gives for its file and line.
     pub fn linked_chart(
         mut self,
         program: &str,

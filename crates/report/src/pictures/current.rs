@@ -56,7 +56,7 @@ pub struct AxisSample<'a> {
 }
 
 impl AxisPlot {
-    /// An axis before its first cycle. A recorded trace has neither name nor type.
+    /// Returns an axis before its first cycle. A recorded trace has neither name nor type.
     pub fn new(name: &str, axis_type: Option<AxisType>) -> Self {
         Self {
             name: name.to_owned(),
@@ -167,7 +167,7 @@ impl AxisPlot {
 }
 
 impl CurrentPlot {
-    /// A plot of axes.
+    /// Returns a plot of axes.
     pub fn new(axes: Vec<AxisPlot>) -> Self {
         Self {
             axes,
@@ -220,7 +220,7 @@ impl CurrentPlot {
         }
     }
 
-    /// The title of the chart and of its page.
+    /// Returns the title of the chart and of its page.
     pub(crate) fn title(&self) -> String {
         match &self.axes[..] {
             [one] if one.name.is_empty() => "Additive current".to_owned(),
@@ -232,8 +232,8 @@ impl CurrentPlot {
         }
     }
 
-    /// The chart: for each axis the current, below it velocity and weights; above all the states
-    /// of compensation.
+    /// Returns the chart: for each axis the current, below it velocity and weights; above all the states of
+    /// compensation.
     pub fn chart(&self) -> LineChart {
         let several = self.axes.len() > 1;
         let told: Vec<String> = (self.axes.iter())

@@ -6,7 +6,7 @@ use frictcomp_recordings::identify::FrictionParameter;
 use frictcomp_recordings::identify::TrendReport;
 use frictcomp_recordings::value_lists::DRIVE_UNITS;
 
-/// Friction over speed, a curve for each state.
+/// Draws friction over speed, a curve for each state.
 pub fn friction_states(report: &StatesReport) -> LineChart {
     let curve = |name: &str, drawn: Drawn, points: Vec<[f64; 2]>| Series {
         name: name.to_owned(),
@@ -39,7 +39,7 @@ pub fn friction_states(report: &StatesReport) -> LineChart {
     }
 }
 
-/// Fc, Fs, fv and the offset over the days since the first recording, with bars of one standard error.
+/// Draws Fc, Fs, fv and the offset over the days since the first recording, with bars of one standard error.
 pub fn friction_trend(report: &TrendReport) -> LineChart {
     let first = report.dates.first();
     let (day, date) = first.map_or((0.0, ""), |it| (it.day, &it.date));
@@ -79,7 +79,7 @@ pub fn friction_trend(report: &TrendReport) -> LineChart {
     }
 }
 
-/// The values of a parameter, and the bars of their errors.
+/// Returns the values of a parameter, and the bars of their errors.
 fn series(report: &TrendReport, parameter: FrictionParameter, day: f64) -> [Series; 2] {
     let levels = report
         .dates

@@ -3,8 +3,8 @@
 use crate::results::identify::IdentifyReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 
-/// Friction over speed: the pairs with their errors, the curve, the points of the list; below it the
-/// differences of the pairs from the curve.
+/// Draws friction over speed: the pairs with their errors, the curve, the points of the list; below it the differences
+/// of the pairs from the curve.
 pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     let found = &report.identified;
     let unit = report.unit();
@@ -85,7 +85,7 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     }
 }
 
-/// The distance of the torque from the mean of its segment, over the position: its mean in pieces of the
+/// Returns the distance of the torque from the mean of its segment, over the position: its mean in pieces of the
 /// travel, and the range of nine tenths of the samples. All of them would be a block of colour.
 pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     let unit = report.unit();
@@ -113,7 +113,7 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
 
 /// The residuals in a piece of the travel.
 struct Piece {
-    /// Its middle.
+    /// Middle.
     place: f64,
     mean: f64,
     low: f64,
@@ -163,7 +163,7 @@ impl Piece {
     }
 }
 
-/// Velocity and torque over time, the used samples drawn over all others.
+/// Draws velocity and torque over time, the used samples drawn over all others.
 pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
     let track = &report.recording.track;
     let over_time = |values: &[f64], factor: f64| -> Vec<[f64; 2]> {

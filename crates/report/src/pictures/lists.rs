@@ -6,15 +6,15 @@ use frictcomp::machine::AcceptedList;
 
 use super::units::{minute_unit, velocity_unit};
 
-/// The curve of a value list with its points and the ends at which its value is held (R4.7), and
-/// the scaled curve if P-COMP-00045 is not 100 %.
+/// Returns the curve of a value list with its points and the ends at which its value is held (R4.7), and the scaled
+/// curve if P-COMP-00045 is not 100 %.
 ///
 /// Velocities are in µm/s or 0.001°/s, outputs in drive units.
 pub fn value_curve(accepted: &AcceptedList) -> LineChart {
     value_curves(&[accepted])
 }
 
-/// The curves of several value lists, one below the other.
+/// Returns the curves of several value lists, one below the other.
 pub fn value_curves(accepted: &[&AcceptedList]) -> LineChart {
     let mut units: Vec<&str> = (accepted.iter())
         .map(|list| velocity_unit(list.axis_type))
@@ -124,8 +124,8 @@ fn held_notes(table: &[[f64; 2]], end: f64) -> Vec<CurveNote> {
     notes
 }
 
-/// A table as a curve: lines, which are straight in velocities but not in their logarithms, its
-/// points, and the ends at which its value is held.
+/// Returns a table as a curve: lines, which are straight in velocities but not in their logarithms, its points, and the
+/// ends at which its value is held.
 fn curve(name: &str, table: &[[f64; 2]], end: f64) -> [Series; 3] {
     let series = |name: &str, points, drawn| Series {
         name: name.to_owned(),
@@ -158,7 +158,7 @@ const PIECES: u32 = 16;
 /// Length of the last value drawn beyond the last point of all.
 const BEYOND: f64 = 3.0;
 
-/// From standstill to the first point, and from the last one to the end of the chart.
+/// Returns the series from standstill to the first point, and from the last one to the end of the chart.
 fn held_ends(table: &[[f64; 2]], end: f64) -> Series {
     let mut points = Vec::new();
     if let (Some(&[first_x, first_y]), Some(&[last_x, last_y])) = (table.first(), table.last()) {

@@ -6,7 +6,7 @@ use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 /// Maximum number of drawn channels.
 const MOST: usize = 12;
 
-/// Every channel in a separate panel, over its own times; over the row if the file has none.
+/// Returns every channel in a separate panel, over its own times; over the row if the file has none.
 pub fn channels(report: &TraceReport<'_>) -> LineChart {
     let recording = report.recording;
     let panels: Vec<Panel> = recording

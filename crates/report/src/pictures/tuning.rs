@@ -5,7 +5,7 @@ use crate::svg::{ChartAxis, CurveLooks, Drawn, LineChart, Panel, Series};
 use crate::wording::last_part;
 use frictcomp_physics::circle::FeedResult;
 
-/// The glitch before and after tuning over v²/R, on which it depends, and its change with less and more
+/// Returns the glitch before and after tuning over v²/R, on which it depends, and its change with less and more
 /// friction (R5.25); two panels per plant, since the rest is small compared with the original glitch.
 pub fn tuning(reports: &[TuneReport]) -> LineChart {
     let told: Vec<String> = reports.iter().map(describe).collect();
@@ -90,7 +90,7 @@ fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
     ]
 }
 
-/// From the glitch without compensation to that with it.
+/// Returns the glitches without compensation and with it.
 fn pair(it: &FeedResult) -> [[f64; 2]; 3] {
     let at = it.acceleration_mm_per_s2;
     [[at, it.glitch_off_um], [at, it.glitch_on_um], [f64::NAN; 2]]

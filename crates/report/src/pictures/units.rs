@@ -2,7 +2,7 @@
 
 use frictcomp::lists::AxisType;
 
-/// The unit of the velocities of lists and traces.
+/// Returns the unit of the velocities of lists and traces.
 pub(super) fn velocity_unit(axis_type: AxisType) -> &'static str {
     match axis_type {
         AxisType::Linear => "\u{b5}m/s",
@@ -10,7 +10,7 @@ pub(super) fn velocity_unit(axis_type: AxisType) -> &'static str {
     }
 }
 
-/// The unit of feeds.
+/// Returns the unit of feeds.
 pub(super) fn minute_unit(axis_type: AxisType) -> &'static str {
     match axis_type {
         AxisType::Linear => "mm/min",

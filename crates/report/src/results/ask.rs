@@ -11,7 +11,7 @@ use frictcomp::machine::Machine;
 use frictcomp::readings::{Basis, Question};
 use frictcomp_recordings::evidence::{Answer, AnswerVerdict};
 
-/// The questions with the readings in force on a machine; `build` is that of its control.
+/// Returns the questions with the readings in force on a machine; `build` is that of its control.
 pub fn document(machine: &Machine, build: Option<CncBuild>) -> Document<'static> {
     let mut out = Document::new("Open questions", headline(machine, build));
     out.push_str("\n");
@@ -25,7 +25,7 @@ pub fn document(machine: &Machine, build: Option<CncBuild>) -> Document<'static>
     out
 }
 
-/// The questions as JSON.
+/// Returns the questions as JSON.
 pub fn render_json(machine: &Machine, build: Option<CncBuild>) -> String {
     let questions = Question::ALL.into_iter();
     let questions: Vec<Value> = questions.map(|it| record(it, machine)).collect();
@@ -34,7 +34,7 @@ pub fn render_json(machine: &Machine, build: Option<CncBuild>) -> String {
     to_json(&list)
 }
 
-/// The answers of a control; a reason for several undecidable ones is given once.
+/// Returns the answers of a control; a reason for several undecidable ones is given once.
 pub fn answers_document(answers: &[Answer]) -> Document<'static> {
     let undecided = |it: &&Answer| it.verdict == AnswerVerdict::Undecidable;
     let undecided = answers.iter().filter(undecided).count();

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use frictcomp::machine::Outline;
 use frictcomp::syntax::AxisUse;
 
-/// A commented `frictcomp.toml` with the known facts and no invented ones.
+/// Returns a commented `frictcomp.toml` with the known facts and no invented ones.
 pub fn render_configuration(outline: &Outline) -> String {
     let mut text = String::from(
         "# The machine that the programs in this folder and below run on.\n\

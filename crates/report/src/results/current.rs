@@ -3,7 +3,7 @@
 use crate::document::{Document, Headline, Standing};
 use crate::pictures::CurrentPlot;
 
-/// The current over time under its verdict.
+/// Returns the current over time under its verdict.
 pub fn document<'a>(plot: &'a CurrentPlot, verdict: &str) -> Document<'a> {
     let mut out = Document::new(plot.title(), Headline::new(Standing::Plain, verdict));
     out.figure(|| plot.chart());

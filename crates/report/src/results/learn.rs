@@ -9,7 +9,7 @@ use crate::document::{Document, Headline, Standing, Table};
 use crate::wording::{to_json, visible_line};
 use frictcomp_recordings::commission::{LearnReport, LearnedAxis, NextStep, Prediction};
 
-/// The record as JSON.
+/// Returns the record as JSON.
 pub fn render_json(report: &LearnReport) -> String {
     #[derive(Serialize)]
     struct LearnRecord<'a> {
@@ -35,7 +35,7 @@ pub fn render_json(report: &LearnReport) -> String {
     to_json(&record)
 }
 
-/// The verdict: the best lists so far, and the next step (R18.20).
+/// Returns the verdict: the best lists so far, and the next step (R18.20).
 pub fn headline(report: &LearnReport) -> Headline {
     let best = report.axes.iter().filter_map(|axis| {
         let number = axis.best_round?;
@@ -70,7 +70,7 @@ pub fn headline(report: &LearnReport) -> Headline {
     }
 }
 
-/// The rounds, and the best lists.
+/// Returns the rounds, and the best lists.
 pub fn document(report: &LearnReport) -> Document<'_> {
     let mut out = Document::new("Learning from recorded circles", headline(report));
     if !report.feeds.is_empty() {
@@ -88,7 +88,7 @@ pub fn document(report: &LearnReport) -> Document<'_> {
     out
 }
 
-/// The rounds of all axes.
+/// Returns the rounds of all axes.
 fn rounds(report: &LearnReport) -> Table {
     let table = Table::of_numbers(["round"]).left("axis").right("glitch µm");
     let mut table = table.right("spread").right("predicted").left("");
@@ -123,7 +123,7 @@ fn rounds(report: &LearnReport) -> Table {
     table
 }
 
-/// The best list of each axis, and what the simulation expects of the next ones.
+/// Adds the best list of each axis, and what the simulation expects of the next ones.
 fn push_best(out: &mut Document<'_>, report: &LearnReport) {
     for axis in &report.axes {
         if let (Some(number), Some(list)) = (axis.best_round, &axis.list) {

@@ -63,7 +63,7 @@ pub(crate) fn selector_origin(axis: &Axis) -> String {
     }
 }
 
-/// Number, key, value with its unit, and origin of a parameter.
+/// Returns number, key, value with its unit, and origin of a parameter.
 pub fn cells(row: &Parameter) -> [String; 4] {
     let value = if row.unit.is_empty() {
         row.value.clone()
@@ -81,7 +81,7 @@ pub fn cells(row: &Parameter) -> [String; 4] {
     ]
 }
 
-/// A text that fits into `room` columns; it loses its beginning, as the end of a path says more.
+/// Returns a text that fits into `room` columns; it loses its beginning, as the end of a path says more.
 fn shortened(text: &str, room: usize) -> String {
     let length = columns(text);
     if length <= room {

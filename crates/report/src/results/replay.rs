@@ -23,7 +23,7 @@ pub struct ReplayReport<'a> {
     pub replayed: &'a Replayed,
 }
 
-/// The recorded states, the verdict on each axis with its changes, and remarks on the whole.
+/// Returns the recorded states, the verdict on each axis with its changes, and remarks on the whole.
 pub fn document<'a>(report: &'a ReplayReport<'_>) -> Document<'a> {
     let title = format!("{} compared with the dry run", report.name);
     let mut out = Document::new(title, headline(report.replayed));

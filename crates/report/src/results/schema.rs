@@ -9,14 +9,14 @@ use frictcomp::diagnostic::{Code, Levels, Severity};
 use frictcomp_physics::simulation::PLANT_FORMS;
 use serde_json::{Map, Value, json};
 
-/// The schema of `frictcomp.toml`, JSON Schema 2020-12, made from the tables of the reader. Only the
-/// reader finds duplicate entries for an axis or a list.
+/// Returns the schema of `frictcomp.toml`, JSON Schema 2020-12, made from the tables of the reader. Only the reader
+/// finds duplicate entries for an axis or a list.
 pub fn config_schema() -> Value {
     schema(&CONFIG_FORMS, "frictcomp.toml")
 }
 
-/// The schema of plant files, JSON Schema 2020-12, made from the tables of the reader. Only the reader
-/// checks the relations between values.
+/// Returns the schema of plant files, JSON Schema 2020-12, made from the tables of the reader. Only the reader checks
+/// the relations between values.
 pub fn plant_schema() -> Value {
     schema(&PLANT_FORMS, "a plant file of frictcomp")
 }
@@ -66,13 +66,13 @@ fn table(of: &TableForm, tables: &[TableForm]) -> Value {
 /// The words of `[lint]`.
 const LEVELS: [&str; 4] = ["off", "info", "warning", "error"];
 
-/// The codes whose severity can be changed.
+/// Returns the codes whose severity can be changed.
 fn levelled() -> impl Iterator<Item = Code> {
     let codes = Code::ALL.iter().copied();
     codes.filter(|code| Levels::default().set(*code, Some(Severity::Info)))
 }
 
-/// A pattern for words in any case.
+/// Returns a pattern for words in any case.
 fn any_case<'a>(words: impl Iterator<Item = &'a str>) -> String {
     let mut pattern = String::from("^(");
     for (at, word) in words.enumerate() {
@@ -133,7 +133,7 @@ fn form(form: Form, tables: &[TableForm]) -> Value {
     }
 }
 
-/// The table of a header; an unknown one may contain anything.
+/// Returns the table of a header; an unknown one may contain anything.
 fn inner(header: &str, tables: &[TableForm]) -> Value {
     let mut found = tables.iter().filter(|table| table.header == header);
     found

@@ -33,7 +33,7 @@ fn headline(solution: &Solution) -> Headline {
     Headline::new(standing, parts.join("; "))
 }
 
-/// The values as a table, the computed ones with their formula, and remarks on them.
+/// Returns the values as a table, the computed ones with their formula, and remarks on them.
 pub fn document(solution: &Solution) -> Document<'_> {
     let mut values = Table::plain(["quantity", "value", "computed by"]);
     for solved in &solution.values {
@@ -63,7 +63,7 @@ pub fn guideline(guideline: Guideline) -> &'static str {
     }
 }
 
-/// The values as a JSON document.
+/// Returns the values as a JSON document.
 pub fn render_json(solution: &Solution) -> String {
     to_json(&record(solution))
 }

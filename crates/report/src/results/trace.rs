@@ -14,17 +14,17 @@ use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
 pub struct TraceReport<'a> {
     /// The name of the file.
     pub name: String,
-    /// Its channels.
+    /// Channels.
     pub recording: &'a TraceRecording,
 }
 
 impl TraceReport<'_> {
-    /// The title of its picture and of its page.
+    /// Returns the title of its picture and of its page.
     pub(crate) fn title(&self) -> String {
         format!("Channels of {}", self.name)
     }
 
-    /// The verdict: the layout and the number of channels, and the first thing that is odd (R18.20).
+    /// Returns the verdict: the layout and the number of channels, and the first thing that is odd (R18.20).
     pub fn headline(&self) -> Headline {
         let recording = self.recording;
         let channels = counted(recording.channels().len(), "channel");
@@ -33,7 +33,7 @@ impl TraceReport<'_> {
     }
 }
 
-/// The channels over time, as a table, and their oddities.
+/// Returns the channels over time, as a table, and their oddities.
 pub fn document<'a>(report: &'a TraceReport<'_>) -> Document<'a> {
     let mut out = Document::new(report.title(), report.headline());
     out.figure(|| channels(report));
@@ -95,7 +95,7 @@ fn push_channel(table: &mut Table, summary: &ChannelSummary<'_>) {
     ]);
 }
 
-/// The oddities of a channel.
+/// Returns the oddities of a channel.
 fn oddities(summary: &ChannelSummary<'_>) -> Vec<String> {
     let mut odd = Vec::new();
     if let Some(clock) = &summary.clock {
@@ -128,7 +128,7 @@ fn oddities(summary: &ChannelSummary<'_>) -> Vec<String> {
     odd
 }
 
-/// A number with at most six significant digits.
+/// Returns a number with at most six significant digits.
 fn number(value: f64) -> String {
     let digits = if value == 0.0 {
         0.0
@@ -179,7 +179,7 @@ struct ChannelRecord<'a> {
     times_not_rising: Option<u64>,
 }
 
-/// The channels as JSON.
+/// Returns the channels as JSON.
 pub fn render_json(report: &TraceReport<'_>) -> String {
     let recording = report.recording;
     to_json(&TraceDocument {

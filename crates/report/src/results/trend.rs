@@ -54,7 +54,7 @@ fn change_of(report: &TrendReport, change: &FrictionChange) -> String {
     )
 }
 
-/// A row for each recording, then the changes, then the files left out.
+/// Returns a row for each recording, then the changes, then the files left out.
 pub fn document(report: &TrendReport) -> Document<'_> {
     let axis = report
         .axis
@@ -146,7 +146,7 @@ struct LeftOutRecord<'a> {
     reason: &'a str,
 }
 
-/// The report as JSON; each parameter with its standard error.
+/// Returns the report as JSON; each parameter with its standard error.
 pub fn render_json(report: &TrendReport) -> String {
     let date = |at: usize| report.dates.get(at).map_or("", |it| &it.date);
     let parameters = |it: &DatedFriction| {

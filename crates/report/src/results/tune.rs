@@ -25,7 +25,7 @@ pub struct TuneReport {
     pub model: &'static str,
     /// The reading of the documents, in words.
     pub reading: String,
-    /// What its simulation leaves out.
+    /// Properties of a machine that the simulation leaves out.
     pub not_modelled: Vec<&'static str>,
     /// The result.
     pub tuned: Tuned,
@@ -54,7 +54,7 @@ impl TuneReport {
     }
 }
 
-/// The checks between the circles, and on machines that deviate from the plant (R5.29).
+/// Returns the checks between the circles, and on machines that deviate from the plant (R5.29).
 fn checked(tuned: &Tuned) -> String {
     let largest = |of: fn(&RemainingGlitch) -> f64| tuned.check.iter().map(of).fold(0.0, f64::max);
     let worst = tuned
@@ -98,12 +98,12 @@ fn checked(tuned: &Tuned) -> String {
 }
 
 impl TuneReport {
-    /// The verdict with the name of the plant.
+    /// Returns the verdict with the name of the plant.
     fn verdict(&self) -> String {
         format!("plant {}: {}", visible_line(&self.plant), self.headline())
     }
 
-    /// The verdict: the largest glitch that is left, and that without compensation (R18.20).
+    /// Returns the verdict: the largest glitch that is left, and that without compensation (R18.20).
     pub fn headline(&self) -> Headline {
         let feeds = self.tuned.feeds.iter();
         let [least, most] = feeds.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], it| {
@@ -128,7 +128,7 @@ impl TuneReport {
     }
 }
 
-/// The parameters and the glitches before and after, of each plant.
+/// Returns the parameters and the glitches before and after, of each plant.
 pub fn document(reports: &[TuneReport]) -> Document<'_> {
     let mut out = Document::new(title(reports), headline(reports));
     out.figure(move || tuning(reports));
@@ -222,7 +222,7 @@ fn push_tuned(out: &mut Document<'_>, report: &TuneReport, of_plant: &str) {
     out.table(table);
 }
 
-/// A feed or a radius with a decimal, if it has one.
+/// Returns a feed or a radius with a decimal, if it has one.
 fn short(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
@@ -265,7 +265,7 @@ struct PlantRecord<'a> {
     reading: &'a str,
     not_modelled: &'a [&'static str],
     trials: usize,
-    /// Those of X.
+    /// The parameters of X.
     parameters: Option<TunedParameters>,
     axes: AxisRecords,
     tuned_for: Accelerations,
@@ -360,8 +360,8 @@ impl<'a> PlantRecord<'a> {
     }
 }
 
-/// The report as JSON; glitches in µm, feeds in mm/min, radii in mm. The first plant is at the
-/// top, the others are under `compared`.
+/// Returns the report as JSON; glitches in µm, feeds in mm/min, radii in mm. The first plant is at the top, the others
+/// are under `compared`.
 pub fn render_json(reports: &[TuneReport]) -> String {
     let Some((first, others)) = reports.split_first() else {
         return String::new();

@@ -26,7 +26,7 @@ pub struct VerifyReport {
 }
 
 impl VerifyReport {
-    /// The verdict: whether the list fits, and at which speeds (R18.20).
+    /// Returns the verdict: whether the list fits, and at which speeds (R18.20).
     pub fn headline(&self) -> Headline {
         let verified = &self.verified;
         let mut said = verified.verdict();
@@ -61,7 +61,7 @@ impl VerifyReport {
     }
 }
 
-/// The verdict, then the figures that it is based on.
+/// Returns the verdict, then the figures that it is based on.
 pub fn document(report: &VerifyReport) -> Document<'_> {
     let verified = &report.verified;
     let title = format!("{} against {}", report.list, report.trace);
@@ -163,7 +163,7 @@ struct ReversalRecord {
     predicted: f64,
 }
 
-/// The report of an axis, or those of several, as JSON; speeds in µm/s or 0.001°/s, times in s.
+/// Returns the report of an axis, or those of several, as JSON; speeds in µm/s or 0.001°/s, times in s.
 pub fn render_json(reports: &[VerifyReport]) -> String {
     json_of_axes(reports.iter().map(record))
 }

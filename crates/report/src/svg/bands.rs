@@ -11,11 +11,11 @@ use frictcomp::comp::State;
 /// A bar: one state from one value of the axis to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Band {
-    /// Where it begins.
+    /// Start of the bar.
     pub from: f64,
-    /// Where it ends.
+    /// End of the bar.
     pub to: f64,
-    /// Its content.
+    /// Content.
     pub state: BandState,
     /// Relation of the state to the start-up state.
     pub relation: StartUpRelation,
@@ -60,7 +60,7 @@ pub struct BandChart {
 }
 
 impl BandChart {
-    /// The picture. Bars that are too narrow to be seen are drawn as one that is `changing`.
+    /// Returns the picture. Bars that are too narrow to be seen are drawn as one that is `changing`.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::headed(Head {
             title: &self.title,
@@ -95,7 +95,7 @@ impl BandChart {
         canvas.finish(frame, floor + 8.0)
     }
 
-    /// If the bars represent whole steps, only those have ticks, the first and the last always.
+    /// Gives ticks to whole steps only, the first and the last always, if the bars represent them.
     fn name_ticks(&self, scale: &mut Scale) {
         let Some((first, last)) = self.steps else {
             return;
@@ -115,12 +115,12 @@ impl BandChart {
 /// The height of a row.
 const ROW: f64 = 26.0;
 
-/// The height that rows need.
+/// Returns the height that rows need.
 pub(super) fn height(rows: &[BandRow]) -> f64 {
     ROW * f64::from(u32::try_from(rows.len()).unwrap_or(u32::MAX))
 }
 
-/// The width that the labels of rows need.
+/// Returns the width that the labels of rows need.
 pub(super) fn label_width(rows: &[BandRow]) -> f64 {
     let widths = rows.iter().map(|row| text_width(&row.label));
     widths.fold(30.0, f64::max) + 10.0
@@ -175,7 +175,7 @@ impl BandRows<'_> {
     }
 }
 
-/// Narrower bars are joined.
+/// Width below which bars are joined.
 const NARROW: f64 = 1.5;
 
 fn draw_band(canvas: &mut Canvas<'_>, band: &Band, area: Area) {

@@ -67,7 +67,7 @@ pub(super) struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// A picture with its heading.
+    /// Creates a picture with its heading.
     pub(super) fn headed(head: Head<'a>) -> Self {
         let mut canvas = Self {
             head,
@@ -118,7 +118,7 @@ impl<'a> Canvas<'a> {
         self.raw("</text>\n");
     }
 
-    /// A line through points; one that is not finite interrupts it.
+    /// Draws a line through points; one that is not finite interrupts it.
     pub(super) fn path(&mut self, class: &str, points: impl IntoIterator<Item = (f64, f64)>) {
         self.raw(&format!("<path class=\"{class}\" d=\""));
         let mut pen_is_down = false;
@@ -134,7 +134,7 @@ impl<'a> Canvas<'a> {
         self.raw("\"/>\n");
     }
 
-    /// A marker of the series with this number: circle, square, triangle, diamond.
+    /// Draws a marker of the series with this number: circle, square, triangle, diamond.
     pub(super) fn marker(&mut self, series: usize, (x, y): (f64, f64)) {
         let class = format!("fc-m{}", series % SERIES);
         match series % SERIES {
@@ -180,7 +180,7 @@ impl<'a> Canvas<'a> {
         self.raw(if href.is_some() { "</a>\n" } else { "</g>\n" });
     }
 
-    /// A length of the picture between two ticks, with its words; returns where they end.
+    /// Returns a length of the picture between two ticks, with its words; returns where they end.
     pub(super) fn scale_bar(&mut self, (left, y): (f64, f64), length: f64, text: &str) -> f64 {
         let right = left + length;
         self.line("fc-axis", (left, y), (right, y));
@@ -191,7 +191,7 @@ impl<'a> Canvas<'a> {
         right + 8.0 + widest_text(text)
     }
 
-    /// Another picture of the same width below what was drawn.
+    /// Places another picture of the same width below what was drawn.
     pub(super) fn embed(&mut self, picture: &str, y: f64) {
         let y = px(y);
         self.raw(&format!(
@@ -199,7 +199,7 @@ impl<'a> Canvas<'a> {
         ));
     }
 
-    /// The whole picture.
+    /// Returns the whole picture.
     pub(super) fn finish(self, frame: Frame<'_>, height: f64) -> String {
         let (prefix, alone) = match frame {
             Frame::Alone => ("picture", true),
@@ -232,7 +232,7 @@ impl<'a> Canvas<'a> {
         push_escaped(&mut out, description);
         out.push_str("</desc>\n");
         if alone {
-            // Nothing in it ends the element: it is a constant of this crate.
+            // The style is a constant of this crate and does not end the element.
             let _ = writeln!(out, "<style>\n{}</style>", style());
         }
         let _ = writeln!(
@@ -252,22 +252,22 @@ impl<'a> Canvas<'a> {
 /// Number of series that look different.
 pub(super) const SERIES: usize = 6;
 
-/// The class of the curve of the series with this number.
+/// Returns the class of the curve of the series with this number.
 pub(super) fn curve_class(series: usize) -> String {
     format!("fc-curve fc-s{}", series % SERIES)
 }
 
-/// The approximate width of a text.
+/// Returns the approximate width of a text.
 pub(super) fn text_width(text: &str) -> f64 {
     f64::from(u32::try_from(text.width()).unwrap_or(u32::MAX)) * 6.5
 }
 
-/// The approximate width of a text in the larger letters of narrow screens, in a wide font.
+/// Returns the approximate width of a text in the larger letters of narrow screens, in a wide font.
 pub(super) fn widest_text(text: &str) -> f64 {
     text_width(text) * 1.45
 }
 
-/// A length with at most one decimal.
+/// Returns a length with at most one decimal.
 pub(super) fn px(length: f64) -> String {
     let mut text = format!("{length:.1}");
     if let Some(whole) = text.strip_suffix(".0") {

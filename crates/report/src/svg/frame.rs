@@ -10,8 +10,7 @@ use std::sync::LazyLock;
 pub enum Frame<'a> {
     /// A separate file, which carries its style.
     Alone,
-    /// In a page that has [`style`] in its own; the name makes the identifiers of the picture
-    /// unique there.
+    /// Part of a page that has [`style`] in its own; the name makes the identifiers of the picture unique there.
     Inside(&'a str),
 }
 

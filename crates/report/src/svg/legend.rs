@@ -5,14 +5,14 @@ use std::borrow::Cow;
 use super::canvas::{Anchor, Area, Canvas, MARGIN, WIDTH, curve_class, widest_text};
 use super::shape::BarShape;
 
-/// What a name of the legend belongs to.
+/// Graphic element that a name of the legend belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LegendSample {
     /// The line of the series with this number.
     Line(usize),
-    /// Its markers.
+    /// Markers.
     Marker(usize),
-    /// Its line with markers.
+    /// Line with markers.
     MarkedLine(usize),
     /// A line in the colour of the axes.
     Thin,

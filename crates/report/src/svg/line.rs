@@ -11,7 +11,7 @@ use super::reduce::reduce;
 use super::scale::{ChartAxis, Ends, Scale, SecondUnit};
 use super::ticks::{TickSide, draw_ticks, draw_x_axis};
 
-/// How a series is drawn.
+/// Way in which a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Drawn {
@@ -39,11 +39,11 @@ pub enum Drawn {
 /// A curve.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub name: String,
     /// Pairs of x and y in the order of drawing. One that is not finite interrupts the curve.
     pub points: Vec<[f64; 2]>,
-    /// How it is drawn.
+    /// Way in which it is drawn.
     pub drawn: Drawn,
 }
 
@@ -51,10 +51,10 @@ pub struct Series {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum PanelHeight {
-    /// As high as the room allows.
+    /// The height that the room allows.
     #[default]
     Full,
-    /// As high as is enough for a curve that only goes up and down.
+    /// The height for a curve that only goes up and down.
     Low,
 }
 
@@ -76,7 +76,7 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Words in the panel.
     pub notes: Vec<CurveNote>,
-    /// Its height.
+    /// Height.
     pub height: PanelHeight,
 }
 
@@ -93,10 +93,10 @@ pub struct XMark {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum CurveLooks {
-    /// Those of quantities, none of which stands for a state.
+    /// Looks of quantities, none of which stands for a state.
     #[default]
     Quantities,
-    /// The first curve is with compensation, the second without.
+    /// Looks of two curves: the first with compensation, the second without.
     OnAndOff,
 }
 
@@ -143,14 +143,14 @@ const MARK_ROOM: f64 = 14.0;
 const CROWDED: usize = 120;
 
 impl LineChart {
-    /// The picture, 860 units wide. Points beyond the visible resolution are reduced to the least and the
+    /// Returns the picture, 860 units wide. Points beyond the visible resolution are reduced to the least and the
     /// greatest of each column.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let (canvas, height) = self.draw();
         canvas.finish(frame, height)
     }
 
-    /// The picture and its height.
+    /// Returns the picture and its height.
     pub(super) fn draw(&self) -> (Canvas<'_>, f64) {
         let mut canvas = Canvas::headed(Head {
             title: &self.title,
@@ -229,8 +229,8 @@ impl LineChart {
         (canvas, floor + 10.0)
     }
 
-    /// The x axis with names below its values. Names without room are left out; their ticks only if all
-    /// of them would be a solid bar.
+    /// Returns the x axis with names below its values. Names without room are left out; their ticks only if all of them
+    /// would be a solid bar.
     fn draw_marks(&self, canvas: &mut Canvas<'_>, x: &Scale, area: Area) -> f64 {
         draw_ticks(canvas, x, (area.x, area.y, area.width), TickSide::Below);
         let (above, row) = (area.y + 24.0, area.y + 40.0);
@@ -274,7 +274,7 @@ impl LineChart {
 }
 
 impl Drawn {
-    /// Whether it has the look of the series before it.
+    /// Returns whether it has the look of the series before it.
     fn belongs_to_another(self) -> bool {
         matches!(self, Self::Held | Self::Points)
     }
@@ -305,7 +305,7 @@ impl Panel {
         )
     }
 
-    /// The series with their numbers.
+    /// Returns the series with their numbers.
     fn numbered(&self) -> impl Iterator<Item = (usize, &Series)> {
         let mut next: usize = 0;
         self.series.iter().map(move |series| {
@@ -362,7 +362,7 @@ impl Panel {
     }
 }
 
-/// A line that holds each value until the next one.
+/// Returns a line that holds each value until the next one.
 fn steps(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut line = Vec::with_capacity(places.len() * 2);
     let mut before: Option<(f64, f64)> = None;
@@ -378,7 +378,7 @@ fn steps(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     line
 }
 
-/// The ground between a top and a line that holds each value until the next one.
+/// Returns the ground between a top and a line that holds each value until the next one.
 fn below(top: f64, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let (Some(first), Some(last)) = (places.first(), places.last()) else {
         return Vec::new();
@@ -389,7 +389,7 @@ fn below(top: f64, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
     ground
 }
 
-/// The x axis in its other unit, above the first panel.
+/// Draws the x axis in its other unit, above the first panel.
 fn draw_second(canvas: &mut Canvas<'_>, x: &Scale, second: &SecondUnit, area: Area) {
     let scale = x.in_unit(second.factor);
     draw_ticks(

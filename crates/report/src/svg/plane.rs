@@ -30,7 +30,7 @@ const SEEN: f64 = 0.7;
 /// The maximum length of a straight line between two points.
 const STRAIGHT: f64 = 7.0;
 
-/// Marks in a square of this size are drawn as one.
+/// Side of the square in which marks are drawn as one.
 const CELL: f64 = 13.0;
 
 /// The approximate length of the scale of the path.
@@ -41,16 +41,16 @@ const COMPENSATED: usize = 0;
 const UNCOMPENSATED: usize = 1;
 const LEFT_OUT: usize = 4;
 
-/// How a stretch of the path is drawn.
+/// Way in which a stretch of the path is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Stroke {
-    /// With the deviation, compensated.
+    /// Stretch drawn with the deviation, compensated.
     #[default]
     Compensated,
-    /// With the deviation, not compensated.
+    /// Stretch drawn with the deviation, not compensated.
     Uncompensated,
-    /// Not judged: a rapid motion.
+    /// Stretch that is not judged: a rapid motion.
     Unjudged,
     /// Left out: its course on the machine is not known.
     LeftOut,
@@ -63,18 +63,18 @@ pub struct PlanePoint {
     pub place: [f64; 2],
     /// The actual place relative to it, in mm.
     pub error: [f64; 2],
-    /// How the stretch that ends here is drawn.
+    /// Way in which the stretch that ends here is drawn.
     pub stroke: Stroke,
 }
 
 /// A mark on the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneMark {
-    /// Where it is, in mm.
+    /// Place of the mark, in mm.
     pub place: [f64; 2],
-    /// Whether it has a ring.
+    /// Whether the mark has a ring.
     pub ringed: bool,
-    /// Its importance; of several in one place the greatest counts.
+    /// Importance; of several in one place the greatest counts.
     pub weight: f64,
     /// Words next to it, for the worst ones.
     pub label: Option<String>,
@@ -101,7 +101,7 @@ pub struct PlaneChart {
     pub below: Option<LineChart>,
 }
 
-/// From mm to the picture.
+/// Transformation from mm to the picture.
 #[derive(Debug, Clone, Copy)]
 struct PlaneFit {
     from: [f64; 2],
@@ -156,7 +156,7 @@ impl PlaneFit {
         self.place([x, y])
     }
 
-    /// Round lengths of the deviation and of the path.
+    /// Draws round lengths of the deviation and of the path.
     fn draw_scales(&self, canvas: &mut Canvas<'_>, y: f64) {
         let of_deviation = self.scale * self.magnification / 1000.0;
         let bars = [
@@ -173,8 +173,8 @@ impl PlaneFit {
 }
 
 impl PlaneChart {
-    /// The drawn path: a line through points of the picture for each stretch of the points, in its
-    /// units. A stretch begins where the one before it ends.
+    /// Returns the drawn path: a line through points of the picture for each stretch of the points, in its units. A
+    /// stretch begins where the one before it ends.
     pub fn drawn(&self, ends: &[usize]) -> Vec<Vec<[f64; 2]>> {
         let fit = PlaneFit::of(&self.points);
         let begins = std::iter::once(0).chain(ends.iter().map(|end| end.saturating_sub(1)));
@@ -186,7 +186,7 @@ impl PlaneChart {
         stretches.collect()
     }
 
-    /// The picture, with a bar that shows the magnification of the deviation.
+    /// Returns the picture, with a bar that shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let has_links = self.marks.iter().any(|mark| mark.href.is_some());
         let mut canvas = Canvas::headed(Head {
@@ -227,7 +227,7 @@ impl PlaneChart {
         canvas.text("", (x, y - 36.0), Anchor::Middle, &self.axes[1]);
     }
 
-    /// The commanded path thin, and the magnified one over it, by stretches of one kind.
+    /// Draws the commanded path thin, and the magnified one over it, by stretches of one kind.
     fn draw_path(&self, canvas: &mut Canvas<'_>, fit: &PlaneFit) {
         for stretch in stretches(&self.points) {
             let class = match stretch[stretch.len() - 1].stroke {
@@ -283,7 +283,7 @@ impl PlaneChart {
         }
     }
 
-    /// The words next to the worst marks, where neither the path nor another mark is in their way (R11.5); a
+    /// Writes the words next to the worst marks, where neither the path nor another mark is in their way (R11.5); a
     /// thin line leads to a mark that is farther off. A mark without room for words keeps its title.
     fn draw_labels(&self, canvas: &mut Canvas<'_>, fit: &PlaneFit) {
         const LINE: f64 = 16.0;
@@ -358,8 +358,8 @@ impl PlaneChart {
     }
 }
 
-/// The visible points: not those next to the one before, nor those on a short straight line between
-/// their neighbours. The last one stays.
+/// Returns the visible points: not those next to the one before, nor those on a short straight line between their
+/// neighbours. The last one stays.
 fn thinned(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::new();
     let mut last = None;
@@ -385,7 +385,7 @@ fn length(one: (f64, f64), other: (f64, f64)) -> f64 {
     (other.0 - one.0).hypot(other.1 - one.1)
 }
 
-/// The distance of a point from the line through two others.
+/// Returns the distance of a point from the line through two others.
 fn off_line(point: (f64, f64), (from, to): ((f64, f64), (f64, f64))) -> f64 {
     let cross = (to.0 - from.0) * (point.1 - from.1) - (to.1 - from.1) * (point.0 - from.0);
     cross.abs() / length(from, to)
@@ -440,7 +440,7 @@ impl Ground {
     }
 }
 
-/// The points cut into stretches that are drawn alike; each begins where the one before it ends.
+/// Returns the points cut into stretches that are drawn alike; each begins where the one before it ends.
 fn stretches(points: &[PlanePoint]) -> impl Iterator<Item = &[PlanePoint]> {
     let mut from = 0;
     std::iter::from_fn(move || {

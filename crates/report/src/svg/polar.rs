@@ -11,11 +11,11 @@ use super::scale::{label, round_step};
 /// One way round the circle.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolarSeries {
-    /// Its name in the legend; series of one name have one row.
+    /// Name in the legend; series of one name have one row.
     pub name: String,
-    /// Its colour: 0 with compensation, 1 without.
+    /// Colour: 0 with compensation, 1 without.
     pub look: usize,
-    /// Whether it is drawn finer, as the other way round the circle.
+    /// Line style: finer for the other way round the circle.
     pub stroke: PolarStroke,
     /// Pairs of the angle from the first axis in rad and the radial deviation in µm, in the order
     /// of the motion.
@@ -26,7 +26,7 @@ pub struct PolarSeries {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum PolarStroke {
-    /// As it is.
+    /// Full line.
     #[default]
     Full,
     /// Finer, in dashes.
@@ -70,7 +70,7 @@ struct PanelLayout {
 /// The heading and the text above the circle.
 const TOP: f64 = 112.0;
 
-/// A smaller circle has no room for the names of all rings.
+/// Size below which a circle has no room for the names of all rings.
 const SMALL: f64 = 100.0;
 
 /// The names of the quadrants around the rings.
@@ -107,7 +107,7 @@ impl PanelLayout {
 }
 
 impl PolarChart {
-    /// The picture; in each panel a scale bar shows the magnification of the deviation.
+    /// Returns the picture; in each panel a scale bar shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::headed(Head {
             title: &self.title,
@@ -222,7 +222,7 @@ impl Magnified {
         }
     }
 
-    /// A length of the picture that is a round deviation, and the magnification in words.
+    /// Draws a length of the picture that is a round deviation, and the magnification in words.
     fn draw_bar(&self, canvas: &mut Canvas<'_>, radius: f64) {
         let (left, y) = (self.layout.left(), 74.0);
         let text = format!("{} \u{b5}m", label(self.step, self.step));
@@ -248,7 +248,7 @@ fn round_to_two_digits(value: f64) -> f64 {
     (value / unit).round() * unit
 }
 
-/// The step that shows a length to the micrometre, and no more digits than it has.
+/// Returns the step that shows a length to the micrometre, and no more digits than it has.
 fn decimal_of(length: f64) -> f64 {
     [1.0, 0.1, 0.01]
         .into_iter()

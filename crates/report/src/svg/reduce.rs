@@ -5,7 +5,7 @@
 #[derive(Debug, Clone, Default)]
 pub struct Curve {
     groups: Vec<Neighbours>,
-    /// How often groups have been joined in pairs: each holds 2 to that power of points.
+    /// Number of times that groups have been joined in pairs: each holds 2 to that power of points.
     joined: u32,
     /// Number of points in the last group.
     filled: u64,
@@ -21,7 +21,7 @@ struct Neighbours {
     least: [f64; 2],
     greatest: [f64; 2],
     last: [f64; 2],
-    /// Whether the curve is interrupted after it.
+    /// Continuation of the curve after them.
     end: CurveEnd,
 }
 
@@ -80,7 +80,7 @@ impl Curve {
         }
     }
 
-    /// The points that are kept, in their order.
+    /// Returns the points that are kept, in their order.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let mut points = Vec::with_capacity(self.groups.len() * 2);
         for group in &self.groups {

@@ -1,13 +1,13 @@
-//! From values to places in the picture, and round numbers in between.
+//! Transformation from values to places in the picture, and round numbers in between.
 
 /// The division of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Spacing {
-    /// Equal steps are equally long.
+    /// Equal length of equal steps.
     #[default]
     Linear,
-    /// Equal factors are equally long; values that are not above 0 make it linear.
+    /// Equal length of equal factors; values that are not above 0 make it linear.
     Logarithmic,
     /// Linear from 0 to the least value above it, logarithmic from there.
     LogarithmicFromZero,
@@ -18,9 +18,9 @@ pub enum Spacing {
 pub struct ChartAxis {
     /// The quantity with its unit, `velocity in mm/min`.
     pub label: String,
-    /// Its division.
+    /// Division.
     pub spacing: Spacing,
-    /// Whether 0 is on it, whatever the values are.
+    /// Whether the axis contains 0, whatever the values are.
     pub from_zero: bool,
     /// The range in both directions, whatever the values are.
     pub reach: Option<f64>,
@@ -38,7 +38,7 @@ pub struct SecondUnit {
 }
 
 impl ChartAxis {
-    /// A linear axis.
+    /// Returns a linear axis.
     pub fn linear(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
@@ -46,7 +46,7 @@ impl ChartAxis {
         }
     }
 
-    /// A logarithmic axis.
+    /// Returns a logarithmic axis.
     pub fn logarithmic(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
@@ -55,7 +55,7 @@ impl ChartAxis {
         }
     }
 
-    /// An axis with 0 that is logarithmic from the least value above it on.
+    /// Returns an axis with 0 that is logarithmic from the least value above it on.
     pub fn logarithmic_from_zero(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
@@ -84,12 +84,12 @@ impl ChartAxis {
     }
 }
 
-/// Whether the ends of a scale are round numbers.
+/// Choice of the ends of a scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ends {
-    /// They are, so that the first and the last tick are at the ends.
+    /// Round numbers, so that the first and the last tick are at the ends.
     Round,
-    /// They are the least and the greatest value.
+    /// The least and the greatest value.
     Exact,
 }
 
@@ -99,7 +99,7 @@ pub(super) struct Scale {
     low: f64,
     high: f64,
     spacing: Spacing,
-    /// Where a scale from 0 becomes logarithmic.
+    /// Value above which a scale from 0 becomes logarithmic.
     bend: f64,
     /// The values that are labelled, with their labels.
     pub(super) ticks: Vec<(f64, String)>,
@@ -112,7 +112,7 @@ const NOTHING: f64 = 1e-12;
 const MAX_TICKS: u32 = 60;
 
 impl Scale {
-    /// A scale that holds all finite values, with about `wanted` ticks.
+    /// Returns a scale that holds all finite values, with about `wanted` ticks.
     pub(super) fn over(
         values: impl Iterator<Item = f64>,
         spacing: Spacing,
@@ -169,7 +169,7 @@ impl Scale {
         }
     }
 
-    /// From 0 to `bend` linear, from there to `high` logarithmic.
+    /// Creates a scale that is linear from 0 to `bend`, from there to `high` logarithmic.
     fn logarithmic_from_zero(bend: f64, high: f64) -> Self {
         let mut ticks = vec![(0.0, label(0.0, 1.0)), (bend, number(bend))];
         ticks.extend(decades(bend * 1.15, high));
@@ -208,7 +208,7 @@ impl Scale {
         }
     }
 
-    /// The place of a value, 0 at the low end and 1 at the high end.
+    /// Returns the place of a value, 0 at the low end and 1 at the high end.
     pub(super) fn share(&self, value: f64) -> f64 {
         match self.spacing {
             Spacing::Linear => (value - self.low) / (self.high - self.low),
@@ -221,7 +221,7 @@ impl Scale {
         }
     }
 
-    /// Whether a value lies strictly between the ends.
+    /// Returns whether a value lies strictly between the ends.
     pub(super) fn holds(&self, value: f64) -> bool {
         self.low < value && value < self.high
     }
@@ -230,7 +230,7 @@ impl Scale {
 /// The linear part of a scale from 0.
 const LINEAR_PART: f64 = 0.14;
 
-/// Round values from `low` to `high` on a logarithmic scale.
+/// Returns round values from `low` to `high` on a logarithmic scale.
 fn decades(low: f64, high: f64) -> Vec<(f64, String)> {
     let decades = high.log10() - low.log10();
     let factors: &[f64] = if decades < 0.8 {
@@ -251,7 +251,7 @@ fn decades(low: f64, high: f64) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// The next greater of 1, 2 and 5 times a power of ten.
+/// Returns the next greater of 1, 2 and 5 times a power of ten.
 pub(super) fn round_step(least: f64) -> f64 {
     let power = 10_f64.powf(least.max(1e-300).log10().floor());
     let mantissa = least / power;
@@ -262,12 +262,12 @@ pub(super) fn round_step(least: f64) -> f64 {
     round * power
 }
 
-/// A number alone, with all its decimals, six at most.
+/// Returns a number alone, with all its decimals, six at most.
 pub(crate) fn number(value: f64) -> String {
     label(value, value)
 }
 
-/// A value as text, with as many decimals as the step between ticks needs.
+/// Returns a value as text, with as many decimals as the step between ticks needs.
 pub(super) fn label(value: f64, step: f64) -> String {
     if value.abs() >= 1e7 || (step < 1e-5 && value != 0.0) {
         let text = format!("{value:.2e}");

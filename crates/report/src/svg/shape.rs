@@ -8,9 +8,9 @@ use frictcomp::comp::State;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BandState {
-    /// One state all along.
+    /// One state over the whole bar.
     One(State),
-    /// It changes too often to be drawn.
+    /// State that changes too often to be drawn.
     Changing,
 }
 
@@ -33,7 +33,7 @@ impl BandState {
         }
     }
 
-    /// The word in and below the bars.
+    /// Returns the word in and below the bars.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::One(state) => state.as_str(),
@@ -46,10 +46,10 @@ impl BandState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum StartUpRelation {
-    /// It is that state, or unknown.
+    /// The start-up state, or an unknown one.
     #[default]
     StartUp,
-    /// It is another one, which outlives the program.
+    /// Another state, which outlives the program.
     Away,
 }
 
@@ -68,7 +68,7 @@ impl StartUpRelation {
 /// The height of a bar in a row.
 pub(super) const BAR: f64 = 18.0;
 
-/// What a bar looks like.
+/// Appearance of a bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct BarShape {
     pub(super) state: BandState,
@@ -76,7 +76,7 @@ pub(super) struct BarShape {
 }
 
 impl BarShape {
-    /// Every shape, in the order of the legend.
+    /// Returns every shape, in the order of the legend.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         let relations = [StartUpRelation::StartUp, StartUpRelation::Away];
         BandState::ALL
@@ -84,7 +84,7 @@ impl BarShape {
             .flat_map(move |state| relations.map(|relation| Self { state, relation }))
     }
 
-    /// Its meaning, for the legend.
+    /// Returns the name of the shape for the legend.
     pub(super) fn name(self) -> String {
         let word = self.state.as_str();
         match self.relation {

@@ -6,7 +6,7 @@ use super::scale::Scale;
 /// The room between the values.
 const ROOM: f64 = 10.0;
 
-/// Where the values are, seen from the line.
+/// Side of the line on which the values stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TickSide {
     Below,

@@ -15,7 +15,7 @@ use frictcomp::machine::Machine;
 use frictcomp::text::shown_json;
 use frictcomp::timeline::{Record, Sink};
 
-/// Everything that a format writes.
+/// Returns everything that a format writes.
 fn written<'a, R: Report + 'a>(
     bytes: &'a mut Vec<u8>,
     make: impl FnOnce(&'a mut Vec<u8>) -> R,

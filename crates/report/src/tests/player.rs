@@ -22,7 +22,7 @@ N35 X22 Y33 Z44
 N45 X[COMP OFF FRICT] ;Deactivates X axis
 N55 M30 ;Program end";
 
-/// The machine of the example with more axes after Z.
+/// Returns the machine of the example with more axes after Z.
 pub(super) fn machine(more: &[&str]) -> Machine {
     let mut machine = Machine::enabled(["X", "Y"]);
     machine.axes.truncate(3);

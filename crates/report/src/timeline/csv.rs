@@ -20,7 +20,7 @@ struct Held {
     codes: String,
     /// The field of the last column.
     branch: Vec<u8>,
-    /// Whether it is written even without another message about it.
+    /// Whether the row is written even without another message about it.
     wanted: bool,
 }
 
@@ -40,20 +40,20 @@ pub struct Csv<W> {
     place: Vec<u8>,
 }
 
-/// Whether the rows have the axis positions.
+/// Columns for the axis positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Positions {
     /// A column `X_pos` for each axis, in mm or degrees, empty where the position is not known, and
     /// a column `frame` that says whether positions are those of the `machine` or as `programmed`.
     Shown,
-    /// No such column.
+    /// No such columns.
     #[default]
     Hidden,
 }
 
 impl<W: Write> Csv<W> {
-    /// A timeline of comma-separated values.
+    /// Returns a timeline of comma-separated values.
     pub fn new(writer: W, view: View) -> Self {
         Self {
             output: Output::new(writer),
@@ -72,7 +72,7 @@ impl<W: Write> Csv<W> {
         Self { positions, ..self }
     }
 
-    /// The columns: every axis of the machine, whether it occurred or not.
+    /// Writes the columns: every axis of the machine, whether it occurred or not.
     fn header(&mut self, state: StateView<'_>) {
         let out = &mut self.output.bytes;
         out.extend_from_slice(b"program,seq,file,line,n,text,");

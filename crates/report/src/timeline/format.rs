@@ -13,7 +13,7 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     #[non_exhaustive]
     pub enum TimelineFormat {
-        /// For people.
+        /// Text for people.
         #[default]
         Text = "text",
         /// One JSON object per line.
@@ -32,7 +32,7 @@ frictcomp::words! {
 pub struct TimelineOptions {
     /// The shown blocks and kinds, and the look of text.
     pub text: TextOptions,
-    /// Whether rows have the axis positions.
+    /// Columns for the axis positions.
     pub positions: Positions,
 }
 
@@ -51,7 +51,7 @@ impl TimelineOptions {
 }
 
 impl TimelineFormat {
-    /// Its description in a few words.
+    /// Returns its description in a few words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Text => "For people",
@@ -61,7 +61,7 @@ impl TimelineFormat {
         }
     }
 
-    /// The timeline in this format.
+    /// Returns the timeline in this format.
     pub fn report<W: Write + 'static>(
         self,
         writer: W,

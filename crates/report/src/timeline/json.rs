@@ -20,7 +20,7 @@ pub struct Json<W> {
 }
 
 impl<W: Write> Json<W> {
-    /// A timeline in one document.
+    /// Returns a timeline in one document.
     pub fn new(writer: W, view: View) -> Self {
         let frame = RecordFrame {
             before: b",\n",

@@ -17,7 +17,7 @@ pub struct Ndjson<W> {
 }
 
 impl<W: Write> Ndjson<W> {
-    /// A timeline of JSON lines.
+    /// Returns a timeline of JSON lines.
     pub fn new(writer: W, view: View) -> Self {
         let frame = RecordFrame {
             before: b"",

@@ -20,7 +20,7 @@ pub trait Report: Sink {
     /// The first error of the writer, except a closed pipe.
     fn finish(&mut self) -> io::Result<()>;
 
-    /// Whether the reader closed the pipe.
+    /// Returns whether the reader closed the pipe.
     fn is_closed(&self) -> bool;
 }
 
@@ -29,10 +29,10 @@ pub(crate) trait Gathered: Sink {
     /// Destination of the bytes.
     type Writer: Write;
 
-    /// The bytes on their way.
+    /// Returns the bytes on their way.
     fn output(&self) -> &Output<Self::Writer>;
 
-    /// The bytes on their way.
+    /// Returns the bytes on their way.
     fn output_mut(&mut self) -> &mut Output<Self::Writer>;
 
     /// Gathers what was held back, and the end of the document.

@@ -114,7 +114,7 @@ impl Encoder {
     }
 }
 
-/// Whether a block is executed on every way, changes nothing, and has no message.
+/// Returns whether a block is executed on every way, changes nothing, and has no message.
 fn is_plain(row: &Row<'_>) -> bool {
     row.branch.is_none() && row.changes.is_empty() && row.diagnostics.is_empty()
 }

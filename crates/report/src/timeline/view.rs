@@ -48,7 +48,7 @@ impl Default for View {
 }
 
 impl View {
-    /// Whether a block changed a selected kind, or there is a message about it.
+    /// Returns whether a block changed a selected kind, or there is a message about it.
     pub(crate) fn is_eventful(self, row: &Row<'_>) -> bool {
         !row.diagnostics.is_empty()
             || row
@@ -57,7 +57,7 @@ impl View {
                 .any(|change| self.kinds.contains(change.kind))
     }
 
-    /// Whether a block is written.
+    /// Returns whether a block is written.
     pub(crate) fn shows(self, row: &Row<'_>) -> bool {
         self.blocks == Blocks::All || self.is_eventful(row)
     }

@@ -40,7 +40,7 @@ pub(crate) struct FinalStates<'a> {
     pub(crate) by: Option<EndedBy>,
     /// The axes that are only assumed to be compensated.
     pub(crate) assumption: Option<String>,
-    /// Whether somebody described the machine.
+    /// Whether a description of the machine exists.
     pub(crate) is_described: bool,
 }
 
@@ -122,12 +122,12 @@ impl FinalStates<'_> {
     }
 }
 
-/// Whether an axis is known to be as at the start of the control.
+/// Returns whether an axis is known to be as at the start of the control.
 fn is_home(axis: &AxisSummary) -> bool {
     !axis.is_undescribed && axis.end == axis.start_up && axis.others_away.is_empty()
 }
 
-/// Whether every feed move of the axis had friction compensation, if it is configured (R13.12).
+/// Returns whether every feed move of the axis had friction compensation, if it is configured (R13.12).
 fn is_compensated(axis: &AxisSummary) -> bool {
     axis.feed_moves.is_empty()
 }

@@ -8,8 +8,8 @@ use frictcomp::timeline::FeedMoves;
 use frictcomp_physics::contour::{ContourReversal, GlitchFigure};
 use frictcomp_physics::motion::AssumedLimits;
 
-/// The feed moves of an axis without compensation, as the text after its name: ` off during 155 feed
-/// moves, the longest 812 mm` (R13.12). `None` if there are none.
+/// Returns the feed moves of an axis without compensation, as the text after its name:
+/// ` off during 155 feed moves, the longest 812 mm` (R13.12). `None` if there are none.
 pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String> {
     let (without, unknown) = (moves.without(), moves.unknown);
     let counted = |count| {
@@ -43,14 +43,13 @@ pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String>
     Some(text)
 }
 
-/// A number with three decimals at most.
+/// Returns a number with three decimals at most.
 fn plain_number(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// One line for all axes with the same assumed limits: their values, and the keys that set them (R5.2,
-/// R11.23).
+/// Returns one line for all axes with the same assumed limits: their values, and the keys that set them (R5.2, R11.23).
 pub fn assumed_limits<'a>(axes: impl IntoIterator<Item = &'a AssumedLimits>) -> Vec<String> {
     let mut assumed: Vec<([String; 2], Vec<&str>)> = Vec::new();
     for axis in axes {
@@ -69,7 +68,7 @@ pub fn assumed_limits<'a>(axes: impl IntoIterator<Item = &'a AssumedLimits>) -> 
     assumed.iter().map(line).collect()
 }
 
-/// The values, and the keys.
+/// Returns the values, and the keys.
 fn words(axis: &AssumedLimits) -> [String; 2] {
     let units = match axis.axis_type {
         AxisType::Linear => ["mm/min", "m/s²", "m/s³"],
@@ -91,7 +90,7 @@ fn words(axis: &AssumedLimits) -> [String; 2] {
     [values.join(", "), keys]
 }
 
-/// The glitch as programmed, or the reason why it has no figure: "along the path".
+/// Returns the glitch as programmed, or the reason why it has no figure: "along the path".
 pub(crate) fn glitch_in_words(reversal: &ContourReversal) -> String {
     match reversal.figure {
         GlitchFigure::Measured => format!("{:.1} µm", reversal.glitch_um.programmed),

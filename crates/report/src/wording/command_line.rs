@@ -69,7 +69,7 @@ pub fn command_line(advice: &Advice) -> Option<String> {
     })
 }
 
-/// An axis at 0, `X0`, `X1=0`.
+/// Returns an axis at 0, `X0`, `X1=0`.
 fn start_word(axis: &str) -> String {
     match axis.len() {
         1 => format!("{axis}0"),

@@ -17,14 +17,14 @@ pub const FALLBACK_WIDTH: usize = 100;
 /// The width of agreed timelines, which is the same for every user.
 const AGREED_WIDTH: usize = 80;
 
-/// Whether text output carries colours.
+/// Colours of text output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Paint {
-    /// It does not.
+    /// Output without colours.
     #[default]
     Plain,
-    /// It carries ANSI sequences.
+    /// Output with ANSI sequences.
     Styled,
 }
 
@@ -229,7 +229,7 @@ fn shown(place: &Place) -> ShownText<'_> {
     }
 }
 
-/// The nearest character boundary at or before an offset.
+/// Returns the nearest character boundary at or before an offset.
 fn floor(text: &str, offset: usize) -> usize {
     let mut offset = offset.min(text.len());
     while !text.is_char_boundary(offset) {
@@ -247,7 +247,7 @@ fn element<'a>(
         return group.element(Origin::path(visible_line(&place.file)));
     }
     if place.text.trim().is_empty() {
-        // Nothing to show, or nothing that may be shown.
+        // There is no text to show, or none that may be shown.
         let start = place.start();
         let at = |number: u32| usize::try_from(number).unwrap_or(usize::MAX);
         let origin = Origin::path(&*place.file).line(at(start.line));

@@ -9,7 +9,7 @@ use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter, Serializer};
 
 use super::visible::{any_byte, is_command, visible, visible_line};
 
-/// Below this, a figure is the noise of its computation.
+/// Bound below which a figure is the noise of its computation.
 const LEAST: f64 = 1e-6;
 
 /// Rounds a figure for reports: to six decimals, below 1 to six significant digits, and to 0 below 1e-6.
@@ -89,12 +89,12 @@ fn written(value: &impl Serialize, formatter: impl Formatter) -> String {
     shown_json(&String::from_utf8_lossy(&out)).into_owned()
 }
 
-/// A result as a JSON document without hidden characters.
+/// Returns a result as a JSON document without hidden characters.
 pub fn to_json(value: &impl Serialize) -> String {
     written(value, PrettyFormatter::new())
 }
 
-/// A result as one line of JSON without hidden characters.
+/// Returns a result as one line of JSON without hidden characters.
 pub(crate) fn to_json_line(value: &impl Serialize) -> String {
     written(value, CompactFormatter)
 }

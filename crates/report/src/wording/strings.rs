@@ -71,7 +71,7 @@ pub fn counted(count: impl Copy + Display + PartialEq + From<u8>, noun: &str) ->
     format!("{count} {noun}{plural}")
 }
 
-/// A number with a blank between its thousands.
+/// Returns a number with a blank between its thousands.
 pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);

@@ -11,7 +11,7 @@ pub struct TextChange<'a> {
     pub after: (&'a str, &'a str),
 }
 
-/// The lines that a change removes and adds, with three lines of context.
+/// Returns the lines that a change removes and adds, with three lines of context.
 pub fn render_unified(change: TextChange<'_>) -> String {
     let ((old_name, old), (new_name, new)) = (change.before, change.after);
     let diff = TextDiff::from_lines(old, new);

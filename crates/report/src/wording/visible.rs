@@ -19,14 +19,14 @@ pub(crate) fn push_picture(out: &mut String, letter: char) {
     }
 }
 
-/// The last part of a path of any system: titles and pictures have no room for more, and are the same
-/// in every folder.
+/// Returns the last part of a path of any system: titles and pictures have no room for more, and are the same in every
+/// folder.
 pub(crate) fn last_part(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// Whether a text holds a special byte; a blank is not one. Most texts hold none, so that sixteen bytes
-/// are checked without a branch; the last sixteen may overlap those before.
+/// Returns whether a text holds a special byte; a blank is not one. Most texts hold none, so that sixteen bytes are
+/// checked without a branch; the last sixteen may overlap those before.
 #[inline]
 pub(crate) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
     let any_of = |chunk: &[u8; 16]| chunk.map(|byte| u8::from(is_special(byte))) != [0; 16];
@@ -56,18 +56,18 @@ fn replaced(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A text of several lines with pictures for hidden characters; line ends and tabs stay.
+/// Returns a text of several lines with pictures for hidden characters; line ends and tabs stay.
 pub fn visible(text: &str) -> Cow<'_, str> {
     replaced(text, |letter| matches!(letter, '\n' | '\t'))
 }
 
-/// A text that stays on its line, with pictures for hidden characters.
+/// Returns a text that stays on its line, with pictures for hidden characters.
 pub fn visible_line(text: &str) -> Cow<'_, str> {
     replaced(text, |_| false)
 }
 
-/// A text at the start of a line. CI runners take a line that begins with `::` or `##` for a command; a
-/// name that does so is shown as the path that it is.
+/// Returns a text at the start of a line. CI runners take a line that begins with `::` or `##` for a command; a name
+/// that does so is shown as the path that it is.
 pub fn leading(text: &str) -> Cow<'_, str> {
     let shown = visible_line(text);
     if is_command(&shown) {
@@ -76,7 +76,7 @@ pub fn leading(text: &str) -> Cow<'_, str> {
     shown
 }
 
-/// Whether a CI runner would take a line that begins with this text for a command.
+/// Returns whether a CI runner would take a line that begins with this text for a command.
 pub(crate) fn is_command(text: &str) -> bool {
     let text = text.trim_start();
     text.starts_with("::") || text.starts_with("##")

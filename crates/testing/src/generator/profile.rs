@@ -1,6 +1,6 @@
 //! Profiles: what the programs of a test consist of.
 
-/// What programs consist of, how often and how deep.
+/// Composition of generated programs: the frequency of each construct, and the depth.
 #[derive(Debug, Clone, Copy)]
 pub struct Profile {
     /// The names of the axes.
@@ -76,9 +76,9 @@ pub enum Shape {
     Recursion,
     /// A cycle after each motion.
     ModalCycle,
-    /// A parameter gets a value.
+    /// Assignment to a parameter.
     Assign,
-    /// A machine variable gets a value.
+    /// Assignment to a machine variable.
     Write,
     /// A block in which the PLC acts by design.
     PlcActs,
@@ -121,23 +121,23 @@ pub enum Shape {
 /// The form of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ask {
-    /// A number is 1, or not.
+    /// Comparison of a number with 1.
     Fixed,
-    /// A machine variable is one of its values.
+    /// Comparison of a machine variable with one of its values.
     AnyValue,
-    /// A machine variable is 1.
+    /// Comparison of a machine variable with 1.
     One,
-    /// A machine variable is not 0.
+    /// Test that a machine variable is not 0.
     NotZero,
-    /// It is not true that a machine variable is 1.
+    /// Negation of a comparison of a machine variable with 1.
     NotOne,
-    /// Two machine variables are 1.
+    /// Comparison of two machine variables with 1.
     Both,
-    /// A parameter has a value.
+    /// Comparison of a parameter with a value.
     Parameter,
-    /// A parameter is greater than a value.
+    /// Test that a parameter is greater than a value.
     Above,
-    /// The compensation of an axis is on.
+    /// Test that the compensation of an axis is on.
     Active,
 }
 

@@ -5,7 +5,7 @@
 pub struct NcProgram {
     /// The names of its axes.
     pub axes: &'static [&'static str],
-    /// Its local subprograms.
+    /// Local subprograms.
     pub subprograms: Vec<Subprogram>,
     /// The line that begins the main program, `%MAIN`, or nothing.
     pub head: &'static str,
@@ -20,9 +20,9 @@ pub struct NcProgram {
 /// A local subprogram.
 #[derive(Debug, Clone)]
 pub struct Subprogram {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its statements before M17.
+    /// Statements before M17.
     pub body: Vec<Statement>,
 }
 
@@ -31,16 +31,16 @@ pub struct Subprogram {
 pub struct Statement {
     /// The line on which it begins, once it is written.
     pub line: u32,
-    /// Its lines that have a skip mark.
+    /// Lines that have a skip mark.
     pub marks: SkipMarks,
-    /// What it states.
+    /// Form of the statement.
     pub form: Form,
 }
 
 /// The lines of a statement that have a skip mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SkipMarks {
-    /// None.
+    /// No line.
     None,
     /// The first one.
     First,
@@ -50,12 +50,12 @@ pub enum SkipMarks {
     Both,
 }
 
-/// What a statement states.
+/// Form of a statement.
 #[derive(Debug, Clone)]
 pub enum Form {
     /// COMP commands and motions.
     Block(CompBlock),
-    /// A variable gets a value.
+    /// Assignment to a variable.
     Assign(Variable, Operand),
     /// `$IF`, with `$ELSEIF` for each further branch, and `$ELSE`.
     If(Vec<(Condition, Vec<Statement>)>, Option<Vec<Statement>>),
@@ -106,11 +106,11 @@ impl Statement {
 /// A block of commands and motions.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CompBlock {
-    /// Its commands.
+    /// Commands.
     pub commands: Vec<CompSwitch>,
     /// The axes that it moves, by their positions.
     pub moves: Vec<usize>,
-    /// How they move.
+    /// Pace of the motions.
     pub pace: Pace,
     /// The code of a message that a comment allows.
     pub allows: Option<&'static str>,
@@ -121,7 +121,7 @@ pub struct CompBlock {
 pub struct CompSwitch {
     /// The axis, by its position.
     pub axis: usize,
-    /// Whether it switches on.
+    /// Whether the command switches on.
     pub is_on: bool,
     /// The kinds that it names; none stands for `OFF_ALL`.
     pub kinds: Vec<&'static str>,
@@ -130,7 +130,7 @@ pub struct CompSwitch {
 /// The pace of a motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Pace {
-    /// That of the blocks before.
+    /// Pace of the blocks before.
     #[default]
     Modal,
     /// `G00`.
@@ -144,16 +144,16 @@ pub enum Pace {
 pub struct SwitchCase {
     /// The number that selects it.
     pub number: usize,
-    /// Its statements.
+    /// Statements.
     pub body: Vec<Statement>,
-    /// Whether `$BREAK` ends it.
+    /// Whether `$BREAK` ends the case.
     pub has_break: bool,
 }
 
 /// A variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
-    /// One of the machine.
+    /// A variable of the machine.
     Machine(usize),
     /// A parameter, `P1`.
     Parameter(usize),
@@ -181,13 +181,13 @@ impl From<Variable> for Operand {
 /// A condition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Condition {
-    /// One that is always true, or never.
+    /// A condition that is always true, or never.
     Fixed(bool),
     /// A variable compared with a value.
     Compare(Variable, &'static str, Operand),
     /// The opposite of another one.
     Not(Box<Condition>),
-    /// Both of two.
+    /// The conjunction of two conditions.
     Both(Box<[Condition; 2]>),
     /// Any text.
     Text(String),

@@ -26,9 +26,9 @@ pub struct Style {
 /// The place of local subprograms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SubprogramPlace {
-    /// Before the main program.
+    /// Subprograms before the main program.
     First,
-    /// After it.
+    /// Subprograms after the main program.
     Last,
 }
 
@@ -37,7 +37,7 @@ pub enum SubprogramPlace {
 pub enum TextEnd {
     /// The end of the line.
     Line,
-    /// Nothing: the last line has no end.
+    /// No line end after the last line.
     Cut,
     /// An empty line.
     Blank,

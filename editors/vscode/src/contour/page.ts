@@ -6,7 +6,7 @@ import { find, machineTime, nearest, type Place } from "./places";
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
 
-/** How far from the path a pointer may be, in pixels of the screen. */
+/** Largest distance of a pointer from the path, in pixels of the screen. */
 const REACH = 14;
 const SVG = "http://www.w3.org/2000/svg";
 

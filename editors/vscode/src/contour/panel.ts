@@ -6,7 +6,7 @@ import { isProgram } from "../programs";
 import type { Contour } from "../protocol";
 import type { FromPage, ToPage } from "./messages";
 
-/** How long the panel waits after the last change before it asks again, in ms. */
+/** Delay of the panel after the last change before it asks again, in ms. */
 const SETTLE = 400;
 
 /** A contour, or why there is none; nothing if it is no longer wanted. */

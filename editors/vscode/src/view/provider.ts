@@ -5,7 +5,7 @@ import { pageShell } from "../pageShell";
 import { isProgram } from "../programs";
 import type { FromPage, ToPage } from "./messages";
 
-/** How long the view waits after the last change before it asks again, in ms. */
+/** Delay of the view after the last change before it asks again, in ms. */
 const SETTLE = 250;
 
 export type AskTimeline = (uri: vscode.Uri) => Promise<Timeline | undefined>;

@@ -38,7 +38,7 @@ impl BaselineArgs {
         Ok((known, None))
     }
 
-    /// Whether findings are written instead of listed.
+    /// Returns whether findings are written instead of listed.
     pub(crate) fn is_written(&self) -> bool {
         self.write_baseline.is_some()
     }

@@ -26,7 +26,7 @@ struct RecordedMotion<'a> {
 }
 
 impl RecordedMotion<'_> {
-    /// Returns " of axis X", or nothing for the axis of a recording that has only one.
+    /// Returns text such as " of axis X", or nothing for the axis of a recording that has only one.
     fn of(&self) -> String {
         match self.name {
             "" => String::new(),

@@ -106,7 +106,7 @@ pub fn page_about(word: &str) -> Result<Cow<'static, str>, NoPage> {
     })
 }
 
-/// There is no page about a word.
+/// A word without a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NoPage {

@@ -66,7 +66,7 @@ impl<'a> Listeners<'a> {
         self.most_severe.map(|(_, code)| code)
     }
 
-    /// Whether an error of the control ended a program on all ways, whatever its severity (R18.1).
+    /// Returns whether an error of the control ended a program on all ways, whatever its severity (R18.1).
     pub(crate) fn has_stopped(&self) -> bool {
         self.has_stopped
     }

@@ -313,7 +313,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
 struct Played {
     summary: RunSummary,
     most_severe: Option<Code>,
-    /// Whether an error ended one of them.
+    /// Whether an error ended one of the programs.
     has_stopped: bool,
 }
 

@@ -26,7 +26,7 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
-    /// The words with which a command names the fault.
+    /// Returns the words with which a command names the fault.
     pub(crate) fn named(&self, said: &str) -> Option<&'static str> {
         self.words.iter().copied().find(|it| said.contains(it))
     }
@@ -104,7 +104,7 @@ pub(crate) fn of_recordings() -> Vec<Fault> {
     all
 }
 
-/// Other lists than those that are said to be on.
+/// Returns the faults in which other lists are on than the stated ones.
 pub(crate) fn of_lists_on() -> Vec<Fault> {
     vec![
         Fault {
@@ -178,7 +178,7 @@ pub(crate) fn of_lists_off() -> Vec<Fault> {
     ]
 }
 
-/// What spoils circles off as well as on.
+/// Returns the faults that spoil circles with compensation off as well as on.
 fn of_circles(of: fn(&'static str, &'static [&'static str]) -> Fault) -> Vec<Fault> {
     vec![
         Fault {

@@ -19,21 +19,22 @@ const CHANNELS: [&str; 8] = [
 
 const ACTUAL_TORQUE: [&str; 2] = ["--torque-kind", "actual"];
 
-/// A commanded torque shows nothing of what was on; the name of the channel would say that it is the actual one.
+/// Options for a commanded torque, which shows nothing of what was on; the name of the channel would say that it is the
+/// actual one.
 const COMMANDED_TORQUE: [&str; 2] = ["--torque-kind", "command"];
 
-/// A plant is fitted, and lists keep the friction curve, which takes seconds.
+/// Options to fit a plant and to keep the friction curve in the lists, which takes seconds.
 pub(crate) const FITTED: [&str; 3] = ["--plant", "mid", "--no-shaping"];
 
-/// A plant is fitted, and lists are tuned on it.
+/// Options to fit a plant and to tune lists on it.
 pub(crate) const TUNED: [&str; 2] = ["--plant", "mid"];
 
 const AXES: [&str; 2] = ["X", "Y"];
 
-/// Where the first program begins, in mm.
+/// Start position of the first program, in mm.
 pub(crate) const START: [f64; 2] = [50.0, 0.0];
 
-/// What is on in a program.
+/// Stage of a program: compensation off, or on with the lists of a round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stage {
     Off,
@@ -50,17 +51,17 @@ pub(crate) struct Site {
 }
 
 impl Site {
-    /// Five feeds over a decade on a radius of 40 mm.
+    /// Returns five feeds over a decade on a radius of 40 mm.
     pub(crate) fn quick(machine: Machine) -> Self {
         Self::planned(machine, "500,1600,2400,3600,5000", "40")
     }
 
-    /// Four fast feeds, which fit no plant.
+    /// Returns four fast feeds, which fit no plant.
     pub(crate) fn fast(machine: Machine) -> Self {
         Self::planned(machine, "1600,2400,3600,5000", "40")
     }
 
-    /// A folder in which stage 1 is planned.
+    /// Returns a folder in which stage 1 is planned.
     fn planned(machine: Machine, feeds: &'static str, radius: &'static str) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let axis = |name: &str| {
@@ -87,7 +88,7 @@ impl Site {
         site
     }
 
-    /// The same machine with a copy of the folder.
+    /// Returns the same machine with a copy of the folder.
     pub(crate) fn copied(&self) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         copy_folder(self.path(), folder.path());
@@ -143,7 +144,7 @@ impl Site {
         )
     }
 
-    /// The lists of X and Y of a kind.
+    /// Returns the lists of X and Y of a kind.
     pub(crate) fn lists(&self, kind: &str) -> [PathBuf; 2] {
         AXES.map(|axis| {
             let lists = self.lists_of(axis, kind);
@@ -158,7 +159,7 @@ impl Site {
         lists.collect()
     }
 
-    /// The tuned lists, with the provisional one of an axis that was not tuned; `None` if neither was.
+    /// Returns the tuned lists, with the provisional one of an axis that was not tuned; `None` if neither was.
     pub(crate) fn tuned(&self) -> Option<[PathBuf; 2]> {
         let tuned = AXES.map(|axis| self.lists_of(axis, "tuned").pop());
         let is_any = tuned.iter().any(Option::is_some);
@@ -169,7 +170,7 @@ impl Site {
         })
     }
 
-    /// The provisional lists that the recordings of stage 1 give.
+    /// Returns the provisional lists that the recordings of stage 1 give.
     pub(crate) fn provisional(&self) -> [PathBuf; 2] {
         let (_, said) = self.run(&[]);
         assert!(said.contains("provisional list"), "{said}");
@@ -185,7 +186,7 @@ impl Site {
         names
     }
 
-    /// The programs of a round, 1 for stage 1, whose names hold some words.
+    /// Returns the programs of a round, 1 for stage 1, whose names hold some words.
     pub(crate) fn programs(&self, round: usize, words: &str) -> Vec<String> {
         let path = self.path().join(format!("m/plan-{round}.json"));
         let text = std::fs::read_to_string(path).expect("a plan");
@@ -196,7 +197,7 @@ impl Site {
         files.map(str::to_owned).collect()
     }
 
-    /// The lists with which a round is planned.
+    /// Returns the lists with which a round is planned.
     pub(crate) fn loaded(&self, round: usize) -> [ValueList; 2] {
         let path = self.path().join(format!("m/plan-{round}.json"));
         let text = std::fs::read_to_string(path).expect("a plan");
@@ -207,13 +208,13 @@ impl Site {
         })
     }
 
-    /// The text of a program.
+    /// Returns the text of a program.
     pub(crate) fn text(&self, program: &str) -> String {
         let path = self.path().join("m").join(program);
         std::fs::read_to_string(path).expect("a program")
     }
 
-    /// The circles of a round, to be driven on the machine itself.
+    /// Returns the circles of a round, to be driven on the machine itself.
     pub(crate) fn circles(&self, round: usize) -> Vec<Program> {
         let programs = self.programs(round, "circle");
         let parsed = programs
@@ -222,12 +223,12 @@ impl Site {
         parsed.collect()
     }
 
-    /// A list of the folder.
+    /// Returns a list of the folder.
     pub(crate) fn list(&self, path: &Path) -> ValueList {
         ValueList::parse(&std::fs::read_to_string(self.path().join(path)).expect("a list"))
     }
 
-    /// What a machine does in the text of a program.
+    /// Drives a machine through the text of a program.
     pub(crate) fn drive(machine: &Machine, text: &str, lists: [Option<&ValueList>; 2]) -> Run {
         machine.run(&Program::parse(text, AXES, START), START, lists)
     }
@@ -253,7 +254,7 @@ impl Site {
         self.path().join("m/recordings").join(name)
     }
 
-    /// The recordings, to be put back later.
+    /// Returns the recordings, to be put back later.
     pub(crate) fn keep(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let entries = std::fs::read_dir(self.path().join("m/recordings")).expect("a folder");
         let paths = entries.map(|it| it.expect("an entry").path());
@@ -369,7 +370,7 @@ impl Columns {
     }
 }
 
-/// What a command said, in one line.
+/// Copies a folder with everything below it.
 fn copy_folder(from: &Path, to: &Path) {
     for entry in std::fs::read_dir(from).expect("a folder") {
         let entry = entry.expect("an entry");

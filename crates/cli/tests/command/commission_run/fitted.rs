@@ -37,7 +37,7 @@ const SLOW: Circles = Circles {
     plan: planned_circles("250,500,800,1400,2500", "25"),
 };
 
-/// The machine: the recorded friction, and a contact and a speed loop that differ from `mid`.
+/// Returns the machine: the recorded friction, and a contact and a speed loop that differ from `mid`.
 fn machine(contact: f64) -> Plant {
     let mut plant = Preset::Mid.plant();
     for drive in [&mut plant.x, &mut plant.y] {
@@ -77,7 +77,7 @@ fn record(
     }
 }
 
-/// The program of the circle of a round at a feed.
+/// Returns the program of the circle of a round at a feed.
 pub(super) fn program(folder: &Path, feed: f64, round: usize) -> String {
     let end = format!("-circle-{feed}.nc");
     let mut names = names_in(&folder.join("m"), "");
@@ -99,7 +99,7 @@ pub(super) fn list(path: &Path) -> FrictionList {
     read.list
 }
 
-/// The lists of X and Y of one kind.
+/// Returns the lists of X and Y of one kind.
 pub(super) fn lists(folder: &Path, kind: &str) -> [PathBuf; 2] {
     ["X", "Y"].map(|axis| {
         let names = names_in(&folder.join("m/lists"), &format!("{axis}-{kind}-"));
@@ -354,8 +354,8 @@ fn tuned_lists_are_accepted_by_their_recordings() {
     );
 }
 
-/// The contact is found within 15 %, Kp within 7 %, each within its range; the delay is never known better than to
-/// ±0.5 ms.
+/// Checks the plant: the contact is found within 15 %, Kp within 7 %, each within its range; the delay is never known
+/// better than to ±0.5 ms.
 fn check_plant(found: &Value, own: &Plant) {
     for (axis, own) in [(0, &own.x), (1, &own.y)] {
         let axis = &found["predicted_axes"][axis];
@@ -377,7 +377,7 @@ fn ends(extent: &Value) -> [f64; 3] {
     ["value", "low", "high"].map(|key| extent[key].as_f64().expect("a number"))
 }
 
-/// The tuned lists are accepted by their recordings, and are better than the provisional ones.
+/// Checks that the tuned lists are accepted by their recordings, and are better than the provisional ones.
 fn check_accepted(found: &Value) {
     let rounds = found["rounds"].as_array().expect("rounds");
     assert_eq!(

@@ -3,7 +3,7 @@
 use super::{friction, planned, put, run};
 use crate::folder::one_line;
 
-/// A folder whose X has a second motor.
+/// Returns a folder whose X has a second motor.
 fn gantry() -> tempfile::TempDir {
     let folder = planned();
     let path = folder.path().join("m/plan-1.json");
@@ -14,7 +14,7 @@ fn gantry() -> tempfile::TempDir {
     folder
 }
 
-/// The recorded speeds of X; the torque of its second motor is a share of that of the first plus a constant.
+/// Returns the recorded speeds of X; the torque of its second motor is a share of that of the first plus a constant.
 fn both_motors(part: f64, more: f64) -> String {
     let recorded = friction(0, 1.0).replacen("torque", "torque_X,torque_X2", 1);
     let rows = recorded.lines().map(|line| {

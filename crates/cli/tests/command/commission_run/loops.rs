@@ -100,7 +100,7 @@ fn a_machine_twice_as_stiff_as_its_plant() {
     comes_close_to_the_best_known_lists("double");
 }
 
-/// The provisional lists and those that were tuned and accepted.
+/// Returns the provisional lists and those that were tuned and accepted.
 #[allow(clippy::print_stdout, reason = "the figures are what it is for")]
 fn looped(folder: &Path, machine: &PresetMachine) -> [[PathBuf; 2]; 2] {
     for (axis, drive) in [&machine.plant.x, &machine.plant.y].into_iter().enumerate() {
@@ -128,7 +128,7 @@ fn looped(folder: &Path, machine: &PresetMachine) -> [[PathBuf; 2]; 2] {
     [provisional, tuned]
 }
 
-/// The contact, Kp and Fc of X relative to the true ones, with their ranges; the delay in ms.
+/// Returns the contact, Kp and Fc of X relative to the true ones, with their ranges; the delay in ms.
 fn told_plant(found: &Value, machine: &PresetMachine) -> String {
     let axis = &found["predicted_axes"][0];
     let own = &machine.plant.x;
@@ -147,7 +147,7 @@ fn told_plant(found: &Value, machine: &PresetMachine) -> String {
     .join(", ")
 }
 
-/// The record that a call of `frictcomp commission` prints; a plan prints none.
+/// Returns the record that a call of `frictcomp commission` prints; a plan prints none.
 fn commission(folder: &Path, arguments: &[&str]) -> Value {
     let all = [&["commission"], arguments, &["--format", "json"]].concat();
     document(folder, &all)
@@ -182,7 +182,8 @@ fn record(folder: &Path, (round, machine): (usize, &PresetMachine), lists: Optio
     }
 }
 
-/// A recording of the constant speeds of an axis: friction, the torque for the mass, ripple over the pitch and noise.
+/// Returns a recording of the constant speeds of an axis: friction, the torque for the mass, ripple over the pitch and
+/// noise.
 fn friction_of(folder: &Path, axis: usize, drive: &DriveParameters) -> String {
     const NOISE_N: f64 = 20.0;
     const RIPPLE_N: f64 = 20.0;
@@ -213,7 +214,7 @@ fn friction_of(folder: &Path, axis: usize, drive: &DriveParameters) -> String {
     text
 }
 
-/// The glitches left by lists tuned with knowledge of the machine: three searches of up to 3600 lists.
+/// Returns the glitches left by lists tuned with knowledge of the machine: three searches of up to 3600 lists.
 fn best_known(machine: &PresetMachine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::folder::succeeded;
 
-/// A recording with other rows under another header.
+/// Returns a recording with other rows under another header.
 fn changed(recording: &str, head: &str, change: &dyn Fn(&[f64]) -> String) -> String {
     let mut text = format!("{head}\n");
     for line in recording.lines().skip(1) {
@@ -21,7 +21,7 @@ fn changed(recording: &str, head: &str, change: &dyn Fn(&[f64]) -> String) -> St
     text
 }
 
-/// A recording from the end of the strokes on.
+/// Returns a recording from the end of the strokes on.
 fn without_signature(recording: &str) -> String {
     let rows = recording.lines().enumerate();
     let after = rows.filter(|(at, _)| *at == 0 || *at > 18_000);
@@ -291,7 +291,7 @@ fn the_programs_say_whether_compensation_is_on() {
     );
 }
 
-/// The rows of a recording of circles up to the first clockwise one.
+/// Returns the rows of a recording of circles up to the first clockwise one.
 fn counter_clockwise(recording: &str) -> String {
     let mut angle = 0.0_f64;
     let mut turned = 0.0;

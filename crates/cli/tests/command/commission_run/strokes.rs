@@ -14,7 +14,7 @@ const MACHINE: [(&str, &str); 2] = [("C", "type = \"R\"\n"), ("U", "")];
 
 const FEEDS: [f64; 5] = [500.0, 1000.0, 2000.0, 3000.0, 4000.0];
 
-/// A folder with the plan of one axis in `m`.
+/// Returns a folder with the plan of one axis in `m`.
 fn planned(axis: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     machine(folder.path(), "zero.lis");
@@ -24,7 +24,7 @@ fn planned(axis: &str) -> tempfile::TempDir {
     folder
 }
 
-/// The machine, with one list for each axis.
+/// Writes the machine, with one list for each axis.
 fn machine(folder: &Path, list: &str) {
     let axes = MACHINE.map(|(name, kind)| {
         let rest = AXIS.replace("zero.lis", list);
@@ -58,7 +58,7 @@ fn plan(folder: &Path, axis: &str, more: &[&str]) {
     succeeded(folder, &[&arguments[..], more].concat());
 }
 
-/// What is recorded of a machine in a program of the axis, with a list that the program switches.
+/// Returns the recording of a machine in a program of the axis, with a list that the program switches.
 fn driven(folder: &Path, axis: &str, (program, list): (&str, Option<&str>)) -> Recorded {
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("a file");
     let start = [0.0; 2];
@@ -83,7 +83,7 @@ fn driven(folder: &Path, axis: &str, (program, list): (&str, Option<&str>)) -> R
     }
 }
 
-/// A recording of commanded and actual positions.
+/// Returns a recording of commanded and actual positions.
 fn text(recorded: &Recorded) -> String {
     let mut text = String::from("t,v,x,x_act,torque\n");
     for at in 0..recorded.t.len() {
@@ -101,10 +101,10 @@ fn text(recorded: &Recorded) -> String {
     text
 }
 
-/// What makes of a recording that of another machine.
+/// A change that turns a recording into that of another machine.
 type Change = fn(&mut Recorded);
 
-/// How the strokes of another machine differ, and the words that name it.
+/// Changes that make strokes those of another machine, with the words that report them.
 const OF_ANOTHER_MACHINE: [(Change, &str); 2] = [
     (
         // Its loops answer 12 ms later.

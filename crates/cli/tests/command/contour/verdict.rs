@@ -20,7 +20,7 @@ frict_comp = true
 name = \"Z\"
 ";
 
-/// A circle of 5 mm in lines of 0.1 mm.
+/// Returns a circle of 5 mm in lines of 0.1 mm.
 fn short_lines(compensation: &str) -> String {
     let mut text = format!(
         "X[COMP {compensation} FRICT] Y[COMP {compensation} FRICT]\r\nN10 G01 X5 Y-5 F2000\r\nY0\r\n"
@@ -45,7 +45,7 @@ fn bench(program: &str, machine: &str) -> Bench {
 
 const START: [&str; 2] = ["--start", "X5,Y-10,Z0"];
 
-/// The exit status, standard output and standard error.
+/// Returns the exit status, standard output and standard error.
 fn contour(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String, String) {
     let fixed = ["contour", "-v", "part.nc", "--width", "400"];
     let output = bench.call(&[&fixed[..], &START, arguments].concat());
@@ -328,7 +328,7 @@ fn a_reversal_along_the_path_is_called_so() {
     }
 }
 
-/// A machine whose X has a list with this output at every velocity.
+/// Returns a machine whose X has a list with this output at every velocity.
 fn listed(output: f64) -> String {
     MACHINE.replacen(
         "max_jerk",

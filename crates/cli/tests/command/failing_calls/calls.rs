@@ -9,10 +9,10 @@ use std::sync::LazyLock;
 
 use crate::folder::{Bench, one_line};
 
-/// How many kinds of faults a command meets.
+/// Kinds of faults that a command meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Range {
-    /// All.
+    /// All kinds.
     Whole,
     /// A disk that is full from one call on, for commands that take long.
     FullDisk,
@@ -46,7 +46,7 @@ const fn fault(number: i32, cause: &'static str, lasts: bool) -> Fault {
     }
 }
 
-/// The numbers are those of Linux.
+/// Faults with their numbers on Linux.
 const FAULTS: [Fault; 7] = [
     fault(28, "no space left on device", true),
     fault(28, "no space left on device", false),
@@ -84,7 +84,7 @@ static SHIM: LazyLock<Option<(tempfile::TempDir, PathBuf)>> = LazyLock::new(|| {
     }
 });
 
-/// All files below a folder, by their names in it.
+/// The files below a folder, by their names in it.
 type Files = BTreeMap<String, Vec<u8>>;
 
 fn files(folder: &Path) -> Files {
@@ -137,7 +137,7 @@ impl Trial<'_> {
         command
     }
 
-    /// The effect of the command if nothing fails, and the calls that write.
+    /// Returns the effect of the command if nothing fails, and the calls that write.
     fn undisturbed(&self) -> (Output, Files, Vec<String>) {
         let log = tempfile::NamedTempFile::new().expect("a file");
         let mut command = self.command();

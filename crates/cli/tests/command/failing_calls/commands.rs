@@ -19,7 +19,7 @@ fn survives_after(first: &[&[&str]], range: Range, call: &[&str]) {
     survives(&bench, range, call);
 }
 
-/// A folder of the demonstration.
+/// Returns a folder of the demonstration.
 fn demo(folder: &str) -> Bench {
     let bench = Bench::new(&[]);
     let from = crate::workspace::root().join("programs/demo");

@@ -6,12 +6,12 @@ use super::{Bench, PresetMachine, Row, SMALL, plain};
 use frictcomp_physics::circle::{LearnedRound, LearningProgress, RecordedCircle, RecordedTrace};
 use frictcomp_recordings::commission::{LearnedCircles, RecordedTurn};
 
-/// A recorded circle about a centre with a bulge of so many µm after each crossing.
+/// Returns a recorded circle about a centre with a bulge of so many µm after each crossing.
 fn circle(feed: f64, bulge_um: f64, place: (f64, u64)) -> Vec<Row> {
     turns(feed, &[bulge_um], place)
 }
 
-/// A recorded circle with the bulges of each turn, and a fifth of a turn more.
+/// Returns a recorded circle with the bulges of each turn, and a fifth of a turn more.
 fn turns(feed: f64, of_turns_um: &[f64], (centre, seed): (f64, u64)) -> Vec<Row> {
     let mut random = fastrand::Rng::with_seed(seed);
     let turning = feed / 60.0 / 40.0;
@@ -29,7 +29,7 @@ fn turns(feed: f64, of_turns_um: &[f64], (centre, seed): (f64, u64)) -> Vec<Row>
     (0..count).map(row).collect()
 }
 
-/// The round of X with bulges of so many µm.
+/// Returns the round of X with bulges of so many µm.
 fn round(bulge_um: f64) -> LearnedRound {
     let mut turns = Vec::new();
     for (at, feed) in SMALL.into_iter().enumerate() {
@@ -84,7 +84,7 @@ fn only_what_gains_more_than_the_spread_is_accepted() {
     assert_eq!(accepted, [true, true, false, true, false, false]);
 }
 
-/// A bench whose first round was recorded with circles that nothing drives.
+/// Returns a bench whose first round was recorded with circles that nothing drives.
 fn recorded() -> Bench {
     let bench = Bench::new(PresetMachine::small(), &SMALL);
     let (status, text) = bench.begin(&[]);

@@ -13,7 +13,7 @@ const START: [f64; 2] = [40.0, 0.0];
 /// The channels of the recordings.
 const CHANNELS: [&str; 4] = ["--position", "X=X.ActPos", "--position", "Y=Y.ActPos"];
 
-/// A circle about the origin: a turn and a half in each direction.
+/// Returns a circle about the origin: a turn and a half in each direction.
 fn program(feed: f64) -> Program {
     let turn = |word: &str| format!("{word} X40 Y0 I-40 J0 F{feed}\n{word} X-40 Y0 I-40 J0\n");
     let back = |word: &str| format!("{word} X-40 Y0 I40 J0\n{word} X40 Y0 I40 J0\n");
@@ -21,7 +21,7 @@ fn program(feed: f64) -> Program {
     Program::parse(&text, AXES, START)
 }
 
-/// The measured friction of an axis as a list.
+/// Returns the measured friction of an axis as a list.
 fn friction(machine: &Machine, axis: usize) -> String {
     const SPEEDS: [f64; 8] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 83.0];
     let mut text = format!(
@@ -67,7 +67,7 @@ fn record(machine: &Machine, folder: &Path, random: &mut Random) -> [f64; 2] {
     left
 }
 
-/// Five rounds on a machine; whatever is refused ends the test. Returns the true glitches of each round.
+/// Drives five rounds on a machine; whatever is refused ends the test. Returns the true glitches of each round.
 fn rounds(machine: &Machine) -> Vec<[f64; 2]> {
     let folder = tempfile::tempdir().expect("a folder");
     for (at, axis) in AXES.into_iter().enumerate() {

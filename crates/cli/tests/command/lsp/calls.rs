@@ -1,11 +1,11 @@
-//! Which programs of the project call which (R17.2).
+//! Call hierarchy of the programs of a project (R17.2).
 
 use serde_json::{Value, json};
 
 use super::client::{Client, uri};
 use crate::folder::Bench;
 
-/// A client of the folder of a bench.
+/// Returns a client of the folder of a bench.
 fn client(bench: &Bench) -> Client {
     Client::with(&json!({
         "capabilities": {},

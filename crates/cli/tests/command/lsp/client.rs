@@ -10,7 +10,7 @@ use frictcomp_editor::lsp::{Shutdown, serve};
 use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
 use serde_json::{Value, json};
 
-/// Longer than any answer takes on a busy machine.
+/// Time limit, longer than any answer takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 pub(crate) struct Client {
@@ -22,12 +22,12 @@ pub(crate) struct Client {
 }
 
 impl Client {
-    /// A client without special capabilities.
+    /// Returns a client without special capabilities.
     pub(crate) fn new() -> Self {
         Self::with(&json!({ "capabilities": {} }))
     }
 
-    /// A client that has initialised the server in this way.
+    /// Returns a client that has initialised the server in this way.
     pub(crate) fn with(params: &Value) -> Self {
         let mut client = Self::raw();
         let answer = client.ask("initialize", params);
@@ -36,7 +36,7 @@ impl Client {
         client
     }
 
-    /// A client that has not sent anything yet.
+    /// Returns a client that has not sent anything yet.
     pub(crate) fn raw() -> Self {
         let (connection, other) = Connection::memory();
         let server = std::thread::spawn(move || serve(&other).expect("threads"));
@@ -68,7 +68,7 @@ impl Client {
         id
     }
 
-    /// The answer to a request.
+    /// Returns the answer to a request.
     pub(crate) fn answer(&mut self, id: &RequestId) -> Response {
         let found = self.take(|message| matches!(message, Message::Response(it) if it.id == *id));
         match found {
@@ -94,7 +94,7 @@ impl Client {
             .code
     }
 
-    /// The next notification of a method: its parameters.
+    /// Returns the next notification of a method: its parameters.
     #[track_caller]
     pub(crate) fn told(&mut self, method: &str) -> Value {
         match self.take(|it| matches!(it, Message::Notification(it) if it.method == method)) {
@@ -103,7 +103,7 @@ impl Client {
         }
     }
 
-    /// The next request of the server of a method.
+    /// Returns the next request of the server of a method.
     pub(crate) fn asked(&mut self, method: &str) -> Request {
         match self.take(|it| matches!(it, Message::Request(it) if it.method == method)) {
             Message::Request(it) => it,
@@ -111,7 +111,7 @@ impl Client {
         }
     }
 
-    /// The next message of a kind; earlier ones are kept.
+    /// Waits for the next message of a kind; earlier ones are kept.
     #[track_caller]
     fn take(&mut self, wanted: impl Fn(&Message) -> bool) -> Message {
         if let Some(at) = self.kept.iter().position(&wanted) {
@@ -156,7 +156,7 @@ impl Client {
         );
     }
 
-    /// The next messages about a text.
+    /// Returns the next messages about a text.
     #[track_caller]
     pub(crate) fn diagnostics(&mut self, uri: &str) -> Value {
         let is_it = |it: &Notification| {
@@ -193,7 +193,7 @@ impl Client {
         );
     }
 
-    /// The last messages about a text, once it is checked; `None` if there are no new ones.
+    /// Returns the last messages about a text, once it is checked; `None` if there are no new ones.
     pub(crate) fn settled(&mut self, uri: &str) -> Option<Value> {
         self.settle(uri);
         self.published(|it| it == uri).remove(uri)
@@ -241,14 +241,14 @@ impl Client {
     }
 }
 
-/// The URI of a file.
+/// Returns the URI of a file.
 pub(crate) fn uri(path: &Path) -> String {
     let path = path.display().to_string().replace('\\', "/");
     // A Windows drive follows a slash, with which other paths begin.
     format!("file:///{}", path.trim_start_matches('/'))
 }
 
-/// The codes of messages, `own` for those of the server itself, with their lines from 0.
+/// Returns the codes of messages, `own` for those of the server itself, with their lines from 0.
 pub(crate) fn codes(diagnostics: &Value) -> Vec<(String, u64)> {
     let all = diagnostics.as_array().expect("a list").iter();
     let code = |it: &Value| it["code"].as_str().unwrap_or("own").to_owned();

@@ -8,7 +8,7 @@ use crate::folder::Bench;
 const REQUEST_FAILED: i32 = -32803;
 const CANCELLED: i32 = -32800;
 
-/// X reverses in lines 4 and 5, without compensation in line 7.
+/// Program in which X reverses in lines 4 and 5, without compensation in line 7.
 const PART: &str = "\
 G90 G01 F2000
 ; the outline
@@ -34,7 +34,7 @@ fn of(uri: &str) -> Value {
     json!({ "textDocument": { "uri": uri } })
 }
 
-/// The contour of a program on the machine of the tests.
+/// Returns the contour of a program on the machine of the tests.
 fn contour(text: &str, params: &Value) -> (Bench, Value, String) {
     let bench = Bench::new(&[("a.nc", "M30\n")]);
     let uri = uri(&bench.folder().join("a.nc"));

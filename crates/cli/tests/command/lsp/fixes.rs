@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::client::{Client, codes, uri};
 use crate::folder::Bench;
 
-/// The capabilities of a client that supports versioned edits.
+/// Returns the capabilities of a client that supports versioned edits.
 fn versions() -> Value {
     json!({ "capabilities": { "workspace": { "workspaceEdit": { "documentChanges": true } } } })
 }
@@ -26,7 +26,7 @@ fn actions(client: &mut Client, uri: &str, only: &[&str]) -> Vec<Value> {
     actions.as_array().cloned().unwrap_or_default()
 }
 
-/// A text after the edits of an action; columns are bytes of ASCII.
+/// Returns a text after the edits of an action; columns are bytes of ASCII.
 fn applied(text: &str, edits: &Value) -> String {
     let mut starts = vec![0];
     let bytes = text.as_bytes();

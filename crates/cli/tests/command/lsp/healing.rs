@@ -133,7 +133,7 @@ impl Editor {
         }
     }
 
-    /// All that is shown about the open texts, once they are checked.
+    /// Returns everything that is shown about the open texts, once they are checked.
     fn shown(&mut self) -> BTreeMap<String, Value> {
         let uris: Vec<String> = self.open.keys().cloned().collect();
         for uri in &uris {
@@ -175,7 +175,7 @@ impl Editor {
     }
 }
 
-/// A random edit of one of the texts.
+/// Makes a random edit of one of the texts.
 fn edit(editor: &mut Editor, random: &mut Rng, uris: &[String]) {
     let at = random.usize(..FILES.len());
     let (uri, texts) = (&uris[at], FILES[at].2);

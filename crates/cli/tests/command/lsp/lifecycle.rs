@@ -1,4 +1,4 @@
-//! From the first request to the last, with all kinds of clients.
+//! Life of a server from the first request to the last, with all kinds of clients.
 
 use std::io::Write as _;
 

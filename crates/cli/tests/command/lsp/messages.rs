@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::client::{Client, codes, uri};
 use crate::folder::Bench;
 
-/// The messages of `check` about a program, in the form of the editor: code, severity, range, message.
+/// Returns the messages of `check` about a program, in the form of the editor: code, severity, range, message.
 fn checked(bench: &Bench, name: &str) -> Vec<(String, String, [u64; 4], String)> {
     let path = bench.folder().join(name).display().to_string();
     let path = path.replace('\\', "/");
@@ -28,7 +28,7 @@ fn checked(bench: &Bench, name: &str) -> Vec<(String, String, [u64; 4], String)>
     said
 }
 
-/// The messages of the server about a program.
+/// Returns the messages of the server about a program.
 fn shown(diagnostics: &Value) -> Vec<(String, String, [u64; 4], String)> {
     let all = diagnostics.as_array().expect("a list").iter();
     let mut said: Vec<_> = all

@@ -23,7 +23,7 @@ fn pulling() -> Client {
     Client::with(&capabilities(true))
 }
 
-/// The codes of a full report.
+/// Returns the codes of a full report.
 fn full(report: &Value) -> Vec<(String, u64)> {
     assert_eq!(report["kind"], "full", "{report}");
     codes(&report["items"])

@@ -140,7 +140,7 @@ fn shown_messages(said: &Value, path: &str) -> Vec<(String, u32, String)> {
     shown
 }
 
-/// A random change of a text, as the client sends it, in units of UTF-16.
+/// Returns a random change of a text, as the client sends it, in units of UTF-16.
 fn change(rng: &mut Rng, text: &mut String) -> Value {
     let lines: Vec<&str> = text.split('\n').collect();
     let line = rng.usize(..lines.len());
@@ -227,7 +227,7 @@ fn after_random_edits_the_server_knows_what_a_fresh_run_knows() {
     }
 }
 
-/// The memory of a process in KiB.
+/// Returns the memory of a process in KiB.
 #[cfg(target_os = "linux")]
 fn held(process: u32) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).expect("a process");

@@ -23,7 +23,7 @@ N120 M17
 
 const INVALID_PARAMS: i32 = -32602;
 
-/// A program on the machine of the tests, open.
+/// Returns a program on the machine of the tests, open.
 fn opened(text: &str) -> (Bench, Client, String) {
     let bench = Bench::new(&[("a.nc", "M30\n")]);
     let uri = uri(&bench.folder().join("a.nc"));
@@ -459,7 +459,7 @@ N70 $GOTO [HERE]
 N80 M17
 ";
 
-/// A client that says whether ISG's extension is installed.
+/// Returns a client that says whether ISG's extension is installed.
 fn beside(isg: &Value) -> (Bench, Client, String) {
     let bench = Bench::new(&[("other.nc", "M17\n")]);
     let uri = uri(&bench.folder().join("a.nc"));

@@ -129,8 +129,8 @@ fn an_item_says_what_it_replaces_and_where_it_stands() {
     client.drop_all();
 }
 
-/// The text that results from pressing Enter at the end of each line, in an editor that accepts
-/// the first item that it shows on Enter.
+/// Returns the text that results from pressing Enter at the end of each line, in an editor that accepts the first item
+/// that it shows on Enter.
 fn typed(client: &mut Client, uri: &str, program: &str) -> String {
     let (mut text, mut version) = (String::new(), 1);
     for line in program.lines() {

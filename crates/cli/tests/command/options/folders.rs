@@ -1,4 +1,4 @@
-//! Which files of folders are taken, and what is said about the others.
+//! Selection of the files of folders, and the remarks on the files left out.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use crate::folder::{Bench, json, one_line};
 const OFF: &str = "X[COMP OFF FRICT]\nG1 X5 F100\nX[COMP ON FRICT]\nM30\n";
 const PLAIN: &str = "N10 G0 X1\nN20 M30\n";
 
-/// A folder with programs that are taken, ignored, hidden, excluded and of unknown extensions.
+/// Returns a folder with programs that are taken, ignored, hidden, excluded and of unknown extensions.
 fn shop() -> Bench {
     let bench = Bench::new(&[("a.nc", PLAIN), ("B.PLC", PLAIN)]);
     for folder in ["old/deep", ".git", ".attic", "cache", "node_modules/m"] {

@@ -96,7 +96,7 @@ fn every_help_ends_with_two_examples_that_work() {
     }
 }
 
-/// The files that the examples name.
+/// Returns the files that the examples name.
 fn example_folder() -> Bench {
     let bench = bare(&[
         (

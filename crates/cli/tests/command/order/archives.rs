@@ -44,7 +44,7 @@ impl Program {
         }
     }
 
-    /// The effect of the program on each axis, from its tree.
+    /// Returns the effect of the program on each axis, from its tree.
     pub(crate) fn expected(&self) -> BTreeMap<&'static str, Expected> {
         let mut walk = Walk {
             tree: &self.tree,

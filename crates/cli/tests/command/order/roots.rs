@@ -1,4 +1,4 @@
-//! One block in a file that many programs call (R10.8).
+//! Mending by one block in a file that many programs call (R10.8).
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use crate::folder::Bench;
 
 const HOME: &str = "X[COMP ON FRICT]";
 
-/// The output and the messages of `audit`.
+/// Returns the output and the messages of `audit`.
 fn audited(bench: &Bench, arguments: &[&str]) -> (String, String) {
     let output = bench.call(&[&["audit"], arguments].concat());
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("text");

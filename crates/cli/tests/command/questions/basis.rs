@@ -5,11 +5,11 @@ use super::{MACHINE, bench};
 use crate::folder::{Bench, json};
 use serde_json::{Value, json as value};
 
-/// Y has no friction compensation, Z has no value list; X and Y are required to be compensated.
+/// Machine on which Y has no friction compensation, Z has no value list, and X and Y are required to be compensated.
 const AXES: &str =
     "\n[[axis]]\nname = \"Y\"\nnumber = 2\n\n[[axis]]\nname = \"Z\"\nnumber = 3\nenable = true\n";
 
-/// The readings on which results rest, from the summary of a run.
+/// Returns the readings on which results rest, from the summary of a run.
 fn rests_on(bench: &Bench, arguments: &[&str]) -> Vec<(String, String, String)> {
     let records = bench.records(arguments);
     let summary = json(records.last().expect("a summary"));

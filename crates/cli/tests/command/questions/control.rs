@@ -13,7 +13,7 @@ pub(crate) struct Control {
     pub(crate) asked: (&'static str, bool),
     /// P-AXIS-00522.
     pub(crate) configured: bool,
-    /// Whether it accepted a value list.
+    /// Whether the control accepted a value list.
     pub(crate) has_list: bool,
     /// Whether skip level 2 is on.
     pub(crate) level_2: bool,
@@ -126,7 +126,7 @@ impl Control {
         None
     }
 
-    /// Whether a block is an error by the second reading of a question.
+    /// Returns whether a block is an error by the second reading of a question.
     fn refuses(&self, block: &str) -> bool {
         let asked = [
             ("V.L.FRICTASK", "R2.102"),

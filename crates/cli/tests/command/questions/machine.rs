@@ -4,7 +4,7 @@
 /// The CNC cycle in seconds.
 pub(crate) const CYCLE_S: f64 = 0.001;
 
-/// In mm/s².
+/// Acceleration in mm/s².
 const ACCELERATION: f64 = 500.0;
 
 /// The value list: build-up distance in mm, cycles of the decay and of the delay, and points in mm/s
@@ -19,12 +19,12 @@ const POINTS: [(f64, f64); 3] = [(0.1, 200.0), (1.0, 300.0), (20.0, 380.0)];
 /// The motion of the axis in a cycle.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Cycle {
-    /// In mm.
+    /// Position in mm.
     pub(crate) x: f64,
-    /// In mm/s.
+    /// Velocity in mm/s.
     pub(crate) v: f64,
     pub(crate) is_on: bool,
-    /// In drive units.
+    /// Current in drive units.
     pub(crate) current: f64,
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct Machine<'a> {
     pub(crate) second: Option<&'a str>,
 }
 
-/// A move, or a wait of so many seconds without motion.
+/// A move, or a wait of a number of seconds without motion.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     by: f64,
@@ -41,7 +41,7 @@ struct Step {
     waits_s: f64,
     /// The state during it.
     is_on: bool,
-    /// Whether the path stops before it, whatever follows.
+    /// Whether the path stops before the step, whatever follows.
     stands_before: bool,
 }
 
@@ -104,7 +104,7 @@ impl Machine<'_> {
         steps
     }
 
-    /// The current of each cycle, from all cycles at once.
+    /// Adds the current of each cycle, computed from all cycles at once.
     fn add(&self, cycles: &mut [Cycle]) {
         let count = cycles.len();
         let mut direction = vec![0.0; count];

@@ -17,7 +17,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// A number from -1 to 1 that looks like noise.
+/// Returns a number from -1 to 1 that looks like noise.
 fn noise(at: usize) -> f64 {
     let mut bits = (at as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     bits ^= bits >> 29;
@@ -25,7 +25,7 @@ fn noise(at: usize) -> f64 {
     (bits >> 40) as f64 / f64::from(1 << 23) - 1.0
 }
 
-/// The channels of a recording, one sample every so many cycles, with noise of 2 % on the current.
+/// Returns the channels of a recording, one sample every so many cycles, with noise of 2 % on the current.
 fn task(cycles: &[Cycle], every: usize, axis: u32) -> Task {
     let kept: Vec<&Cycle> = cycles.iter().step_by(every).collect();
     let signal = |name: &str, unit: &str, value: &dyn Fn(usize, &Cycle) -> f64| Signal {
@@ -87,7 +87,7 @@ fn with_header(header: [&str; 5], task: &Task) -> String {
     text
 }
 
-/// The bytes of a recording in one of the layouts.
+/// Returns the bytes of a recording in one of the layouts.
 fn laid_out(task: Task, layout: usize) -> Vec<u8> {
     match layout % 6 {
         0 => plain(&task).into_bytes(),
@@ -122,7 +122,7 @@ fn record(bench: &Bench, name: &str, bytes: &[u8]) {
     fs::write(bench.folder().join(name), bytes).expect("written");
 }
 
-/// The result for a question, on one line.
+/// Returns the result for a question, on one line.
 fn said_of(bench: &Bench, rule: &str, arguments: &[&str]) -> String {
     let said = bench.stdout(&[&["ask", "read"], arguments].concat());
     let mut found = String::new();

@@ -26,7 +26,7 @@ pub(crate) struct Fitting<'a> {
     pub(crate) watch: &'a Watch,
 }
 
-/// Why no plant was found.
+/// Reason why no plant was found.
 pub(super) enum NoPlant {
     /// The recordings or the lists do not yield one; everything else continues.
     Lacking(String),
@@ -186,7 +186,7 @@ pub(super) fn driven_in<'a>(plan: &'a PlanFile, results: &'a [RecordingResult]) 
     each.collect()
 }
 
-/// Whether a feed equals one of others.
+/// Returns whether a feed equals one of others.
 pub(super) fn has(feeds: &[f64], feed: f64) -> bool {
     feeds.iter().any(|it| it.total_cmp(&feed).is_eq())
 }

@@ -125,7 +125,7 @@ impl Fitting<'_> {
         Ok(())
     }
 
-    /// Whether the lists of a plant exist, tuned with the same options.
+    /// Returns whether the lists of a plant exist, tuned with the same options.
     fn has_lists(&self, found: &PlantFound) -> bool {
         let is_there = |it: &TunedList| {
             let text = read_text(&PathBuf::from(&it.file));

@@ -124,7 +124,7 @@ fn missed(compared: &[ComparedGlitch]) -> [Vec<String>; 2] {
     found
 }
 
-/// Whether a list of a round was tuned on a plant.
+/// Returns whether a list of a round was tuned on a plant.
 fn is_tuned_on(round: &RoundCircles<'_>, found: &PlantFound) -> Result<bool, NoPlant> {
     for used in round.lists().into_iter().flatten() {
         let text = read_text(&recorded_list(used)?)?;

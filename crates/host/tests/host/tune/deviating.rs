@@ -1,5 +1,5 @@
-//! What the check of a tuned list predicts, compared with whole circles of both axes, on the plant and on
-//! machines that deviate from it (R5.29). The table is in docs/circular-test.md.
+//! Prediction of the check of a tuned list, compared with whole circles of both axes, on the plant and on machines that
+//! deviate from it (R5.29). The table is in docs/circular-test.md.
 
 use std::fmt::Write as _;
 

@@ -1,5 +1,5 @@
-//! What tuned lists leave on circles that are simulated without the crate: the additive current of chapter 4 and
-//! the loops and the bristle of chapter 5.2, at 61 feeds and eight places of the reversal in the CNC cycle (R5.37).
+//! Residual glitches of tuned lists on circles that are simulated without the crate: the additive current of chapter 4
+//! and the loops and the bristle of chapter 5.2, at 61 feeds and eight places of the reversal in the CNC cycle (R5.37).
 
 use std::f64::consts::PI;
 
@@ -80,7 +80,7 @@ impl Reversal<'_> {
         below.output + part * (next.output - below.output)
     }
 
-    /// The additive current of each cycle in drive units.
+    /// Returns the additive current of each cycle in drive units.
     fn added(&self, cycles: std::ops::Range<i32>) -> Vec<f64> {
         let way = f64::from(self.list.position_delay) * 1e-7;
         let lookahead = i32::from(self.list.reversal_lookahead);
@@ -106,14 +106,14 @@ impl Reversal<'_> {
         (0..raw.len()).map(late).collect()
     }
 
-    /// The friction that slips at a velocity in m/s, in N.
+    /// Returns the friction that slips at a velocity in m/s, in N.
     fn level(&self, velocity: f64) -> f64 {
         let it = &self.drive.friction;
         let part = (-velocity.abs() / it.stribeck_velocity_m_per_s).exp();
         it.coulomb_n + (it.breakaway_n - it.coulomb_n) * part
     }
 
-    /// The deviation outwards in µm at times in s.
+    /// Returns the deviation outwards in µm at times in s.
     fn deviations(&self, from_s: f64, to_s: f64) -> Vec<(f64, f64)> {
         const SETTLING: i32 = 500;
         let (drive, friction) = (self.drive, &self.drive.friction);
@@ -167,7 +167,7 @@ impl Reversal<'_> {
         found
     }
 
-    /// The glitch of R5.22 in µm.
+    /// Returns the glitch of R5.22 in µm.
     fn glitch(&self) -> f64 {
         let [before, side] = [8.0, 20.0].map(|degrees: f64| degrees * PI / 180.0 / self.turning);
         let after = before.max(0.3);
@@ -192,7 +192,7 @@ impl Reversal<'_> {
     }
 }
 
-/// The largest glitch in µm that a tuned list leaves between two feeds in mm/min.
+/// Returns the largest glitch in µm that a tuned list leaves between two feeds in mm/min.
 fn left(task: &Task, tuned: &Tuned, (feeds, count): ([f64; 2], i32)) -> f64 {
     let list = tuned.axes[0].list().expect("a list");
     let at = |number: i32| {
@@ -211,7 +211,7 @@ fn left(task: &Task, tuned: &Tuned, (feeds, count): ([f64; 2], i32)) -> f64 {
     (0..count).map(at).fold(0.0, f64::max)
 }
 
-/// A list for a plant, shaped.
+/// Returns a list for a plant, shaped.
 fn shaped(plant: Plant, feeds: &[f64]) -> (Task, Tuned) {
     let mut task = task(plant, feeds);
     task.shaping = Shaping::Allowed;

@@ -43,18 +43,18 @@ pub struct CircleEvidence {
     pub rest_um: f64,
     /// The shape of the residual, if it has one.
     pub other: Option<OtherShape>,
-    /// Another one beside it.
+    /// The shape of another residual beside it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub second: Option<OtherShape>,
     /// The largest swing of X and of Y in µm, if the axis sticks and slips.
     pub stick_slip_um: [Option<f64>; 2],
-    /// What slow peaks leave beyond their reversals.
+    /// Remainders of slow peaks beyond their reversals.
     #[serde(skip)]
     pub(crate) tails: Tails,
 }
 
 impl CircleEvidence {
-    /// The evidence in the paths; `None` if the masked reversals leave too little of a turn.
+    /// Returns the evidence in the paths; `None` if the masked reversals leave too little of a turn.
     pub(crate) fn of<'a>(
         paths: impl Iterator<Item = (Direction, &'a RadialProfile)>,
         quality: Quality,
@@ -111,12 +111,12 @@ impl CircleEvidence {
         })
     }
 
-    /// The shapes of the residual.
+    /// Returns the shapes of the residual.
     pub(crate) fn others(&self) -> impl Iterator<Item = OtherShape> {
         [self.other, self.second].into_iter().flatten()
     }
 
-    /// Whether there is a residual that noise does not explain.
+    /// Returns whether there is a residual that noise does not explain.
     pub fn has_other_shape(&self) -> bool {
         self.other.is_some()
     }
@@ -125,7 +125,7 @@ impl CircleEvidence {
 /// A path in steps of some length.
 type PathSteps = fn(&RadialProfile, Direction, usize, Mask) -> Option<AngleSeries>;
 
-/// What counts as a residual.
+/// Limits above which a remainder counts as a residual.
 #[derive(Debug, Clone, Copy)]
 struct RestLimits {
     noise_um: f64,
@@ -194,13 +194,13 @@ fn explained(
     })
 }
 
-/// The residual that neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or
-/// of the fine ones, in which a fast oscillation is visible.
+/// Returns the residual that neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or of
+/// the fine ones, in which a fast oscillation is visible.
 fn rest(shapes: &Shapes, fine: &[AngleSeries], noise_um: f64) -> f64 {
     beyond_noise(&shapes.left, noise_um).max(beyond_noise(fine, noise_um))
 }
 
-/// The shift of each axis in µm per turn.
+/// Returns the shift of each axis in µm per turn.
 fn drifts(drift: CircleDrift) -> [Term; 2] {
     const UM_PER_MM: f64 = 1000.0;
     let sizes = drift.per_turn_mm.into_iter().zip(drift.error_mm);

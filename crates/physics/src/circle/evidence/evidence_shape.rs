@@ -32,12 +32,12 @@ pub enum OtherShape {
     },
     /// An oscillation in time.
     Vibration {
-        /// Its frequency.
+        /// Frequency.
         hertz: f64,
-        /// Its amplitude in µm.
+        /// Amplitude in µm.
         amplitude_um: f64,
     },
-    /// Neither of them.
+    /// Any other shape.
     Unknown,
 }
 
@@ -47,9 +47,9 @@ pub enum OtherShape {
 pub struct Term {
     /// The shape.
     pub shape: ShapeTerm,
-    /// Its size.
+    /// Size.
     pub size_um: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error_um: f64,
 }
 
@@ -73,7 +73,7 @@ pub enum ShapeTerm {
 }
 
 impl Term {
-    /// Whether the recording supports it.
+    /// Returns whether the recording supports it.
     pub fn is_carried(&self) -> bool {
         self.size_um.abs() > (SIGNIFICANT * self.error_um).max(LEAST_TERM_UM)
     }

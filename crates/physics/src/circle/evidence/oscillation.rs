@@ -29,7 +29,7 @@ pub(crate) struct Oscillation {
 type GaplessPath<'a> = (&'a [Option<f64>], f64);
 
 impl Oscillation {
-    /// The frequency that explains most of paths in coarse and in fine steps.
+    /// Returns the frequency that explains most of paths in coarse and in fine steps.
     pub(crate) fn search(coarse: &[AngleSeries], fine: &[AngleSeries]) -> Option<Self> {
         let durations = coarse.iter().filter_map(|it| it.turn_s);
         let turn_s = durations.reduce(f64::max)?;
@@ -94,7 +94,7 @@ impl Oscillation {
     }
 }
 
-/// The paths between their reversals, in stretches in which an oscillation keeps its phase.
+/// Returns the paths between their reversals, in stretches in which an oscillation keeps its phase.
 fn stretches(series: &[AngleSeries]) -> Vec<GaplessPath<'_>> {
     let mut stretches = Vec::new();
     for one in series {

@@ -16,7 +16,7 @@ pub(crate) struct Screw {
 }
 
 impl Screw {
-    /// The effects of a cosine and a sine of the screw on the radial deviation.
+    /// Returns the effects of a cosine and a sine of the screw on the radial deviation.
     pub(crate) fn columns(&self, angle: CosineSine, radius_mm: f64) -> [f64; 2] {
         let along = match self.axis {
             PlaneAxis::X => angle.cos,
@@ -26,7 +26,7 @@ impl Screw {
         [along * cos, along * sin]
     }
 
-    /// The mean square of paths that it alone explains.
+    /// Returns the mean square of paths that it alone explains.
     pub(crate) fn explains(&self, left: &[AngleSeries]) -> f64 {
         let (mut squares, mut products, mut count) = ([0.0; 3], [0.0; 2], 0.0);
         for one in left {
@@ -49,7 +49,7 @@ pub(crate) struct Periodic {
 }
 
 impl Periodic {
-    /// The mean square that it explains.
+    /// Returns the mean square that it explains.
     pub(crate) fn explains(&self) -> f64 {
         self.joint.explains
     }
@@ -62,7 +62,7 @@ pub(crate) struct Joint {
 }
 
 impl Joint {
-    /// The fit of two columns with their own part of the squares, and all of their squares.
+    /// Returns the fit of two columns with their own part of the squares, and all of their squares.
     pub(crate) fn new(own: [f64; 3], squares: [f64; 3], products: [f64; 2]) -> Option<Self> {
         /// Columns with a smaller part of their own are shapes.
         const LEAST_OWN: f64 = 1e-6;

@@ -21,7 +21,7 @@ const FINE: i32 = 15;
 /// bent, not a screw.
 const BENT: f64 = 0.9;
 
-/// The error of the pitch that explains most of what the shapes leave, in addition to them.
+/// Returns the error of the pitch that explains most of what the shapes leave, in addition to them.
 pub(crate) fn search(shapes: &Shapes) -> Option<Periodic> {
     let radius_mm = shapes.left.first()?.radius_mm;
     let [from, to] = [1.0 / PITCHES[1], 1.0 / PITCHES[0]];

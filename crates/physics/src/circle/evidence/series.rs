@@ -30,11 +30,11 @@ const MOST_MASKED_DEG: f64 = 75.0;
 const BLOCK_S: f64 = 0.05;
 const BLOCK_DEG: f64 = 2.0;
 
-/// What is left out of a path.
+/// Parts left out of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mask {
     Reversals,
-    /// Also what is before them, where axes slow down.
+    /// The reversals, and the parts before them in which axes slow down.
     ReversalsAndSlowing,
 }
 
@@ -57,8 +57,8 @@ pub(crate) fn real(count: usize) -> f64 {
 }
 
 impl AngleSeries {
-    /// The path of a profile with a number of samples, in the steps of the shapes; `None` if the
-    /// reversals take all of it.
+    /// Returns the path of a profile with a number of samples, in the steps of the shapes; `None` if the reversals take
+    /// all of it.
     pub(crate) fn coarse(
         profile: &RadialProfile,
         direction: Direction,
@@ -68,7 +68,7 @@ impl AngleSeries {
         Self::in_steps(profile, direction, (samples, COARSE), mask)
     }
 
-    /// The path in longer steps, in which slow shapes are the same.
+    /// Returns the path in longer steps, in which slow shapes are the same.
     pub(crate) fn rough(
         profile: &RadialProfile,
         direction: Direction,
@@ -78,7 +78,7 @@ impl AngleSeries {
         Self::in_steps(profile, direction, (samples, ROUGH), mask)
     }
 
-    /// The path in steps of a sample, or of a fixed angle if that is more.
+    /// Returns the path in steps of a sample, or of a fixed angle if that is more.
     pub(crate) fn fine(
         profile: &RadialProfile,
         direction: Direction,
@@ -138,7 +138,7 @@ impl AngleSeries {
             .collect()
     }
 
-    /// The steps that are not masked, with their directions.
+    /// Returns the steps that are not masked, with their directions.
     pub(crate) fn steps(&self) -> impl Iterator<Item = (CosineSine, f64)> + '_ {
         self.places.iter().copied()
     }
@@ -148,7 +148,7 @@ impl AngleSeries {
         Some(self.turn_s? / real(self.values.len()))
     }
 
-    /// The path less a model of it.
+    /// Returns the path less a model of it.
     pub(crate) fn less(&self, model: impl Fn(CosineSine, Direction) -> f64) -> Self {
         let mut left = self.clone();
         for (at, value) in left.values.iter_mut().enumerate() {
@@ -160,7 +160,7 @@ impl AngleSeries {
         left
     }
 
-    /// The variance of a step, from the means of blocks: neighbours may be alike.
+    /// Returns the variance of a step, from the means of blocks: neighbours may be alike.
     pub(crate) fn block_variance(&self) -> f64 {
         let degrees = self
             .turn_s
@@ -180,7 +180,7 @@ impl AngleSeries {
     }
 }
 
-/// The root mean square of paths beyond this noise.
+/// Returns the root mean square of paths beyond this noise.
 pub(crate) fn beyond_noise(left: &[AngleSeries], noise_um: f64) -> f64 {
     let squares = left.iter().map(|one| {
         let noise = noise_um * one.noise_share;

@@ -109,7 +109,7 @@ impl Shapes {
         Some(shapes.judged(series, &spreads))
     }
 
-    /// The tails of slow peaks.
+    /// Returns the tails of slow peaks.
     pub(crate) fn tails(&self) -> Tails {
         Tails::new(
             self.basis.added.decays,
@@ -117,19 +117,19 @@ impl Shapes {
         )
     }
 
-    /// The squares of what is left of the paths, added up.
+    /// Returns the squares of what is left of the paths, added up.
     pub(crate) fn squares(&self) -> f64 {
         let left = self.left.iter().flat_map(AngleSeries::steps);
         left.map(|(_, value)| value * value).sum()
     }
 
-    /// The variance of a step of what is left.
+    /// Returns the variance of a step of what is left.
     pub(crate) fn variance(&self) -> f64 {
         let of_blocks = self.left.iter().map(AngleSeries::block_variance);
         of_blocks.fold(0.0, f64::max)
     }
 
-    /// The fitted path at a place, in µm.
+    /// Returns the fitted path at a place, in µm.
     pub(crate) fn at(&self, angle: CosineSine, course: PathMotion) -> f64 {
         let row = self.basis.row(angle, course);
         row.iter().zip(self.found).map(|(a, b)| a * b).sum()
@@ -148,7 +148,7 @@ impl Shapes {
         self
     }
 
-    /// The part of the residual that is explained by two more columns, which are given for an angle and a
+    /// Returns the part of the residual that is explained by two more columns, which are given for an angle and a
     /// radius in mm.
     pub(crate) fn joint(&self, columns: impl Fn(CosineSine, f64) -> [f64; 2]) -> Option<Joint> {
         let mut sums = [[0.0; SHAPES]; 2];
@@ -211,12 +211,12 @@ impl Shapes {
         series.iter().map(less).collect()
     }
 
-    /// What was fitted in addition.
+    /// Returns the terms fitted in addition.
     pub(crate) fn added(&self) -> Additions {
         self.basis.added
     }
 
-    /// The amplitude in µm of a screw by its number.
+    /// Returns the amplitude in µm of a screw by its number.
     pub(crate) fn amplitude_um(&self, screw: usize) -> f64 {
         let [cos, sin] = SCREWS[screw].map(|at| self.found[at]);
         cos.hypot(sin)

@@ -17,10 +17,10 @@ const AFTER_DEG: f64 = 14.0;
 /// not back to the crossing of the other axis.
 const BEFORE_DEG: f64 = 45.0;
 
-/// Fewer extremes are those of a peak.
+/// Least number of extremes; fewer are those of a peak.
 const FEWEST: usize = 4;
 
-/// Swings below this part of the largest one do not count.
+/// Part of the largest swing below which swings do not count.
 const PART: f64 = 0.1;
 
 /// Nor swings below this, in µm.
@@ -29,7 +29,7 @@ const LEAST_UM: f64 = 0.3;
 /// Number of standard deviations of the noise, averaged over eight samples, that a swing must exceed.
 const OF_NOISE: f64 = 9.0 / 2.828;
 
-/// The largest swing of an axis that sticks and slips, in µm, for paths with this noise.
+/// Returns the largest swing of an axis that sticks and slips, in µm, for paths with this noise.
 pub(crate) fn stick_slip(
     paths: &[(Direction, &RadialProfile)],
     axis: PlaneAxis,
@@ -98,7 +98,7 @@ impl Swings {
     }
 }
 
-/// The extremes of a path between swings of at least this size, and the largest swing.
+/// Returns the extremes of a path between swings of at least this size, and the largest swing.
 fn extremes(path: &[f64], least: f64) -> (usize, f64) {
     let Some(&first) = path.first() else {
         return (0, 0.0);

@@ -35,7 +35,7 @@ const HEIGHTS: [f64; 2] = [0.15, 2.5];
 /// Number of variances that a tail explains at least.
 const EXPLAINS: f64 = 16.0;
 
-/// The shapes of paths with the tails of their peaks, if they have any.
+/// Returns the shapes of paths with the tails of their peaks, if they have any.
 pub(crate) fn fit(
     paths: &[(Direction, &RadialProfile)],
     (series, rough): (&[AngleSeries], &[AngleSeries]),
@@ -78,7 +78,7 @@ pub(crate) fn fit(
     Some(shapes)
 }
 
-/// The decay with which the squares of what is left are the least.
+/// Returns the decay with which the squares of what is left are the least.
 fn best(slowest_s: f64, squares: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let mut best: Option<(f64, f64)> = None;
     let take = |decay_s: f64, best: &mut Option<(f64, f64)>| {
@@ -106,7 +106,7 @@ fn best(slowest_s: f64, squares: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     Some(best?.0)
 }
 
-/// Whether a tail that was fitted is one: it explains more than its noise, and has the sign and the size of the
+/// Returns whether a tail that was fitted is one: it explains more than its noise, and has the sign and the size of the
 /// peak. What an axis leaves as it slows down before a reversal is fitted by tails of the opposite sign.
 fn is_tail(found: &Shapes, (axis, peak): (PlaneAxis, f64), squares_before: f64) -> bool {
     let heights = found.tails().heights_um(axis);
@@ -115,12 +115,12 @@ fn is_tail(found: &Shapes, (axis, peak): (PlaneAxis, f64), squares_before: f64) 
     is_sized && squares_before - found.squares() > EXPLAINS * found.variance()
 }
 
-/// The one of two deviations that is farther from zero.
+/// Returns the one of two deviations that is farther from zero.
 fn larger(one: f64, other: f64) -> f64 {
     if other.abs() > one.abs() { other } else { one }
 }
 
-/// The largest deviation after the reversals of an axis from the fitted shapes, in µm.
+/// Returns the largest deviation after the reversals of an axis from the fitted shapes, in µm.
 fn peak_um(paths: &[(Direction, &RadialProfile)], axis: PlaneAxis, shapes: &Shapes) -> f64 {
     /// Degrees after a crossing in which a peak is sought.
     const WITHIN: i32 = 14 * PER_DEGREE;

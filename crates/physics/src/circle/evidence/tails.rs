@@ -34,7 +34,7 @@ impl Tails {
         Self { decays, heights_um }
     }
 
-    /// The deviation outwards in µm by the tail of an axis.
+    /// Returns the deviation outwards in µm by the tail of an axis.
     pub(crate) fn of(&self, axis: PlaneAxis, place: TailPlace) -> f64 {
         let at = axis_number(axis);
         let columns = self.decays[at].map(|decay_s| columns(axis, decay_s, place));
@@ -48,19 +48,19 @@ impl Tails {
         self.heights_um[axis_number(axis)]
     }
 
-    /// The height of the largest tail in µm.
+    /// Returns the height of the largest tail in µm.
     pub(crate) fn tallest_um(&self) -> f64 {
         let heights = self.heights_um.iter().flatten();
         heights.fold(0.0, |most, it| most.max(it.abs()))
     }
 
-    /// The deviation outwards in µm by both tails.
+    /// Returns the deviation outwards in µm by both tails.
     pub(crate) fn at(&self, place: TailPlace) -> f64 {
         PlaneAxis::ALL.map(|axis| self.of(axis, place)).iter().sum()
     }
 }
 
-/// X is the first axis, Y the second.
+/// Returns the index of an axis: X is the first one, Y the second.
 pub(crate) fn axis_number(axis: PlaneAxis) -> usize {
     match axis {
         PlaneAxis::X => 0,
@@ -68,7 +68,7 @@ pub(crate) fn axis_number(axis: PlaneAxis) -> usize {
     }
 }
 
-/// The effects of the tails of an axis with a height of 1 after its largest and after its smallest position.
+/// Returns the effects of the tails of an axis with a height of 1 after its largest and after its smallest position.
 pub(crate) fn columns(axis: PlaneAxis, decay_s: f64, place: TailPlace) -> [f64; 2] {
     let CosineSine { cos, sin } = place.angle;
     let from = match axis {

@@ -48,7 +48,7 @@ impl Glitch {
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Bulge {
-    /// Away from the centre.
+    /// Deviation away from the centre.
     Outward,
     /// Towards the centre.
     Inward,
@@ -84,13 +84,13 @@ pub struct PathShape {
     pub ellipse_um: [f64; 2],
 }
 
-/// A peak has decayed if less of it is left than this part of the step. Real backlash leaves less
-/// than a tenth; friction that falls steeply with the speed bends the path far beyond the crossing
-/// and leaves more than a fifth of the apparent step.
+/// Part of the step below which the rest of a peak counts as decayed. Real backlash leaves less than a tenth; friction
+/// that falls steeply with the speed bends the path far beyond the crossing and leaves more than a fifth of the
+/// apparent step.
 const SETTLED: f64 = 0.15;
 
 impl PathShape {
-    /// The shape of a path whose peaks have these tails; `None` if its windows reach the next crossings.
+    /// Returns the shape of a path whose peaks have these tails; `None` if its windows reach the next crossings.
     pub(crate) fn of(profile: &RadialProfile, direction: Direction, tails: Tails) -> Option<Self> {
         let seen = Seen::of(profile, direction, tails)?;
         let quiet = seen.without_tails;
@@ -147,7 +147,7 @@ impl PathShape {
     }
 }
 
-/// The path at the four crossings less the undisturbed path and the straight line through both sides (R5.22):
+/// Returns the path at the four crossings less the undisturbed path and the straight line through both sides (R5.22):
 /// the distance from the crossing in fixed angles, and the deviation in m. `None` if the windows reach the next
 /// crossings.
 pub(crate) fn straightened(
@@ -183,7 +183,7 @@ impl<'a> Seen<'a> {
         })
     }
 
-    /// The deviation at a point in m, less the tail of an axis.
+    /// Returns the deviation at a point in m, less the tail of an axis.
     fn less_tail(&self, axis: PlaneAxis, point: ProfilePoint) -> f64 {
         let ProfilePoint {
             cos,
@@ -198,7 +198,7 @@ impl<'a> Seen<'a> {
         deviation - self.tails.of(axis, place) / UM_PER_M
     }
 
-    /// The path in the window of a crossing less the undisturbed path and the line through both sides: the
+    /// Returns the path in the window of a crossing less the undisturbed path and the line through both sides: the
     /// distance from the crossing in fixed angles, and the deviation in m.
     fn straightened(&self, crossing: Crossing) -> Vec<(f64, f64)> {
         let line = self.line(crossing);
@@ -244,8 +244,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// The straight line through both sides of a crossing: at the crossing, and for each fixed
-    /// angle.
+    /// Returns the straight line through both sides of a crossing: at the crossing, and for each fixed angle.
     fn line(&self, crossing: Crossing) -> [f64; 2] {
         let mut normal = Normal::<2>::new();
         for ways in [CrossingWindow::before(), self.window.after()] {

@@ -37,9 +37,9 @@ pub struct PathFigures {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Figures {
-    /// Of the counter-clockwise path.
+    /// Figures of the counter-clockwise path.
     pub ccw: Option<PathFigures>,
-    /// Of the clockwise path.
+    /// Figures of the clockwise path.
     pub cw: Option<PathFigures>,
     /// The centre that G(b) and H refer to.
     pub centre: PathCentre,
@@ -72,7 +72,7 @@ pub struct Paths {
 }
 
 impl Paths {
-    /// The profile of one direction.
+    /// Returns the profile of one direction.
     pub fn get(&self, direction: Direction) -> Option<&RadialProfile> {
         match direction {
             Direction::Ccw => self.ccw.as_ref(),
@@ -88,7 +88,7 @@ impl Paths {
         }
     }
 
-    /// The quality of recorded paths, that of the worse one.
+    /// Returns the quality of recorded paths, that of the worse one.
     fn quality(&self) -> Option<Quality> {
         let qualities: Vec<Quality> = self
             .iter()
@@ -102,7 +102,7 @@ impl Paths {
         })
     }
 
-    /// The directions whose paths exist.
+    /// Returns the directions whose paths exist.
     pub fn iter(&self) -> impl Iterator<Item = (Direction, &RadialProfile)> {
         Direction::ALL
             .into_iter()
@@ -120,7 +120,7 @@ pub(crate) enum Nominal {
 }
 
 impl Figures {
-    /// The figures of one or two paths, those of both about a centre.
+    /// Returns the figures of one or two paths, those of both about a centre.
     pub(crate) fn of(paths: &Paths, nominal: Nominal, centre: PathCentre) -> Self {
         let quality = paths.quality();
         let evidence = quality.and_then(|it| CircleEvidence::of(paths.iter(), it));
@@ -153,7 +153,7 @@ impl Figures {
         }
     }
 
-    /// The figures of one direction.
+    /// Returns the figures of one direction.
     pub fn get(&self, direction: Direction) -> Option<&PathFigures> {
         match direction {
             Direction::Ccw => self.ccw.as_ref(),
@@ -161,7 +161,7 @@ impl Figures {
         }
     }
 
-    /// The largest glitch of all crossings and directions; `None` if no crossing has one.
+    /// Returns the largest glitch of all crossings and directions; `None` if no crossing has one.
     pub fn glitch_max_um(&self) -> Option<f64> {
         let paths = [&self.ccw, &self.cw].into_iter().flatten();
         let glitches = paths
@@ -196,7 +196,7 @@ impl PathFigures {
 struct Bidirectional {
     /// Between the least-squares centres.
     distance: f64,
-    /// Of both paths together, G(b).
+    /// Bidirectional deviation of both paths together, G(b).
     deviation: f64,
     /// The largest difference at one angle, H.
     hysteresis: f64,
@@ -224,7 +224,7 @@ impl Bidirectional {
     }
 }
 
-/// The largest difference of two paths at the fixed angles, in m.
+/// Returns the largest difference of two paths at the fixed angles, in m.
 fn hysteresis(ccw: &RadialProfile, cw: &RadialProfile) -> f64 {
     let pairs = ccw.deviations_m().iter().zip(cw.deviations_m());
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)

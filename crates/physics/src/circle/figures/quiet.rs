@@ -19,7 +19,7 @@ use crate::linear::Normal;
 pub(crate) struct QuietPath {
     direction: Direction,
     mean: f64,
-    /// Of the centre, in X and Y.
+    /// Shift of the centre, in X and Y.
     shift: [f64; 2],
     /// The amplitude of the ellipse along the axes and at 45°.
     pub(crate) ellipse: [f64; 2],
@@ -27,7 +27,7 @@ pub(crate) struct QuietPath {
     pub(crate) steps: [f64; 2],
 }
 
-/// Before or after a crossing.
+/// Side of a crossing: before or after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Beside {
     Before,
@@ -73,7 +73,7 @@ impl QuietPath {
         })
     }
 
-    /// The path without any step in the direction of a point.
+    /// Returns the path without any step in the direction of a point.
     pub(crate) fn smooth(&self, point: ProfilePoint) -> f64 {
         let [along, across] = second_harmonic(point);
         self.mean
@@ -83,7 +83,7 @@ impl QuietPath {
             + self.ellipse[1] * across
     }
 
-    /// The path on one side of a crossing, continued beyond it, in the direction of a point.
+    /// Returns the path on one side of a crossing, continued beyond it, in the direction of a point.
     pub(crate) fn level(&self, crossing: Crossing, beside: Beside, point: ProfilePoint) -> f64 {
         let side = match beside {
             Beside::Before => -1.0,
@@ -102,7 +102,7 @@ impl QuietPath {
     }
 }
 
-/// The second harmonic in the direction of a point: along the axes, and at 45°.
+/// Returns the second harmonic in the direction of a point: along the axes, and at 45°.
 fn second_harmonic(ProfilePoint { cos, sin, .. }: ProfilePoint) -> [f64; 2] {
     [cos * cos - sin * sin, 2.0 * cos * sin]
 }

@@ -25,7 +25,7 @@ pub struct Waveform {
 }
 
 impl Waveform {
-    /// The reversals at the four crossings of a recorded turn; `None` if it has no glitches or no times.
+    /// Returns the reversals at the four crossings of a recorded turn; `None` if it has no glitches or no times.
     pub(crate) fn at_crossings(profile: &RadialProfile, direction: Direction) -> Option<[Self; 4]> {
         let angles_per_s = 360.0 / profile.turn_s()? * f64::from(PER_DEGREE);
         let paths = straightened(profile, direction)?;
@@ -65,7 +65,7 @@ impl Waveform {
         }
     }
 
-    /// The mean of waveforms over the samples that all of them have.
+    /// Returns the mean of waveforms over the samples that all of them have.
     pub(crate) fn mean(waveforms: &[&Self]) -> Self {
         let first = waveforms.iter().map(|it| it.first).max().unwrap_or(0);
         let end = waveforms.iter().map(|it| it.end()).min().unwrap_or(0);
@@ -79,15 +79,15 @@ impl Waveform {
         }
     }
 
-    /// The number of independent samples in a mean over 8 ms, for samples a number of seconds apart and a turn of
-    /// a number of seconds: a profile has one at each fixed angle at most.
+    /// Returns the number of independent samples in a mean over 8 ms, for samples a number of seconds apart and a turn
+    /// of a number of seconds: a profile has one at each fixed angle at most.
     pub(crate) fn samples_of_a_mean(step_s: f64, turn_s: f64) -> f64 {
         let angle_s = turn_s / 360.0 / f64::from(PER_DEGREE);
         (2.0 * HALF_MEAN_S / step_s.max(angle_s)).max(1.0)
     }
 
-    /// The height in µm without the noise of its samples, and its standard error. Each sample becomes the mean over
-    /// as many neighbours as show nothing but noise (Lepski), so that the noise of the flat part does not count as
+    /// Returns the height in µm without the noise of its samples, and its standard error. Each sample becomes the mean
+    /// over as many neighbours as show nothing but noise (Lepski), so that the noise of the flat part does not count as
     /// height. `None` without samples.
     pub(crate) fn without_noise(&self, noise_um: f64) -> Option<(f64, f64)> {
         let mut sums = vec![0.0];
@@ -102,7 +102,7 @@ impl Waveform {
         Some((high.0 - low.0, low.1.hypot(high.1)))
     }
 
-    /// From the least to the largest deviation in µm.
+    /// Returns the range from the least to the largest deviation in µm.
     pub fn height_um(&self) -> f64 {
         let ends = self
             .um
@@ -122,7 +122,7 @@ impl Waveform {
         }
     }
 
-    /// The difference from another one on the samples of this one.
+    /// Returns the difference from another one on the samples of this one.
     pub(crate) fn less(&self, other: &Self) -> Self {
         let numbers = self.first..self.end();
         Self {
@@ -131,7 +131,7 @@ impl Waveform {
         }
     }
 
-    /// The samples that another one also has.
+    /// Returns the samples that another one also has.
     pub(crate) fn within(&self, other: &Self) -> Self {
         Self::mean(&[
             self,
@@ -165,13 +165,13 @@ impl Waveform {
         self
     }
 
-    /// The samples: the time since the reversal in s, and the deviation in µm.
+    /// Returns the samples: the time since the reversal in s, and the deviation in µm.
     pub(crate) fn samples(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let times = (self.first..).map(|it| f64::from(it) * STEP_S);
         times.zip(self.um.iter().copied())
     }
 
-    /// The mean square in µm².
+    /// Returns the mean square in µm².
     pub(crate) fn power(&self) -> f64 {
         let squares: f64 = self.um.iter().map(|it| it * it).sum();
         squares / real(self.um.len().max(1))
@@ -183,16 +183,16 @@ impl Waveform {
         at.and_then(|at| self.um.get(at)).copied().unwrap_or(0.0)
     }
 
-    /// Number after the last sample.
+    /// Returns the number after the last sample.
     fn end(&self) -> i32 {
         self.first + i32::try_from(self.um.len()).unwrap_or(i32::MAX)
     }
 }
 
-/// The mean around a sample over the widest part in which it differs from narrower ones by no more than their
+/// Returns the mean around a sample over the widest part in which it differs from narrower ones by no more than their
 /// noise, and its standard error; from sums up to each sample and the noise of a sample, a mean over 8 ms.
 fn quiet_mean(sums: &[f64], at: usize, noise_um: f64) -> (f64, f64) {
-    /// Means differ by more than noise from this many standard errors on.
+    /// Number of standard errors from which means differ by more than noise.
     const APART: f64 = 2.0;
     /// Samples that have the same noise: 8 ms.
     const OF_A_MEAN: f64 = 4.0;
@@ -218,7 +218,7 @@ fn quiet_mean(sums: &[f64], at: usize, noise_um: f64) -> (f64, f64) {
     best
 }
 
-/// The value at a time on straight lines between points.
+/// Returns the value at a time on straight lines between points.
 fn between(points: &[(f64, f64)], time: f64) -> f64 {
     let after = points.partition_point(|it| it.0 < time);
     match (after.checked_sub(1).map(|at| points[at]), points.get(after)) {

@@ -16,11 +16,11 @@ pub struct Extent {
     pub at_bound: bool,
 }
 
-/// The ends of a range are within this factor if a value is determined.
+/// Factor within which the ends of a range are if a value is determined.
 const DETERMINED: f64 = 1.4;
 
 impl Extent {
-    /// The range of a value and of others that fit as well.
+    /// Returns the range of a value and of others that fit as well.
     pub(super) fn over(value: f64, others: impl IntoIterator<Item = f64>) -> Self {
         let mut extent = Self {
             value,
@@ -44,7 +44,7 @@ impl Extent {
         }
     }
 
-    /// Whether the range is within a factor of 1.4; otherwise only its lower end is known.
+    /// Returns whether the range is within a factor of 1.4; otherwise only its lower end is known.
     pub fn is_determined(&self) -> bool {
         self.high <= DETERMINED * self.low
     }

@@ -29,9 +29,9 @@ const SHAPE: f64 = 0.02;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct SharesOn {
-    /// In the circles with the list on: 1 if all of it was on.
+    /// Share in the circles with the list on: 1 if all of it was on.
     pub on: Extent,
-    /// In the circles off: 0 if nothing was on.
+    /// Share in the circles off: 0 if nothing was on.
     pub off: Extent,
 }
 
@@ -63,7 +63,7 @@ pub struct FittedDrive {
     pub damping: Extent,
     /// Time constant of the current loop, which includes delays of the loop, in s.
     pub delay_s: Extent,
-    /// What the load lags behind the motor after a reversal, in m: backlash, or a drive train that winds up.
+    /// Travel in m by which the load lags behind the motor after a reversal: backlash, or a drive train that winds up.
     pub lost_m: Extent,
     /// The shares of the lists that were on, where that was asked.
     pub shares: Option<SharesOn>,
@@ -138,8 +138,8 @@ impl DriveFit {
         })
     }
 
-    /// The shares of the lists, each with everything else free except the other one and the friction: more of all lists
-    /// cannot be told from more friction and stiffer loops. `None` if no circle is doubted.
+    /// Returns the shares of the lists, each with everything else free except the other one and the friction: more of
+    /// all lists cannot be told from more friction and stiffer loops. `None` if no circle is doubted.
     fn shares(&self, best: Unknowns) -> Result<Option<SolvedShares>, CircleError> {
         /// A list of which hardly anything was on, less 1.
         const HARDLY: f64 = -0.8;
@@ -159,8 +159,8 @@ impl DriveFit {
         }))
     }
 
-    /// The range of a share, which is an unknown and what is added to it, and the number of simulations; the better one
-    /// of two starts counts.
+    /// Returns the range of a share, which is an unknown and what is added to it, and the number of simulations; the
+    /// better one of two starts counts.
     fn share(
         &self,
         (unknown, whole): (usize, f64),
@@ -185,7 +185,7 @@ impl DriveFit {
         Ok((extent, simulations))
     }
 
-    /// The contact from which the search starts, and the number of simulations needed.
+    /// Returns the contact from which the search starts, and the number of simulations needed.
     fn first(&self, model: FrictionModel) -> Result<(Unknowns, usize), CircleError> {
         let mut best = (f64::INFINITY, Unknowns::none());
         let mut simulations = 0;

@@ -9,8 +9,8 @@ use crate::current::Reading;
 use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::lists::FrictionList;
 
-/// The recorded glitch of an axis in µm and its standard error: that of the mean of its reversals in all turns, each
-/// a mean over 8 ms, without its noise; `None` if the turns have no glitches or no times.
+/// Returns the recorded glitch of an axis in µm and its standard error: that of the mean of its reversals in all turns,
+/// each a mean over 8 ms, without its noise; `None` if the turns have no glitches or no times.
 pub fn recorded_height_um(axis: PlaneAxis, turns: &[RecordedCircle]) -> Option<(f64, f64)> {
     let mut reversals: Vec<Waveform> = Vec::new();
     for turn in turns {
@@ -28,7 +28,7 @@ pub fn recorded_height_um(axis: PlaneAxis, turns: &[RecordedCircle]) -> Option<(
     Some((height_um, error_um.max(scatter)))
 }
 
-/// The predicted glitch of an axis in µm with a list or without one.
+/// Returns the predicted glitch of an axis in µm with a list or without one.
 ///
 /// # Errors
 /// A circle that cannot be simulated, or a drive that is unstable on it.

@@ -39,7 +39,7 @@ pub struct DriveFit {
 }
 
 impl ObservedCircle {
-    /// The reversals of an axis on all turns of one circle; `None` if it has no glitches.
+    /// Returns the reversals of an axis on all turns of one circle; `None` if it has no glitches.
     pub fn of(
         axis: PlaneAxis,
         (circle, list): (Circle, Option<FrictionList>),

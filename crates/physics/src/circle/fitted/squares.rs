@@ -18,7 +18,7 @@ const LEAST_UM: f64 = 0.05;
 /// Maximum number of steps.
 const MOST_STEPS: usize = 15;
 
-/// A step ends the search if the squares fall by less than this part.
+/// Least relative gain of a step in the squares; a smaller one ends the search.
 const GAIN: f64 = 1e-3;
 
 /// Weight of the measured diagonal that keeps the first steps short, and its factor after a step.
@@ -110,12 +110,12 @@ impl DriveFit {
         })
     }
 
-    /// The mean square in µm² that unknowns leave.
+    /// Returns the mean square in µm² that unknowns leave.
     pub(super) fn power(&self, model: FrictionModel, at: Unknowns) -> Result<f64, CircleError> {
         Ok(self.left(model, at)?.power())
     }
 
-    /// The simulated deviation on each circle.
+    /// Returns the simulated deviation on each circle.
     fn simulated(&self, model: FrictionModel, at: Unknowns) -> Result<Vec<Waveform>, CircleError> {
         let drive = at.of(&self.drive);
         let alone = AxisAlone {
@@ -151,7 +151,7 @@ impl DriveFit {
         })
     }
 
-    /// The equations of each reversal: the effect of each unknown on the rest there.
+    /// Returns the equations of each reversal: the effect of each unknown on the rest there.
     fn equations(
         &self,
         setting: ModelSetting,
@@ -185,14 +185,14 @@ impl DriveFit {
     }
 }
 
-/// The squares relative to the expected ones, with those of the unknowns.
+/// Returns the squares relative to the expected ones, with those of the unknowns.
 fn cost(left: &Left, at: Unknowns, power: f64) -> f64 {
     let each = at.0.iter().zip(BEFORE);
     let before: f64 = each.map(|(it, deviation)| (it / deviation).powi(2)).sum();
     left.squares / power / ALIKE + before
 }
 
-/// The step to the least squares of a selection of reversals; unknowns are drawn to their expected values.
+/// Returns the step to the least squares of a selection of reversals; unknowns are drawn to their expected values.
 fn step(
     reversals: &[Normal<UNKNOWNS>],
     at: Unknowns,
@@ -231,7 +231,7 @@ fn solution<'a>(
 }
 
 impl SolvedUnknowns {
-    /// The unknowns of another selection of as many reversals, by the equations at the best ones.
+    /// Returns the unknowns of another selection of as many reversals, by the equations at the best ones.
     pub(super) fn again(&self, random: &mut XorShift) -> Option<Unknowns> {
         let mut times = vec![0.0; self.reversals.len()];
         for _ in 0..times.len() {
@@ -249,7 +249,7 @@ impl SolvedUnknowns {
     }
 }
 
-/// The values of a waveform less the straight line that fits them best.
+/// Returns the values of a waveform less the straight line that fits them best.
 fn straight(waveform: &Waveform) -> Vec<f64> {
     let mut line = Normal::new();
     for (time, value) in waveform.samples() {

@@ -20,7 +20,8 @@ pub(super) const DELAY: usize = 3;
 pub(super) const DAMPING: usize = 4;
 pub(super) const SHARE_ON: usize = 5;
 pub(super) const SHARE_OFF: usize = 6;
-/// What the load lags behind the motor after a reversal: backlash, or a drive train that winds up.
+/// Index of the travel by which the load lags behind the motor after a reversal: backlash, or a drive train that winds
+/// up.
 pub(super) const LOST: usize = 7;
 
 /// Standard deviation of each unknown before a circle is evaluated; that of the friction is what
@@ -46,7 +47,7 @@ const NEXT_TO: f64 = 0.99;
 const LEAST_DELAY_S: f64 = 1e-4;
 
 impl Unknowns {
-    /// The unknowns of the first drive.
+    /// Returns the unknowns of the first drive.
     pub(super) fn none() -> Self {
         Self([0.0; UNKNOWNS])
     }
@@ -66,12 +67,12 @@ impl Unknowns {
         }))
     }
 
-    /// Whether an unknown is at the end of its search range, or next to it.
+    /// Returns whether an unknown is at the end of its search range, or next to it.
     pub(super) fn is_at_bound(self, at: usize) -> bool {
         self.0[at].abs() > NEXT_TO * BOUNDS[at]
     }
 
-    /// The list that is on in a circle, with its share.
+    /// Returns the list that is on in a circle, with its share.
     pub(super) fn list(self, circle: &ObservedCircle) -> Option<FrictionList> {
         let scaled = |list: &FrictionList, share: f64| {
             let mut list = list.clone();
@@ -86,7 +87,7 @@ impl Unknowns {
         }
     }
 
-    /// The drive.
+    /// Returns the drive.
     pub(super) fn of(self, first: &DriveParameters) -> DriveParameters {
         let factor = |at: usize| self.0[at].exp();
         let mut drive = first.with_contact(factor(CONTACT));

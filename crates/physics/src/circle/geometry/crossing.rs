@@ -19,23 +19,23 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
     #[non_exhaustive]
     pub enum Crossing {
-        /// At the largest X: the X axis reverses.
+        /// Largest X: the X axis reverses.
         #[serde(rename = "X+")]
         XPlus = "X+",
-        /// At the largest Y.
+        /// Largest Y: the Y axis reverses.
         #[serde(rename = "Y+")]
         YPlus = "Y+",
-        /// At the smallest X.
+        /// Smallest X: the X axis reverses.
         #[serde(rename = "X-")]
         XMinus = "X-",
-        /// At the smallest Y.
+        /// Smallest Y: the Y axis reverses.
         #[serde(rename = "Y-")]
         YMinus = "Y-",
     }
 }
 
 impl PlaneAxis {
-    /// The other axis of the plane.
+    /// Returns the other axis of the plane.
     pub(crate) fn other(self) -> Self {
         match self {
             Self::X => Self::Y,
@@ -45,7 +45,7 @@ impl PlaneAxis {
 }
 
 impl Crossing {
-    /// The angle from X+ counter-clockwise.
+    /// Returns the angle from X+ counter-clockwise.
     pub fn angle_deg(self) -> u16 {
         match self {
             Self::XPlus => 0,
@@ -55,7 +55,7 @@ impl Crossing {
         }
     }
 
-    /// The axis that reverses.
+    /// Returns the axis that reverses.
     pub fn axis(self) -> PlaneAxis {
         match self {
             Self::XPlus | Self::XMinus => PlaneAxis::X,

@@ -16,7 +16,7 @@ frictcomp::words! {
 }
 
 impl Direction {
-    /// 1 for counter-clockwise, -1 for clockwise.
+    /// Returns 1 for counter-clockwise, -1 for clockwise.
     pub fn sign(self) -> f64 {
         match self {
             Self::Ccw => 1.0,

@@ -18,13 +18,13 @@ const LEAST_MM: f64 = 0.0005;
 pub(crate) struct CircleDrift {
     /// The shift in mm per turn.
     pub(crate) per_turn_mm: [f64; 2],
-    /// Its standard error.
+    /// Standard error.
     pub(crate) error_mm: [f64; 2],
 }
 
 impl CircleDrift {
-    /// The shift shown by differences between two turns, each with the effects of a constant and of a shift
-    /// of either axis; `None` if they do not show one.
+    /// Returns the shift shown by differences between two turns, each with the effects of a constant and of a shift of
+    /// either axis; `None` if they do not show one.
     pub(crate) fn shown(differences: &[([f64; 3], f64)]) -> Option<Self> {
         Self::fit(differences).filter(Self::is_carried)
     }

@@ -94,8 +94,8 @@ pub(crate) struct Gap {
 }
 
 impl Gatherer {
-    /// For a path around the origin, deviations against `radius` in m. A gap of more than `widest`
-    /// degrees between two points is not bridged.
+    /// Creates the profile of a path around the origin, with deviations against `radius` in m. A gap of more than
+    /// `widest` degrees between two points is not bridged.
     pub(crate) fn new(radius: f64, widest: f64) -> Self {
         Self {
             radius,
@@ -226,7 +226,7 @@ impl Gatherer {
     }
 }
 
-/// The number of the fixed angle that is a number of fixed angles after a crossing.
+/// Returns the number of the fixed angle that is a number of fixed angles after a crossing.
 fn sector(crossing: Crossing, direction: Direction, way: i32) -> usize {
     let turn = 360 * PER_DEGREE;
     let way = match direction {
@@ -237,7 +237,7 @@ fn sector(crossing: Crossing, direction: Direction, way: i32) -> usize {
     usize::try_from(at.rem_euclid(turn)).expect("it is not negative")
 }
 
-/// The sector of an angle in sectors.
+/// Returns the sector of an angle in sectors.
 fn index(angle: f64) -> usize {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 0 to 36000
     let index = angle as usize;
@@ -254,23 +254,22 @@ impl fmt::Debug for RadialProfile {
 }
 
 impl RadialProfile {
-    /// The radius from which the deviations are counted.
+    /// Returns the radius from which the deviations are counted.
     pub fn radius_m(&self) -> f64 {
         self.radius
     }
 
-    /// The deviation at each of the [`ANGLES`] fixed angles, from X+ counter-clockwise; positive is
-    /// outwards.
+    /// Returns the deviation at each of the [`ANGLES`] fixed angles, from X+ counter-clockwise; positive is outwards.
     pub fn deviations_m(&self) -> &[f64] {
         &self.fixed
     }
 
-    /// The outermost point of each sector that has one.
+    /// Returns the outermost point of each sector that has one.
     pub(crate) fn outer(&self) -> impl Iterator<Item = &ProfilePoint> {
         self.outer.iter().flatten()
     }
 
-    /// The innermost point of each sector that has one.
+    /// Returns the innermost point of each sector that has one.
     pub(crate) fn inner(&self) -> impl Iterator<Item = &ProfilePoint> {
         self.inner.iter().flatten()
     }
@@ -296,7 +295,7 @@ impl RadialProfile {
         }
     }
 
-    /// The quality of recorded points.
+    /// Returns the quality of recorded points.
     pub(crate) fn quality(&self) -> Option<Quality> {
         self.quality
     }
@@ -311,8 +310,8 @@ impl RadialProfile {
         self.turn_s
     }
 
-    /// The path at the fixed angles around a crossing, each with its number from there in the
-    /// direction of travel.
+    /// Returns the path at the fixed angles around a crossing, each with its number from there in the direction of
+    /// travel.
     pub(crate) fn fixed(
         &self,
         crossing: Crossing,
@@ -325,7 +324,7 @@ impl RadialProfile {
         })
     }
 
-    /// The path around a crossing with the outermost and the innermost point between each two fixed angles.
+    /// Returns the path around a crossing with the outermost and the innermost point between each two fixed angles.
     pub(crate) fn every(
         &self,
         crossing: Crossing,
@@ -352,7 +351,7 @@ impl RadialProfile {
         })
     }
 
-    /// The path at the fixed angle with a number.
+    /// Returns the path at the fixed angle with a number.
     fn at_fixed(&self, number: usize) -> ProfilePoint {
         #[allow(clippy::cast_precision_loss)] // 36000
         let (sin, cos) = (number as f64 / ANGLES as f64 * TAU).sin_cos();
@@ -383,8 +382,8 @@ impl RadialProfile {
         seen.map_or_else(|_| self.clone(), |seen| seen.at(centre))
     }
 
-    /// The angle in radians and the deviation in m at `count` angles evenly over the turn, each
-    /// with the largest deviation from zero of its part of the turn kept: for pictures.
+    /// Returns the angle in radians and the deviation in m at `count` angles evenly over the turn, each with the
+    /// largest deviation from zero of its part of the turn kept: for pictures.
     pub fn outline(&self, count: usize) -> Vec<(f64, f64)> {
         let count = count.clamp(1, ANGLES);
         let part = ANGLES.div_ceil(count);

@@ -2,7 +2,7 @@
 
 use super::profile::{Quality, UM_PER_M};
 
-/// Noise of single samples from their third differences, and the smallest step of the coordinates, for
+/// Returns the noise of single samples from their third differences, and the smallest step of the coordinates, for
 /// points in mm around a centre.
 pub(crate) fn quality(points: &[[f64; 2]], centre: [f64; 2]) -> Quality {
     /// Factor from the median of deviations to a standard deviation.

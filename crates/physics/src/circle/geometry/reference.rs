@@ -128,7 +128,7 @@ pub enum CircleError {
 }
 
 impl CircleError {
-    /// Advice for the user.
+    /// Returns advice for the user.
     pub fn help(&self) -> &'static str {
         match self {
             Self::Radius(_) => "give the radius in mm, such as 100",
@@ -200,8 +200,8 @@ impl Circle {
         Ok(())
     }
 
-    /// The feed in mm/min up to which a circle of this radius has glitches: above it the windows
-    /// reach the next crossings (R5.22).
+    /// Returns the feed in mm/min up to which a circle of this radius has glitches: above it the windows reach the next
+    /// crossings (R5.22).
     pub fn fastest_feed_for_glitches(radius_mm: f64) -> f64 {
         fastest_feed(radius_mm)
     }
@@ -223,12 +223,12 @@ impl Circle {
         self.radius_mm / 1000.0
     }
 
-    /// Angular velocity in rad/s.
+    /// Returns the angular velocity in rad/s.
     pub(crate) fn angular_velocity(&self) -> f64 {
         self.feed_mm_per_min / 60.0 / self.radius_mm
     }
 
-    /// CNC cycles of a stretch, one more than its duration.
+    /// Returns the number of CNC cycles of a stretch, one more than its duration.
     pub(crate) fn cycles(&self, length: f64) -> usize {
         let cycles = (length / (self.angular_velocity() * self.cycle_time_s)).ceil();
         let most = MAX_STEPS / 4.0;
@@ -237,12 +237,12 @@ impl Circle {
         cycles + 1
     }
 
-    /// A simulation step as a part of a CNC cycle.
+    /// Returns a simulation step as a part of a CNC cycle.
     pub(crate) fn step_in_cycle(&self) -> f64 {
         STEP_S / self.cycle_time_s
     }
 
-    /// The centripetal acceleration v²/R in mm/s²: at a crossing that of the axis that reverses.
+    /// Returns the centripetal acceleration v²/R in mm/s²: at a crossing that of the axis that reverses.
     pub fn acceleration_mm_per_s2(&self) -> f64 {
         (self.feed_mm_per_min / 60.0).powi(2) / self.radius_mm
     }
@@ -256,7 +256,7 @@ impl Circle {
         }
     }
 
-    /// Position in m and velocity in m/s of both axes at CNC cycle `k` of a stretch.
+    /// Returns the position in m and the velocity in m/s of both axes at CNC cycle `k` of a stretch.
     pub(crate) fn at(&self, stretch: CircleArc, k: usize) -> [(f64, f64); 2] {
         #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
         let time = k as f64 * self.cycle_time_s;
@@ -267,7 +267,7 @@ impl Circle {
         [(radius * cos, -speed * sin), (radius * sin, speed * cos)]
     }
 
-    /// Simulation steps of a whole run.
+    /// Returns the number of simulation steps of a whole run.
     pub fn steps(&self) -> f64 {
         TURNS * TAU / self.angular_velocity() / STEP_S
     }

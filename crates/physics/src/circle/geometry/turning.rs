@@ -8,7 +8,7 @@ pub(crate) struct CosineSine {
 }
 
 impl CosineSine {
-    /// Of an angle in radians.
+    /// Returns the sine and the cosine of an angle in radians.
     pub(crate) fn of(angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         Self { cos, sin }

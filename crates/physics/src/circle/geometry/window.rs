@@ -7,16 +7,16 @@ use super::profile::PER_DEGREE;
 /// Degrees before a crossing at which the window begins.
 const BEFORE_DEG: i32 = 8;
 
-/// After a crossing the window is at least this wide, in degrees.
+/// Least width of the window after a crossing, in degrees.
 const LEAST_DEG: f64 = 8.0;
 
-/// After a crossing the window lasts at least this long: by then the loops of a drive have settled.
+/// Least duration of the window after a crossing: by then the loops of a drive have settled.
 const SETTLING_S: f64 = 0.3;
 
 /// The sides of a window reach at least this far from the crossing, in degrees.
 const SIDE_DEG: i32 = 20;
 
-/// From one crossing to the next, in degrees.
+/// Angle from one crossing to the next, in degrees.
 const QUARTER_DEG: i32 = 90;
 
 /// The fastest angular velocity in degrees per second at which twice the window ends before the next
@@ -30,8 +30,8 @@ pub(crate) struct CrossingWindow {
 }
 
 impl CrossingWindow {
-    /// The window of a path with a number of seconds per turn; ±8° if that is not known. `None`
-    /// if it would reach the next crossing.
+    /// Returns the window of a path with a number of seconds per turn; ±8° if that is not known. `None` if it would
+    /// reach the next crossing.
     pub(crate) fn of(turn_s: Option<f64>) -> Option<Self> {
         let turning = turn_s.map_or(0.0, |turn_s| 360.0 / turn_s);
         if turning > FASTEST_DEG_PER_S * (1.0 + 1e-9) {
@@ -48,12 +48,12 @@ impl CrossingWindow {
         -BEFORE_DEG * PER_DEGREE..=self.after
     }
 
-    /// The side before the window.
+    /// Returns the side before the window.
     pub(crate) fn before() -> RangeInclusive<i32> {
         -SIDE_DEG * PER_DEGREE..=-BEFORE_DEG * PER_DEGREE
     }
 
-    /// The side after the window.
+    /// Returns the side after the window.
     pub(crate) fn after(self) -> RangeInclusive<i32> {
         self.after..=(2 * self.after).max(SIDE_DEG * PER_DEGREE)
     }
@@ -65,7 +65,7 @@ impl CrossingWindow {
         self.after.max(half)..=(QUARTER_DEG - BEFORE_DEG) * PER_DEGREE
     }
 
-    /// The range half-way from a crossing to where nothing is left of a peak: a peak that has not decayed
+    /// Returns the range half-way from a crossing to where nothing is left of a peak: a peak that has not decayed
     /// leaves something there.
     pub(crate) fn decaying(self) -> RangeInclusive<i32> {
         let half = self.quiet().start() / 2;
@@ -78,7 +78,7 @@ impl CrossingWindow {
     }
 }
 
-/// The highest feed in mm/min at which a circle of this radius in mm has figures at its crossings.
+/// Returns the highest feed in mm/min at which a circle of this radius in mm has figures at its crossings.
 pub(crate) fn fastest_feed(radius_mm: f64) -> f64 {
     FASTEST_DEG_PER_S.to_radians() * radius_mm * 60.0
 }

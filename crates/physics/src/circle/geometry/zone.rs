@@ -20,10 +20,10 @@ pub(crate) struct Zone {
     pub(crate) width: f64,
 }
 
-/// The least-squares circle of the deviations at the fixed angles: its centre, and its radius as a
-/// deviation from the radius of the profile, all in m. As the centre is moved by micrometres in a
-/// circle of millimetres, r = R + a·cos φ + b·sin φ is exact to far below a nanometre, and over
-/// whole turns of even angles the sums are the Fourier coefficients.
+/// Returns the least-squares circle of the deviations at the fixed angles: its centre, and its radius as a deviation
+/// from the radius of the profile, all in m. As the centre is moved by micrometres in a circle of millimetres, r = R +
+/// a·cos φ + b·sin φ is exact to far below a nanometre, and over whole turns of even angles the sums are the Fourier
+/// coefficients.
 pub(crate) fn least_squares(profile: &RadialProfile) -> ([f64; 2], f64) {
     #[allow(clippy::cast_precision_loss)] // 36000
     let count = profile.deviations_m().len() as f64;
@@ -38,14 +38,14 @@ pub(crate) fn least_squares(profile: &RadialProfile) -> ([f64; 2], f64) {
     ([2.0 * a / count, 2.0 * b / count], mean / count)
 }
 
-/// The width in m of the zone about a centre that holds every point of the profiles.
+/// Returns the width in m of the zone about a centre that holds every point of the profiles.
 pub(crate) fn zone_about(profiles: &[&RadialProfile], centre: [f64; 2]) -> f64 {
     let [outer, inner] = extremes(profiles, centre);
     outer.map_or(0.0, |it| it.1) - inner.map_or(0.0, |it| it.1)
 }
 
-/// The minimum zone of the profiles: two concentric circles as close as possible that hold every
-/// point between them. All profiles have the same radius.
+/// Returns the minimum zone of the profiles: two concentric circles as close as possible that hold every point between
+/// them. All profiles have the same radius.
 ///
 /// The width is a convex function of the centre (to the square of the shift over the radius). The
 /// search is an exchange: the best centre for a few points, then the two points that stick out
@@ -85,7 +85,7 @@ pub(crate) fn minimum_zone(profiles: &[&RadialProfile]) -> Zone {
     best
 }
 
-/// The points that stick out farthest and least as seen from a centre, with their deviations.
+/// Returns the points that stick out farthest and least as seen from a centre, with their deviations.
 fn extremes(profiles: &[&RadialProfile], centre: [f64; 2]) -> [Option<(ProfilePoint, f64)>; 2] {
     let mut found = [None::<(ProfilePoint, f64)>; 2];
     for profile in profiles {
@@ -105,7 +105,7 @@ fn extremes(profiles: &[&RadialProfile], centre: [f64; 2]) -> [Option<(ProfilePo
     found
 }
 
-/// The radial deviation of a point as seen from another centre.
+/// Returns the radial deviation of a point as seen from another centre.
 fn seen_from(centre: [f64; 2], radius: f64, point: ProfilePoint) -> f64 {
     let along = centre[0] * point.cos + centre[1] * point.sin;
     let across = centre[1] * point.cos - centre[0] * point.sin;
@@ -129,7 +129,7 @@ impl Few {
         outer - inner
     }
 
-    /// The best centre for these points not farther than `reach` from the origin in x and y.
+    /// Returns the best centre for these points not farther than `reach` from the origin in x and y.
     fn search(&self, reach: f64) -> [f64; 2] {
         let row = |x: f64| golden(reach, |y| self.width([x, y]));
         let x = golden(reach, |x| row(x).1).0;
@@ -137,7 +137,7 @@ impl Few {
     }
 }
 
-/// The place of the least value of a convex function between -reach and reach, and that value.
+/// Returns the place of the least value of a convex function between -reach and reach, and that value.
 fn golden(reach: f64, function: impl Fn(f64) -> f64) -> (f64, f64) {
     const PART: f64 = 0.618_033_988_749_894_9;
     let (mut low, mut high) = (-reach, reach);

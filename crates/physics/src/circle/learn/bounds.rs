@@ -79,7 +79,7 @@ impl Steps {
         }
     }
 
-    /// The list of a point of the search, within all bounds.
+    /// Returns the list of a point of the search, within all bounds.
     pub(super) fn list(&self, point: &[f64]) -> FrictionList {
         let parts = self.parts(point);
         let output = |at: usize| {
@@ -104,7 +104,7 @@ impl Steps {
         self.candidate(point).with_table(&list, self.points)
     }
 
-    /// The outputs up to 1 mm/s as parts of the friction above it, each at most a step from the best and
+    /// Returns the outputs up to 1 mm/s as parts of the friction above it, each at most a step from the best and
     /// together without kinks (R5.29).
     fn parts(&self, point: &[f64]) -> [f64; FREE] {
         let most = OUTPUT * self.share;
@@ -153,7 +153,7 @@ impl Steps {
             .sum()
     }
 
-    /// The mean square of a step, as a part of the largest.
+    /// Returns the mean square of a step, as a part of the largest.
     pub(super) fn length(point: &[f64]) -> f64 {
         let squares: f64 = point.iter().map(|it| it.clamp(-1.0, 1.0).powi(2)).sum();
         #[allow(clippy::cast_precision_loss)] // 15
@@ -162,8 +162,8 @@ impl Steps {
     }
 }
 
-/// The factors of a point of the search, within their bounds and without kinks: repeatedly, three
-/// neighbours that bend too much share the excess. The following points of the curve are not free.
+/// Returns the factors of a point of the search, within their bounds and without kinks: repeatedly, three neighbours
+/// that bend too much share the excess. The following points of the curve are not free.
 fn smoothed(point: &[f64]) -> [f64; FREE] {
     const ROUNDS: usize = 200;
     // Rounded outputs bend a little more.

@@ -1,4 +1,4 @@
-//! From the rounds of an axis to the list of the next one.
+//! Step from the rounds of an axis to the list of the next one.
 
 use super::bounds::{Steps, VARIABLES};
 use super::progress::LearningProgress;
@@ -40,7 +40,7 @@ const CHANGE: f64 = 0.1;
 pub struct Learner {
     /// The axis.
     pub axis: PlaneAxis,
-    /// Its drive in the reference plant.
+    /// Drive in the reference plant.
     pub drive: DriveParameters,
     /// Friction model.
     pub model: FrictionModel,
@@ -86,7 +86,7 @@ struct Between {
 }
 
 impl Between {
-    /// The circles between those of a round, which are sorted with the slowest first.
+    /// Returns the circles between those of a round, which are sorted with the slowest first.
     fn all(
         circles: &[LearnedCircle],
         recorded: &[Vec<Waveform>],
@@ -126,7 +126,7 @@ impl Learner {
         contacts * rounds + MOST * POINTS
     }
 
-    /// The next list after rounds; `None` if there are no rounds.
+    /// Returns the next list after rounds; `None` if there are no rounds.
     ///
     /// # Errors
     /// A circle that cannot be simulated.
@@ -165,7 +165,7 @@ impl Learner {
         }))
     }
 
-    /// The stiffness of the contact with which the plant is closest to all recordings, as a multiple.
+    /// Returns the stiffness of the contact with which the plant is closest to all recordings, as a multiple.
     fn fitted_contact(
         &self,
         rounds: &[LearnedRound],
@@ -188,7 +188,7 @@ impl Learner {
         Ok(best.map_or(1.0, |(factor, _)| *factor))
     }
 
-    /// The simulated deviation with the list of a round on each of its circles.
+    /// Returns the simulated deviation with the list of a round on each of its circles.
     fn all_simulated(
         &self,
         drive: &DriveParameters,
@@ -200,7 +200,7 @@ impl Learner {
             .collect()
     }
 
-    /// The simulated deviation at a reversal, less the straight line through its ends.
+    /// Returns the simulated deviation at a reversal, less the straight line through its ends.
     fn simulated(
         &self,
         drive: &DriveParameters,
@@ -218,7 +218,7 @@ impl Learner {
         Ok(Waveform::sampled(&deviations).levelled())
     }
 
-    /// The point of the search whose list is predicted to leave least, with the largest predicted glitch in µm.
+    /// Returns the point of the search whose list is predicted to leave least, with the largest predicted glitch in µm.
     fn search(
         &self,
         steps: &Steps,
@@ -266,7 +266,7 @@ impl Learner {
         Ok(found.unwrap_or_else(|| (vec![0.0; VARIABLES], f64::INFINITY)))
     }
 
-    /// The predicted heights with a list at each reversal of each circle: the recorded ones with the best list,
+    /// Returns the predicted heights with a list at each reversal of each circle: the recorded ones with the best list,
     /// plus the difference of the plant between both lists. Those between the recorded feeds follow.
     fn predicted(
         &self,
@@ -292,7 +292,7 @@ impl Learner {
     }
 }
 
-/// The mean square in µm² by which a simulated deviation misses the recorded ones.
+/// Returns the mean square in µm² by which a simulated deviation misses the recorded ones.
 fn misfit(circle: &LearnedCircle, simulated: &Waveform) -> f64 {
     let recorded = circle.recorded.mean();
     let missed = recorded.iter().map(|recorded| {

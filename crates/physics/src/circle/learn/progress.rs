@@ -20,7 +20,7 @@ pub struct RoundVerdict {
     /// The spread of both recordings.
     #[serde(rename = "spread")]
     pub spread_um: f64,
-    /// Whether it is better than the best before by more than the spread; the first one always is.
+    /// Whether the round is better than the best before by more than the spread; the first one always is.
     pub is_accepted: bool,
 }
 
@@ -69,7 +69,7 @@ impl LearningProgress {
         progress
     }
 
-    /// Whether two rounds in succession brought no gain.
+    /// Returns whether two rounds in succession brought no gain.
     pub fn is_over(&self) -> bool {
         self.idle >= IDLE
     }

@@ -24,7 +24,7 @@ pub struct LearnedCircle {
 pub struct RecordedTwice {
     /// The directions.
     directions: Vec<Direction>,
-    /// For each direction the reversal at the largest and that at the smallest position, each the mean of its turns.
+    /// Reversals at the largest and at the smallest position for each direction, each the mean of its turns.
     reversals: [Vec<Waveform>; 2],
     /// The standard deviation in µm of the noise of such a mean, which is one over 8 ms, too.
     noise_um: f64,
@@ -62,7 +62,7 @@ impl TooMuchCurrent {
     /// # Errors
     /// The list adds more than `most` times the friction, or acts with it.
     pub fn check(list: &FrictionList, friction: &FrictionList, most: f64) -> Result<(), Self> {
-        /// A whole number is off by half a unit, and so is the friction.
+        /// Tolerance for rounding, in units: a whole number is off by half a unit, and so is the friction.
         const ROUNDED: f64 = 1.0;
         let inputs = list.table.iter().chain(&friction.table).map(|it| it.input);
         let parts = inputs.filter_map(|input| {
@@ -82,13 +82,13 @@ impl TooMuchCurrent {
     }
 }
 
-/// The output of a list at a velocity in µm/s, scaled.
+/// Returns the output of a list at a velocity in µm/s, scaled.
 pub(super) fn output_at(list: &FrictionList, input: f64) -> f64 {
     AdditiveCurrent::new(list, Reading::default()).steady(input)
 }
 
 impl RecordedTwice {
-    /// The reversals of an axis in two recordings, each of them a circle in one direction or in each; `None` if
+    /// Returns the reversals of an axis in two recordings, each of them a circle in one direction or in each; `None` if
     /// a circle has no glitches.
     pub fn of(axis: PlaneAxis, recordings: [&[&RecordedCircle]; 2]) -> Option<Self> {
         let [first, second] = recordings.map(|circles| reversals(axis, circles));
@@ -100,12 +100,12 @@ impl RecordedTwice {
         })
     }
 
-    /// The direction of travel of each reversal.
+    /// Returns the direction of travel of each reversal.
     pub fn directions(&self) -> impl Iterator<Item = Direction> + '_ {
         self.directions.iter().flat_map(|it| [*it; 2])
     }
 
-    /// The height of each reversal in µm without its noise, with its standard error, in each recording: in each
+    /// Returns the height of each reversal in µm without its noise, with its standard error, in each recording: in each
     /// direction at the largest position and at the smallest.
     pub fn heights_um(&self) -> [Vec<(f64, f64)>; 2] {
         self.reversals.each_ref().map(|recording| {
@@ -114,7 +114,7 @@ impl RecordedTwice {
         })
     }
 
-    /// The mean of both recordings at each reversal.
+    /// Returns the mean of both recordings at each reversal.
     pub(super) fn mean(&self) -> Vec<Waveform> {
         let [first, second] = &self.reversals;
         let pairs = first.iter().zip(second);
@@ -124,7 +124,7 @@ impl RecordedTwice {
     }
 }
 
-/// The mean over all turns at both reversals of an axis in each direction, and the noise of such a mean in µm.
+/// Returns the mean over all turns at both reversals of an axis in each direction, and the noise of such a mean in µm.
 fn reversals(axis: PlaneAxis, circles: &[&RecordedCircle]) -> Option<(Vec<Waveform>, f64)> {
     let mut found = Vec::new();
     let mut noise_um = 0.0_f64;
@@ -143,7 +143,7 @@ fn reversals(axis: PlaneAxis, circles: &[&RecordedCircle]) -> Option<(Vec<Wavefo
 }
 
 impl LearnedCircle {
-    /// The largest height of all reversals in µm without noise, of the mean of both recordings.
+    /// Returns the largest height of all reversals in µm without noise, of the mean of both recordings.
     pub fn height_um(&self) -> f64 {
         let noise_um = self.recorded.noise_um / std::f64::consts::SQRT_2;
         let mean = self.recorded.mean().into_iter();
@@ -153,7 +153,7 @@ impl LearnedCircle {
 }
 
 impl LearnedRound {
-    /// The largest glitch in µm over the circles.
+    /// Returns the largest glitch in µm over the circles.
     pub fn worst_um(&self) -> f64 {
         self.circles
             .iter()
@@ -161,7 +161,7 @@ impl LearnedRound {
             .fold(0.0, f64::max)
     }
 
-    /// The spread in µm: the root mean square by which both recordings differ at a reversal.
+    /// Returns the spread in µm: the root mean square by which both recordings differ at a reversal.
     pub fn spread_um(&self) -> f64 {
         let mut squares = 0.0;
         let mut count = 0.0;

@@ -28,7 +28,7 @@ pub struct RecordedCircle {
     pub direction: Direction,
     /// The centre of the least-squares circle.
     pub centre_mm: [f64; 2],
-    /// Its radius.
+    /// Radius.
     pub radius_mm: f64,
     /// Number of points of the evaluated turn.
     pub points: usize,
@@ -59,8 +59,8 @@ pub struct LeftOut {
 }
 
 impl RecordedCircle {
-    /// The circles of a recording, one for each direction in which it has a full turn. If there is
-    /// more than a turn, the one next to the middle is evaluated; what begins or ends at rest is left out.
+    /// Returns the circles of a recording, one for each direction in which it has a full turn. If there is more than a
+    /// turn, the one next to the middle is evaluated; what begins or ends at rest is left out.
     ///
     /// F and D are against the commanded radius `commanded_mm`; G, H and the glitches do not
     /// depend on it.
@@ -98,7 +98,7 @@ impl RecordedCircle {
         Ok(found)
     }
 
-    /// The circle of a run from one turn on it.
+    /// Returns the circle of a run from one turn on it.
     fn of(
         trace: &RecordedTrace,
         run: &PathRun,
@@ -202,7 +202,7 @@ impl RecordedCircle {
         Ok(self)
     }
 
-    /// The feed in mm/min, if the times are known.
+    /// Returns the feed in mm/min, if the times are known.
     pub fn feed_mm_per_min(&self) -> Option<f64> {
         Some(TAU * self.radius_mm / self.turn_s? * 60.0)
     }
@@ -217,7 +217,7 @@ fn centred(mut points: Vec<[f64; 2]>) -> Result<Vec<[f64; 2]>, RecordedError> {
     Ok(points)
 }
 
-/// Why no direction has a full turn.
+/// Returns the reason why no direction has a full turn.
 fn refusal(fit: &FittedCircle, points: &[[f64; 2]], runs: &[PathRun]) -> RecordedError {
     let longest = runs
         .iter()
@@ -227,7 +227,7 @@ fn refusal(fit: &FittedCircle, points: &[[f64; 2]], runs: &[PathRun]) -> Recorde
     {
         return RecordedError::Gaps(run.missing_deg());
     }
-    // All around, but not on the circle: an ellipse, a square.
+    // Points all around, but not on the circle: an ellipse, a square.
     if fit.goes_round(points)
         && let Ok(all) = FittedCircle::of(points)
         && let Some(refusal) = all.not_round(points)

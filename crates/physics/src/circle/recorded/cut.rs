@@ -28,7 +28,7 @@ const AS_GOOD: f64 = 1.05;
 /// The least angle from the first whole turn to the last one.
 const ROOM: f64 = TAU / 8.0;
 
-/// From one crossing to the next, and from a crossing to the place between two, in radians.
+/// Angle from one crossing to the next, and from a crossing to the place between two, in radians.
 const QUARTER: f64 = TAU / 4.0;
 const BETWEEN: f64 = TAU / 8.0;
 
@@ -39,7 +39,7 @@ const ROUND_MM: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(super) struct PathRun {
     pub(super) direction: Direction,
-    /// Its points.
+    /// Points.
     pub(super) points: Range<usize>,
     /// The angle since its first point in the direction of travel, in radians.
     angles: Vec<f64>,
@@ -49,7 +49,7 @@ pub(super) struct PathRun {
     begin: f64,
 }
 
-/// Everything on the circle that does not leave it and does not turn round, in the order of time.
+/// Returns the runs on the circle, in the order of time: the parts that do not leave it and do not turn round.
 pub(super) fn runs(fit: &FittedCircle, trace: &RecordedTrace) -> Vec<PathRun> {
     let points = &trace.points_mm;
     let mut runs = Vec::new();
@@ -122,7 +122,7 @@ fn split(fit: &FittedCircle, points: &[[f64; 2]], stretch: Range<usize>, runs: &
     push(way, from, angles.len() - 1);
 }
 
-/// The angle of each point since the first, turns counted, in radians.
+/// Returns the angle of each point since the first, turns counted, in radians.
 fn unwrapped(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<f64> {
     let mut turned = 0.0;
     let mut last = None;
@@ -138,24 +138,24 @@ fn unwrapped(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<f64> {
 }
 
 impl PathRun {
-    /// The angle that the run covers, in radians.
+    /// Returns the angle that the run covers, in radians.
     pub(super) fn covered(&self) -> f64 {
         self.angles.last().copied().unwrap_or_default()
     }
 
-    /// The angles of some of the points, in radians.
+    /// Returns the angles of some of the points, in radians.
     pub(super) fn angles_of(&self, points: &Range<usize>) -> &[f64] {
         &self.angles[points.start - self.points.start..points.end - self.points.start]
     }
 
-    /// The angle from one point to another, in radians.
+    /// Returns the angle from one point to another, in radians.
     pub(super) fn between(&self, turn: &Range<usize>) -> f64 {
         let at = |point: usize| self.angles[point - self.points.start];
         at(turn.end - 1) - at(turn.start)
     }
 
-    /// The angles between the ends on which the machine speeds up or slows down; the whole run if no turn would be
-    /// left.
+    /// Returns the angles between the ends on which the machine speeds up or slows down; the whole run if no turn would
+    /// be left.
     fn steady(&self) -> [f64; 2] {
         let [from, to] = [self.run_in[0], self.covered() - self.run_in[1]];
         if to - from < TAU - self.lacking() {
@@ -188,8 +188,8 @@ impl PathRun {
         self.points.start + begin.min(own.start)..self.points.start + end.max(own.end)
     }
 
-    /// The points of one full turn: of all turns at constant feed that deviate least from the circle the one next
-    /// to the middle of the run. `None` if there is no full turn without a gap.
+    /// Returns the points of one full turn: of all turns at constant feed that deviate least from the circle the one
+    /// next to the middle of the run. `None` if there is no full turn without a gap.
     pub(super) fn turn(&self, fit: &FittedCircle, points: &[[f64; 2]]) -> Option<Range<usize>> {
         let costs = costs(fit, &points[self.points.clone()]);
         let cost = |turn: &Range<usize>| costs[turn.end - 1] - costs[turn.start];
@@ -218,7 +218,7 @@ impl PathRun {
         Some(self.points.start + turn.start..self.points.start + turn.end)
     }
 
-    /// The whole turns without a gap between the ends of the run, evenly spread; the next one may begin before
+    /// Returns the whole turns without a gap between the ends of the run, evenly spread; the next one may begin before
     /// one ends. Each begins between two crossings, where there is room for that.
     pub(super) fn turns(&self) -> Vec<Range<usize>> {
         let [before, after] = self.run_in.map(|it| it.max(LEAST));
@@ -240,7 +240,7 @@ impl PathRun {
         turns
     }
 
-    /// Every full turn without a gap, as points of the run.
+    /// Passes on every full turn without a gap, as points of the run.
     fn each_turn(&self, mut take: impl FnMut(Range<usize>)) {
         let angles = &self.angles;
         let mut holes = self.holes().into_iter().peekable();
@@ -265,15 +265,15 @@ impl PathRun {
         LACKING.max(self.step())
     }
 
-    /// The largest angle from the last point of a turn to its first one: that of a few points.
+    /// Returns the largest angle from the last point of a turn to its first one: that of a few points.
     fn step(&self) -> f64 {
         #[allow(clippy::cast_precision_loss)] // points of a file
         let mean = self.covered() / (self.angles.len() - 1).max(1) as f64;
         FEW * mean
     }
 
-    /// The points followed by too wide a gap: at a crossing, a degree or a few points are too wide, for a peak is
-    /// narrow there (R5.22).
+    /// Returns the points followed by too wide a gap: at a crossing, a degree or a few points are too wide, for a peak
+    /// is narrow there (R5.22).
     fn holes(&self) -> Vec<usize> {
         let at_crossing = LACKING.max(FEW * self.usual_step());
         let from_x = self.begin * self.direction.sign();
@@ -287,7 +287,7 @@ impl PathRun {
         holes.map(|(at, _)| at).collect()
     }
 
-    /// The median angle from one point to the next.
+    /// Returns the median angle from one point to the next.
     fn usual_step(&self) -> f64 {
         let pairs = self.angles.windows(2);
         let mut steps: Vec<f64> = pairs.map(|pair| (pair[1] - pair[0]).abs()).collect();
@@ -305,21 +305,21 @@ impl PathRun {
         ways.sum::<f64>().to_degrees()
     }
 
-    /// Whether there is a full turn, even with gaps.
+    /// Returns whether there is a full turn, even with gaps.
     pub(super) fn is_full(&self) -> bool {
         self.covered() >= TAU - self.lacking()
     }
 }
 
-/// Whether the peak of a crossing is between two angles from X+ in the direction of travel.
+/// Returns whether the peak of a crossing is between two angles from X+ in the direction of travel.
 fn is_at_crossing(from: f64, to: f64) -> bool {
     let [before, after] = PEAK;
     let next = ((from - after) / QUARTER).floor() + 1.0;
     next * QUARTER - before < to
 }
 
-/// The angles at which whole turns begin, from the first to the last that is possible: evenly spread, and between
-/// two crossings if there is room. `begin` is the angle from X+ to the beginning in the direction of travel.
+/// Returns the angles at which whole turns begin, from the first to the last that is possible: evenly spread, and
+/// between two crossings if there is room. `begin` is the angle from X+ to the beginning in the direction of travel.
 fn begins(from: f64, to: f64, begin: f64) -> Vec<f64> {
     let between =
         |angle: f64| ((angle + begin - BETWEEN) / QUARTER).ceil() * QUARTER + BETWEEN - begin;
@@ -337,8 +337,8 @@ fn begins(from: f64, to: f64, begin: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The fourth powers of the deviations along the path up to each point: a part off the circle costs by its length,
-/// however many points it has, and costs more than glitches do.
+/// Returns the fourth powers of the deviations along the path up to each point: a part off the circle costs by its
+/// length, however many points it has, and costs more than glitches do.
 fn costs(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut last: Option<([f64; 2], f64)> = None;

@@ -33,9 +33,8 @@ impl TurnPart {
     }
 }
 
-/// The shift between the first and the last turn of a run: what both have in common, such as glitches,
-/// backlash or a periodic error, cancels out. `None` if there are not two turns, or if
-/// they do not show a shift.
+/// Returns the shift between the first and the last turn of a run: what both have in common, such as glitches, backlash
+/// or a periodic error, cancels out. `None` if there are not two turns, or if they do not show a shift.
 pub(super) fn drift(
     (run, steady): (&PathRun, &Range<usize>),
     fit: &FittedCircle,
@@ -49,7 +48,7 @@ pub(super) fn drift(
     if run.covered() < 2.0 * TAU - run.lacking() || covered < LEAST_TURNS * TAU {
         return None;
     }
-    // What two turns at constant feed do not both have is left out.
+    // Only the angles that two turns at constant feed have in common are used.
     let [until, from] = [TAU.min(covered - TAU), TAU.max(covered - TAU)];
     let mut first = vec![TurnPart::default(); usize::from(PARTS)];
     let mut last = first.clone();

@@ -20,8 +20,8 @@ const SETTLING_S: f64 = 0.3;
 /// The angle that is at least left out at an end at rest, in radians.
 pub(super) const LEAST: f64 = 40.0 * TAU / 360.0;
 
-/// The angles left out at the beginning and at the end of a path, in radians, from the angle of each point in the
-/// direction of travel and its time in s; 0 where the path begins or ends in motion. Without times the samples are
+/// Returns the angles left out at the beginning and at the end of a path, in radians, from the angle of each point in
+/// the direction of travel and its time in s; 0 where the path begins or ends in motion. Without times the samples are
 /// taken as equally spaced.
 pub(super) fn run_in(angles: &[f64], times_s: Option<&[f64]>) -> [f64; 2] {
     let Some(path) = TimedPath::of(angles, times_s) else {
@@ -71,7 +71,7 @@ impl TimedPath {
         (step_s.is_finite() && step_s > 0.0).then_some(Self { points, over_s })
     }
 
-    /// The speed from a point on in rad/s, and the point at which its measurement ends.
+    /// Returns the speed from a point on in rad/s, and the point at which its measurement ends.
     fn speed_from(&self, from: usize) -> Option<(f64, usize)> {
         let (begin_s, begin) = self.points[from];
         let until = self.points[from..].partition_point(|it| it.0 < begin_s + self.over_s);
@@ -79,7 +79,7 @@ impl TimedPath {
         (*end_s > begin_s).then(|| ((end - begin) / (end_s - begin_s), from + until))
     }
 
-    /// The median of the speed in the middle half of the path.
+    /// Returns the median of the speed in the middle half of the path.
     fn speed(&self) -> Option<f64> {
         let whole = self.points.last()?.1;
         let from = self.points.partition_point(|it| it.1 < whole / 4.0);
@@ -97,7 +97,7 @@ impl TimedPath {
         (!speeds.is_empty()).then(|| *speeds.select_nth_unstable_by(middle, f64::total_cmp).1)
     }
 
-    /// The angle up to which the speed still rises, with what the loops then take to settle; 0 for a path that
+    /// Returns the angle up to which the speed still rises, with what the loops then take to settle; 0 for a path that
     /// begins in motion.
     fn ramp(&self, speed: f64) -> f64 {
         let Some((first, _)) = self.speed_from(0) else {

@@ -41,7 +41,7 @@ pub enum RecordedError {
          around ({:.3}, {:.3}) mm, more than {MOST_MM} mm", .centre_mm[0], .centre_mm[1]
     )]
     NotRound {
-        /// From the innermost to the outermost point.
+        /// Distance from the innermost to the outermost point.
         deviation_mm: f64,
         /// The radius that was found.
         radius_mm: f64,
@@ -96,7 +96,7 @@ pub enum RecordedError {
 }
 
 impl RecordedError {
-    /// Advice for the user.
+    /// Returns advice for the user.
     pub fn help(&self) -> &'static str {
         match self {
             Self::TooFew(_) | Self::NotATurn { .. } | Self::Gaps(_) => {

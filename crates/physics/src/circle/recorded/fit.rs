@@ -17,7 +17,7 @@ pub(super) struct FittedCircle {
 }
 
 impl FittedCircle {
-    /// The circle through three points; `None` if they are on a line.
+    /// Returns the circle through three points; `None` if they are on a line.
     pub(super) fn through([first, second, third]: [[f64; 2]; 3]) -> Option<Self> {
         let from_first = |point: [f64; 2]| [point[0] - first[0], point[1] - first[1]];
         let square = |way: [f64; 2]| way[0] * way[0] + way[1] * way[1];
@@ -33,8 +33,8 @@ impl FittedCircle {
         })
     }
 
-    /// The least-squares circle: Kåsa's linear fit of x² + y² as the start, then Gauss-Newton
-    /// steps on the distances from the circle.
+    /// Returns the least-squares circle: Kåsa's linear fit of x² + y² as the start, then Gauss-Newton steps on the
+    /// distances from the circle.
     pub(super) fn of(points: &[[f64; 2]]) -> Result<Self, RecordedError> {
         #[allow(clippy::cast_precision_loss)] // rows of a file
         let count = points.len() as f64;
@@ -79,19 +79,19 @@ impl FittedCircle {
         (point[0] - self.centre[0]).hypot(point[1] - self.centre[1]) - self.radius
     }
 
-    /// The angle of a point as seen from the centre, in radians.
+    /// Returns the angle of a point as seen from the centre, in radians.
     pub(super) fn angle(&self, point: [f64; 2]) -> f64 {
         (point[1] - self.centre[1]).atan2(point[0] - self.centre[0])
     }
 
     /// Returns the permitted distance from this circle, in mm.
     pub(super) fn tolerance(&self) -> f64 {
-        /// A small circle must not be an egg.
+        /// Largest tolerance as a part of the radius, which keeps an oval from passing as a small circle.
         const PART: f64 = 0.05;
         MOST_MM.min(PART * self.radius)
     }
 
-    /// Whether points lie in every eighth of the turn.
+    /// Returns whether points lie in every eighth of the turn.
     pub(super) fn goes_round(&self, points: &[[f64; 2]]) -> bool {
         const EIGHTHS: f64 = 8.0;
         let mut seen: u8 = 0;

@@ -8,7 +8,7 @@ use crate::circle::figures::Waveform;
 use crate::circle::geometry::{Crossing, PlaneAxis};
 use crate::circle::geometry::{Gatherer, RadialProfile};
 
-/// Turns differ if their glitches scatter by more than this many standard errors.
+/// Number of standard errors by which the glitches of turns scatter if the turns differ.
 const APART: f64 = 3.0;
 
 /// A glitch is the same in two recordings of one machine within this part …
@@ -23,7 +23,7 @@ const LEAST_UM: f64 = 0.05;
 pub struct MeasuredGlitch {
     /// The glitch without its noise: of the mean of all turns, or the largest where the turns differ.
     pub um: f64,
-    /// Its standard error, which contains the scatter of turns that differ.
+    /// Standard error, which contains the scatter of turns that differ.
     pub error_um: f64,
     /// The median of the turns.
     pub median_um: f64,
@@ -41,8 +41,8 @@ pub struct MeasuredGlitch {
 pub enum GlitchOrder {
     /// The first is larger, by more than three errors.
     Larger,
-    /// It is larger by more than three errors of the noise, but by less than turns of one circle differ; or only than
-    /// the median of turns that differ.
+    /// The first is larger by more than three errors of the noise, but by less than turns of one circle differ; or only
+    /// than the median of turns that differ.
     TurnsDiffer,
     /// Both are alike within three errors.
     Alike,
@@ -69,7 +69,7 @@ impl MeasuredGlitch {
         }
     }
 
-    /// A figure without anything known about its turns.
+    /// Returns a figure without anything known about its turns.
     pub fn of(um: f64, error_um: f64) -> Self {
         Self {
             um,
@@ -81,13 +81,13 @@ impl MeasuredGlitch {
         }
     }
 
-    /// The larger of two figures.
+    /// Returns the larger of two figures.
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         if other.um > self.um { other } else { self }
     }
 
-    /// The figure of a waveform in each turn, less the noise of a sample in µm that is the mean over 8 ms.
+    /// Returns the figure of a waveform in each turn, less the noise of a sample in µm that is the mean over 8 ms.
     fn of_turns(turns: &[Waveform], noise_um: f64) -> Option<Self> {
         let each: Vec<&Waveform> = turns.iter().collect();
         #[allow(clippy::cast_precision_loss)] // a few turns
@@ -119,8 +119,8 @@ impl MeasuredGlitch {
 }
 
 impl RecordedCircle {
-    /// The glitches at X+, Y+, X- and Y-, over all whole turns between the ends at which the machine is not yet, or
-    /// no longer, at its feed; `None` if the path has no glitches or no times.
+    /// Returns the glitches at X+, Y+, X- and Y-, over all whole turns between the ends at which the machine is not
+    /// yet, or no longer, at its feed; `None` if the path has no glitches or no times.
     pub fn glitches(&self) -> Option<[MeasuredGlitch; 4]> {
         let turns = self.reversals()?;
         let noise_um = self.mean_noise_um();
@@ -131,7 +131,7 @@ impl RecordedCircle {
         Some([of(0)?, of(1)?, of(2)?, of(3)?])
     }
 
-    /// The waveforms at the four crossings in each whole turn, or in the evaluated turn if it is the only one.
+    /// Returns the waveforms at the four crossings in each whole turn, or in the evaluated turn if it is the only one.
     pub(crate) fn reversals(&self) -> Option<Vec<[Waveform; 4]>> {
         let profiles = self.turns_m.iter().filter_map(|it| self.profile_of(it));
         let all: Vec<[Waveform; 4]> = profiles
@@ -143,7 +143,7 @@ impl RecordedCircle {
         Some(all)
     }
 
-    /// The reversals of an axis in each whole turn, at its largest and at its smallest position.
+    /// Returns the reversals of an axis in each whole turn, at its largest and at its smallest position.
     pub(crate) fn reversals_of(&self, axis: PlaneAxis) -> Option<Vec<[Waveform; 2]>> {
         let turns = self.reversals()?.into_iter();
         let of_axis = turns.map(|[x_plus, y_plus, x_minus, y_minus]| match axis {
@@ -162,7 +162,7 @@ impl RecordedCircle {
         noise_um / Waveform::samples_of_a_mean(step_s, turn_s).sqrt()
     }
 
-    /// The profile of a turn, points in m about their own centre; `None` if it has gaps.
+    /// Returns the profile of a turn, points in m about their own centre; `None` if it has gaps.
     pub(super) fn profile_of(&self, points: &[[f64; 2]]) -> Option<RadialProfile> {
         let mut gatherer = Gatherer::new(self.radius_mm / 1000.0, WIDEST_GAP_DEG);
         for [x, y] in points {
@@ -171,7 +171,7 @@ impl RecordedCircle {
         gatherer.finish(self.turn_s).ok()
     }
 
-    /// The largest figure of this direction, with its crossing.
+    /// Returns the largest figure of this direction, with its crossing.
     pub fn largest_glitch(&self) -> Option<(Crossing, MeasuredGlitch)> {
         let each = Crossing::ALL.into_iter().zip(self.glitches()?);
         each.max_by(|one, other| one.1.um.total_cmp(&other.1.um))

@@ -29,7 +29,7 @@ pub struct CommandedCircle {
 }
 
 impl Recording {
-    /// Whether a number of recordings of such circles can be evaluated together.
+    /// Checks that a number of recordings of such circles can be evaluated together.
     ///
     /// # Errors
     /// There are more than two, or a radius or feed that no circle has.
@@ -49,8 +49,8 @@ impl Recording {
         }
     }
 
-    /// The figures of one circle, or of one in each direction: G, F and D about the least-squares
-    /// centre of each, G(b) and H about `centre`.
+    /// Returns the figures of one circle, or of one in each direction: G, F and D about the least-squares centre of
+    /// each, G(b) and H about `centre`.
     ///
     /// # Errors
     /// Two circles in the same direction, with centres that are far apart, or at different feeds or another one than

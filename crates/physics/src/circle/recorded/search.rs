@@ -30,7 +30,7 @@ const FLATTEST: f64 = 10.0;
 /// Rounds in which the best circle is fitted to the points on it.
 const ROUNDS: usize = 4;
 
-/// The circle in mm.
+/// Returns the circle in mm.
 pub(super) fn search(points: &[[f64; 2]]) -> Result<FittedCircle, RecordedError> {
     let extent = extent(points);
     let way = steps_of(points, extent / STEPS);
@@ -98,7 +98,7 @@ impl Rank {
     }
 }
 
-/// The longer side of the rectangle that holds all points.
+/// Returns the longer side of the rectangle that holds all points.
 fn extent(points: &[[f64; 2]]) -> f64 {
     let side = |axis: usize| {
         let values = points.iter().map(|point| point[axis]);
@@ -110,7 +110,7 @@ fn extent(points: &[[f64; 2]]) -> f64 {
     side(0).max(side(1))
 }
 
-/// The points at least this far from each other along the path.
+/// Returns the points at least this far from each other along the path.
 fn steps_of(points: &[[f64; 2]], step: f64) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     for &point in points {

@@ -12,7 +12,7 @@ pub struct RecordedTrace {
 }
 
 impl RecordedTrace {
-    /// Positions without times.
+    /// Creates a trace of positions without times.
     pub fn of_points(points_mm: Vec<[f64; 2]>) -> Self {
         Self {
             points_mm,
@@ -20,8 +20,8 @@ impl RecordedTrace {
         }
     }
 
-    /// The rows without those that repeat the one before: from a recorder that is faster than the
-    /// control, or from standstill.
+    /// Returns the rows without those that repeat the one before: from a recorder that is faster than the control, or
+    /// from standstill.
     pub(super) fn without_repeats(&self) -> Self {
         let mut kept = Self::default();
         for (at, &point) in self.points_mm.iter().enumerate() {
@@ -33,13 +33,13 @@ impl RecordedTrace {
         kept
     }
 
-    /// The time from one point to another, if it is known and positive.
+    /// Returns the time from one point to another, if it is known and positive.
     pub(super) fn duration_s(&self, from: usize, to: usize) -> Option<f64> {
         let duration = self.times_s.get(to)? - self.times_s.get(from)?;
         (duration.is_finite() && duration > 0.0).then_some(duration)
     }
 
-    /// The longest time between two of some points, if it is known.
+    /// Returns the longest time between two of some points, if it is known.
     pub(super) fn widest_step_s(&self, points: &Range<usize>) -> Option<f64> {
         let times = self.times_s.get(points.clone())?;
         let steps = times.windows(2).map(|pair| pair[1] - pair[0]);

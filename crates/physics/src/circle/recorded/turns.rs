@@ -20,7 +20,7 @@ const WORSE_UM: f64 = 0.5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct WholeTurns {
-    /// Their number.
+    /// Number of whole turns.
     pub count: usize,
     /// The one that leaves most, if one leaves more than the evaluated turn: by a quarter, by 0.5 µm and by
     /// the noise of a sample.
@@ -31,14 +31,14 @@ pub struct WholeTurns {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WorseTurn {
-    /// Its direction of travel.
+    /// Direction of travel.
     pub direction: Direction,
     /// The crossing.
     pub crossing: Crossing,
     /// The glitch there, as means over 8 ms.
     #[serde(rename = "height")]
     pub height_um: f64,
-    /// That of the evaluated turn.
+    /// Glitch of the evaluated turn.
     #[serde(rename = "evaluated")]
     pub evaluated_um: f64,
 }
@@ -54,7 +54,7 @@ impl fmt::Display for WorseTurn {
 }
 
 impl RecordedCircle {
-    /// The distance of each point from the centre of its turn in mm, of all whole turns one after another.
+    /// Returns the distance of each point from the centre of its turn in mm, of all whole turns one after another.
     pub fn radii_mm(&self) -> Vec<f64> {
         const MM_PER_M: f64 = 1000.0;
         let points = self.turns_m.iter().flatten();

@@ -21,19 +21,19 @@ pub struct Side {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Comparison {
-    /// Without friction compensation.
+    /// Result without friction compensation.
     pub off: Side,
-    /// With friction compensation.
+    /// Result with friction compensation.
     pub on: Side,
     /// Cycles of the speed loop in which a force was limited, over all runs.
     pub saturated_cycles: u64,
 }
 
 impl CircularTest {
-    /// All four runs, one after the other.
+    /// Makes all four runs, one after the other.
     ///
     /// # Errors
-    /// Those of [`run`](Self::run).
+    /// The errors of [`run`](Self::run).
     pub fn compare(&self) -> Result<Comparison, CircleError> {
         let laps: Result<Vec<_>, _> = LapRun::ALL.into_iter().map(|job| self.run(job)).collect();
         Ok(Comparison::of(laps?))
@@ -41,7 +41,7 @@ impl CircularTest {
 }
 
 impl Comparison {
-    /// The result of runs that were made one by one, in any order.
+    /// Returns the result of runs that were made one by one, in any order.
     pub fn of(laps: impl IntoIterator<Item = Lap>) -> Self {
         let (mut off, mut on) = (Paths::default(), Paths::default());
         let mut saturated_cycles = 0;

@@ -20,7 +20,7 @@ const LATER: f64 = 0.5;
 /// One run of a test: half a turn of run-in, and a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LapRun {
-    /// Whether friction compensation is on.
+    /// State of friction compensation.
     pub compensation: Switched,
     /// The direction of travel.
     pub direction: Direction,

@@ -25,7 +25,7 @@ impl Method {
         drives.map(|drive: &DriveParameters| Some(Self::Current(plant_list(drive))))
     }
 
-    /// The value list, if there is one.
+    /// Returns the value list, if there is one.
     pub fn list(&self) -> Option<&FrictionList> {
         match self {
             Self::Current(list) => Some(list),
@@ -33,7 +33,7 @@ impl Method {
         }
     }
 
-    /// The parameters of stiction compensation, if it is that.
+    /// Returns the parameters of stiction compensation, if it is that.
     pub fn stiction(&self) -> Option<&StictionParameters> {
         match self {
             Self::Stiction(parameters) => Some(parameters),

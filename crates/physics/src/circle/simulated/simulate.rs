@@ -41,7 +41,7 @@ pub(crate) struct AxesSimulation<'a, const N: usize> {
 /// The additive current of one axis, with the velocities that it looks ahead to.
 struct Additive {
     current: Option<AdditiveCurrent>,
-    /// In units of the list.
+    /// Velocities in units of the list.
     velocities: Vec<f64>,
 }
 
@@ -54,7 +54,7 @@ impl Additive {
         }
     }
 
-    /// The current of CNC cycle `k` in drive units, at a position in m.
+    /// Returns the current of CNC cycle `k` in drive units, at a position in m.
     fn at(&mut self, k: usize, position: f64) -> f64 {
         let Some(current) = &mut self.current else {
             return 0.0;
@@ -69,7 +69,7 @@ impl Additive {
 }
 
 impl<'a> AxisRun<'a> {
-    /// Stiction compensation, if it acts at the feed of a circle (R8.2).
+    /// Returns the stiction compensation, if it acts at the feed of a circle (R8.2).
     fn stiction_at(&self, circle: &Circle) -> Option<&'a StictionParameters> {
         self.compensation?
             .stiction()

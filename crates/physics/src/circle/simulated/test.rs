@@ -31,7 +31,7 @@ impl CircularTest {
         }
     }
 
-    /// Whether stiction is compensated, and not friction by an additive current.
+    /// Returns whether stiction is compensated, and not friction by an additive current.
     pub fn is_stiction(&self) -> bool {
         let mut axes = self.compensation.iter().flatten();
         axes.any(|axis| axis.stiction().is_some())

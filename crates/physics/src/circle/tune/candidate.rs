@@ -20,7 +20,7 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// The parameters of a list.
+    /// Returns the parameters of a list.
     pub fn of(list: &FrictionList) -> Self {
         Self {
             position_delay: list.position_delay,
@@ -30,13 +30,13 @@ impl Candidate {
         }
     }
 
-    /// The value list with the friction curve of a drive and these parameters, its points in their written
+    /// Returns the value list with the friction curve of a drive and these parameters, its points in their written
     /// form.
     pub fn list(self, drive: &DriveParameters, points: Points) -> FrictionList {
         self.with_table(&plant_list(drive), points)
     }
 
-    /// A list with these parameters, its points in their written form.
+    /// Returns a list with these parameters, its points in their written form.
     pub(crate) fn with_table(self, list: &FrictionList, points: Points) -> FrictionList {
         FrictionList {
             position_delay: self.position_delay,

@@ -68,31 +68,31 @@ pub struct RemainingGlitch {
     /// The acceleration v²/R at the reversal in mm/s².
     #[serde(rename = "acceleration")]
     pub acceleration_mm_per_s2: f64,
-    /// Without compensation.
+    /// Glitch without compensation.
     #[serde(rename = "glitch_off")]
     pub glitch_off_um: f64,
-    /// With it, at the worst of four places of the reversal within its CNC cycle.
+    /// Glitch with compensation, at the worst of four places of the reversal within its CNC cycle.
     #[serde(rename = "glitch_on")]
     pub glitch_on_um: f64,
-    /// With it, and a contact half as stiff.
+    /// Glitch with compensation, and a contact half as stiff.
     #[serde(rename = "glitch_stiffness_half")]
     pub glitch_half_stiff_um: f64,
-    /// With it, and a contact twice as stiff.
+    /// Glitch with compensation, and a contact twice as stiff.
     #[serde(rename = "glitch_stiffness_double")]
     pub glitch_double_stiff_um: f64,
-    /// With it, and friction that differs by ±10 % between the directions.
+    /// Glitch with compensation, and friction that differs by ±10 % between the directions.
     #[serde(rename = "glitch_uneven10")]
     pub glitch_uneven_um: f64,
 }
 
 impl RemainingGlitch {
-    /// Whether compensation makes it worse, by more than the place of the reversal in its cycle does.
+    /// Returns whether compensation makes it worse, by more than the place of the reversal in its cycle does.
     pub fn is_worse(&self) -> bool {
         const PLACE: f64 = 1.02;
         self.glitch_on_um > PLACE * self.glitch_off_um
     }
 
-    /// The largest with compensation, on the plant and on those that deviate from it.
+    /// Returns the largest with compensation, on the plant and on those that deviate from it.
     pub(super) fn robust_um(&self) -> f64 {
         self.glitch_on_um
             .max(self.glitch_half_stiff_um)
@@ -100,7 +100,7 @@ impl RemainingGlitch {
             .max(self.glitch_uneven_um)
     }
 
-    /// The larger values of both.
+    /// Returns the larger values of both.
     pub(super) fn or(self, other: Self) -> Self {
         Self {
             acceleration_mm_per_s2: self.acceleration_mm_per_s2,
@@ -124,7 +124,7 @@ struct Trial {
 }
 
 impl Trial {
-    /// The reversals of a row. A drive that is the same in both directions reverses alike in both.
+    /// Returns the reversals of a row. A drive that is the same in both directions reverses alike in both.
     fn all() -> impl Iterator<Item = Self> {
         let of = |deviating, place, is_on| Self {
             deviating,
@@ -139,7 +139,7 @@ impl Trial {
 }
 
 impl Task {
-    /// The circles of a search: those of the task, and others between them.
+    /// Returns the circles of a search: those of the task, and others between them.
     pub(super) fn searched(&self) -> Vec<Circle> {
         let sorted = self.by_acceleration();
         let mut searched = self.circles.clone();
@@ -156,7 +156,7 @@ impl Task {
         searched
     }
 
-    /// The circles on which a result is checked.
+    /// Returns the circles on which a result is checked.
     pub(super) fn checked(&self) -> Vec<Circle> {
         self.over_the_range(CHECKED)
     }
@@ -196,7 +196,7 @@ impl Task {
         Trial::all().count()
     }
 
-    /// The glitch at one of the reversals of a check, with the compensation of the axis.
+    /// Returns the glitch at one of the reversals of a check, with the compensation of the axis.
     pub(super) fn check_reversal(
         &self,
         axis: PlaneAxis,
@@ -219,7 +219,7 @@ impl Task {
         alone.glitch_um(circle, compensation.filter(|_| trial.is_on))
     }
 
-    /// The glitch at the reversal of an axis on a machine that deviates.
+    /// Returns the glitch at the reversal of an axis on a machine that deviates.
     pub(super) fn deviating_um(
         &self,
         axis: PlaneAxis,
@@ -236,7 +236,7 @@ impl Task {
         alone.glitch_um(circle, Some(compensation))
     }
 
-    /// The row of a circle from the glitches at its reversals, in their order.
+    /// Returns the row of a circle from the glitches at its reversals, in their order.
     pub(super) fn row(circle: Circle, glitches: &[f64]) -> RemainingGlitch {
         let mut row = RemainingGlitch {
             acceleration_mm_per_s2: circle.acceleration_mm_per_s2(),

@@ -89,7 +89,7 @@ impl CmaEs {
         }
     }
 
-    /// The points whose values are requested.
+    /// Returns the points whose values are requested.
     pub(crate) fn ask(&mut self) -> Vec<Vec<f64>> {
         self.asked = (0..POINTS)
             .map(|_| {
@@ -159,7 +159,7 @@ impl XorShift {
         Self(SEED ^ seed.wrapping_mul(0xd1b5_4a32_d192_ed03))
     }
 
-    /// A uniformly distributed number from 0 to 1.
+    /// Returns a uniformly distributed number from 0 to 1.
     pub(crate) fn even(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -168,7 +168,7 @@ impl XorShift {
         f64::from(upper) / f64::from(u32::MAX)
     }
 
-    /// A number below a count.
+    /// Returns a number below a count.
     pub(crate) fn below(&mut self, count: usize) -> usize {
         #[allow(
             clippy::cast_possible_truncation,
@@ -179,7 +179,7 @@ impl XorShift {
         number.min(count.saturating_sub(1))
     }
 
-    /// A normally distributed number with a variance of 1: the sum of twelve.
+    /// Returns a normally distributed number with a variance of 1: the sum of twelve.
     pub(crate) fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }

@@ -59,7 +59,7 @@ const LEAST_REACH: f64 = 0.02;
 const DELAY_STEP: i16 = 6;
 const DISTANCE_STEP: i32 = 2;
 
-/// Other times of which a round simulates the step that promises most.
+/// Number of other times whose most promising step a round simulates.
 const PROMISING: usize = 2;
 
 /// Part of the height of a curve by which a step may change a value.
@@ -78,11 +78,11 @@ const FAST_MM_PER_S: f64 = 0.03;
 /// Significance of a reversal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Role {
-    /// It counts with its height.
+    /// Reversal that counts with its height.
     Counted,
-    /// It counts more where the plant itself is left with more than a robust list may cost.
+    /// Reversal that counts more if the glitch on the plant itself exceeds what a robust list may cost.
     Limited(f64),
-    /// It lies beyond the range.
+    /// Reversal beyond the range.
     Beyond(Reserve),
 }
 
@@ -181,12 +181,12 @@ impl<'a> Descent<'a> {
         });
     }
 
-    /// The number of lists that were tried.
+    /// Returns the number of lists that were tried.
     pub(super) fn trials(&self) -> usize {
         self.trials
     }
 
-    /// The best list, sought from the times that are best without a shape.
+    /// Returns the best list, sought from the times that are best without a shape.
     pub(super) fn best(
         &mut self,
         start: Candidate,
@@ -207,7 +207,7 @@ impl<'a> Descent<'a> {
             best = self.drive(best.shape)?;
             best = self.descend(best, AGAIN)?;
         }
-        // Whole numbers may leave more elsewhere.
+        // Rounding to whole numbers may increase the glitch at another reversal.
         let mut written: Option<(f64, ListShape)> = None;
         for _ in 0..EXCHANGES {
             let whole = self.whole(&best)?;
@@ -316,7 +316,7 @@ impl<'a> Descent<'a> {
         Ok(shapes.iter().enumerate().map(judged).collect())
     }
 
-    /// A shape with the extremes at each reversal.
+    /// Returns a shape with the extremes at each reversal.
     fn judged(&self, shape: ListShape, extremes: Vec<Vec<[f64; 2]>>) -> DrivenShape {
         let heights: Vec<f64> = extremes.iter().map(|it| height(it)).collect();
         let inside = self.reversals.iter().zip(&heights);
@@ -434,7 +434,7 @@ impl<'a> Descent<'a> {
         others
     }
 
-    /// The shapes to try next: two steps with the same times, the larger one first, and those with other times
+    /// Returns the shapes to try next: two steps with the same times, the larger one first, and those with other times
     /// that promise most.
     fn steps(
         &self,
@@ -475,7 +475,7 @@ impl<'a> Descent<'a> {
         Ok(numbers.map(shape).collect())
     }
 
-    /// How the curves at each reversal change with each output.
+    /// Returns the linear change of the curves at each reversal with each output.
     fn linear(&self, best: &DrivenShape, probes: &[DrivenShape]) -> Vec<LinearCurve> {
         let curve = |(number, reversal): (usize, &JudgedReversal)| {
             let weight = best.weights[number];
@@ -497,7 +497,7 @@ impl<'a> Descent<'a> {
         self.reversals.iter().enumerate().map(curve).collect()
     }
 
-    /// The curves of a shape that change as those of another do.
+    /// Returns the curves of a shape that change as those of another do.
     fn based_on(&self, from: &DrivenShape, slopes: &[LinearCurve]) -> Vec<LinearCurve> {
         let mut curves = slopes.to_vec();
         for (number, (curve, reversal)) in curves.iter_mut().zip(&self.reversals).enumerate() {
@@ -512,7 +512,7 @@ impl<'a> Descent<'a> {
         curves
     }
 
-    /// The best shape around one whose outputs are written without a loss.
+    /// Returns the best shape around one whose outputs are written without a loss.
     fn whole(&mut self, exact: &DrivenShape) -> Result<DrivenShape, CircleError> {
         let nearest = self.shapes.rounded(&exact.shape);
         if self.task.points == Points::Real {
@@ -551,7 +551,7 @@ impl<'a> Descent<'a> {
         Ok(best)
     }
 
-    /// The model around a shape for changes by a few units.
+    /// Returns the model around a shape for changes by a few units.
     fn pruned(&mut self, shape: &DrivenShape) -> Result<LinearModel, CircleError> {
         /// Part of a height by which a few units may change a value.
         const NEAR: f64 = 0.3;
@@ -564,7 +564,7 @@ impl<'a> Descent<'a> {
         Ok(model)
     }
 
-    /// A height, larger if outputs bend too much.
+    /// Returns a height, larger if outputs bend too much.
     fn cost(&self, factors: &[f64; FREE], worst_um: f64) -> f64 {
         /// Weight of bends that are too large.
         const DEAR: f64 = 10.0;
@@ -603,8 +603,8 @@ impl<'a> Descent<'a> {
         factors
     }
 
-    /// The factors around some that are best by a model of others, one or two outputs after another changed by a
-    /// unit.
+    /// Returns the factors around some that are best by a model of others, one or two outputs after another changed by
+    /// a unit.
     fn whole_step(
         &self,
         start: [f64; FREE],
@@ -648,7 +648,7 @@ impl<'a> Descent<'a> {
     }
 }
 
-/// The shapes with each output changed.
+/// Returns the shapes with each output changed.
 fn probes(shape: &ListShape) -> [ListShape; FREE] {
     std::array::from_fn(|at| {
         let mut probe = *shape;
@@ -657,7 +657,7 @@ fn probes(shape: &ListShape) -> [ListShape; FREE] {
     })
 }
 
-/// The limits of a step from a shape.
+/// Returns the limits of a step from a shape.
 fn limits(shape: &ListShape, reach: f64) -> Vec<LinearValue> {
     /// A limit that is reached leaves this much.
     const LEAST: f64 = 1e-4;
@@ -690,7 +690,7 @@ fn limits(shape: &ListShape, reach: f64) -> Vec<LinearValue> {
     limits
 }
 
-/// The cycles of a window at which a curve is sampled.
+/// Returns the cycles of a window at which a curve is sampled.
 fn sampled(cycles: usize, circle: &Circle) -> impl Iterator<Item = usize> + use<> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a few cycles
     let stride = (SAMPLE_S / circle.cycle_time_s).round() as usize;

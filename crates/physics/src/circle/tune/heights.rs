@@ -8,24 +8,24 @@ pub(crate) struct Heights(pub(in crate::circle) Vec<f64>);
 const SMOOTH: i32 = 16;
 
 impl Heights {
-    /// A list that has lost before every circle was driven.
+    /// Returns a list that has lost before every circle was driven.
     pub(super) fn lost() -> Self {
         Self(vec![f64::INFINITY])
     }
 
-    /// The largest.
+    /// Returns the largest.
     pub(crate) fn worst_um(&self) -> f64 {
         self.0.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The mean.
+    /// Returns the mean.
     pub(crate) fn mean_um(&self) -> f64 {
         #[allow(clippy::cast_precision_loss)] // a few circles
         let count = self.0.len().max(1) as f64;
         self.0.iter().sum::<f64>() / count
     }
 
-    /// A value between both that is close to the largest and decreases with each of them.
+    /// Returns a value between both that is close to the largest and decreases with each of them.
     pub(crate) fn smooth_um(&self) -> f64 {
         let worst = self.worst_um();
         if !worst.is_finite() || worst <= 0.0 {

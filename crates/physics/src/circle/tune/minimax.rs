@@ -72,7 +72,7 @@ struct Smooth {
 }
 
 impl LinearModel {
-    /// The largest height at a point.
+    /// Returns the largest height at a point.
     pub(super) fn worst(&self, point: &FreeValues) -> f64 {
         let heights = self.curves.iter().map(|it| it.height(point));
         heights.fold(0.0, f64::max)
@@ -99,7 +99,7 @@ impl LinearModel {
         }
     }
 
-    /// The point within the limits whose largest height is smallest. The limits must hold at 0.
+    /// Returns the point within the limits whose largest height is smallest. The limits must hold at 0.
     pub(super) fn minimum(&self) -> FreeValues {
         let mut point = [0.0; FREE];
         let worst = self.worst(&point);
@@ -121,7 +121,7 @@ impl LinearModel {
         point
     }
 
-    /// The furthest point along a step that is lower than the one where it begins.
+    /// Returns the furthest point along a step that is lower than the one where it begins.
     fn downhill(
         &self,
         point: &FreeValues,
@@ -141,7 +141,7 @@ impl LinearModel {
         None
     }
 
-    /// The smooth height at a point with the barriers; `None` beyond a limit.
+    /// Returns the smooth height at a point with the barriers; `None` beyond a limit.
     fn value(&self, point: &FreeValues, smoothing: f64) -> Option<f64> {
         let heights = self.curves.iter().map(|curve| {
             let sides = curve.sides.iter();
@@ -208,7 +208,7 @@ impl LinearModel {
 }
 
 impl Smooth {
-    /// The smooth largest of values.
+    /// Returns the smooth largest of values.
     fn most_of(values: &[LinearValue], (point, smoothing): (&FreeValues, f64)) -> Self {
         let at: Vec<f64> = values.iter().map(|it| it.at(point)).collect();
         let shares = shares(&at, smoothing);
@@ -248,7 +248,7 @@ fn most(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// `exp` of the distance below the largest value in smoothings, and 0 where that is negligible.
+/// Returns `exp` of the distance below the largest value in smoothings, and 0 where that is negligible.
 fn weight(value: f64, most: f64, smoothing: f64) -> f64 {
     let below = (value - most) / smoothing;
     if below < -NEGLIGIBLE {
@@ -264,7 +264,7 @@ fn smooth_most(values: &[f64], smoothing: f64) -> f64 {
     most + smoothing * sum.ln()
 }
 
-/// The derivatives of the smooth largest value: the shares of the values in it.
+/// Returns the derivatives of the smooth largest value: the shares of the values in it.
 fn shares(values: &[f64], smoothing: f64) -> Vec<f64> {
     let most = most(values);
     let mut shares: Vec<f64> = values

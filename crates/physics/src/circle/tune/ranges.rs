@@ -24,19 +24,19 @@ pub struct Ranges {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FreeParameter {
-    /// Up to 200 µm.
+    /// Range up to 200 µm.
     PositionDelay,
-    /// Up to 50 cycles.
+    /// Range up to 50 cycles.
     ReversalLookahead,
-    /// From 0 to 100 000 µs.
+    /// Range from 0 to 100 000 µs.
     Mp1511,
-    /// Up to 1000 counting steps.
+    /// Range up to 1000 counting steps.
     Mp1512,
 }
 
 impl Default for Ranges {
-    /// The documented ranges (chapter 3.3 of the rules) and guidelines (R8.3); of the scaling factor,
-    /// half to double.
+    /// Returns the documented ranges (chapter 3.3 of the rules) and guidelines (R8.3); of the scaling factor, half to
+    /// double.
     fn default() -> Self {
         Self {
             position_delay: 0..=10,

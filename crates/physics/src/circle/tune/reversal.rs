@@ -46,8 +46,8 @@ pub(crate) struct AxisAlone<'a> {
     pub(crate) phase: f64,
 }
 
-/// The commanded angle of one reversal of an axis in the turn that a whole run evaluates, which
-/// begins half a turn after X+.
+/// Returns the commanded angle of one reversal of an axis in the turn that a whole run evaluates, which begins half a
+/// turn after X+.
 fn reversal(axis: PlaneAxis) -> f64 {
     match axis {
         PlaneAxis::X => 2.0 * PI,
@@ -55,16 +55,16 @@ fn reversal(axis: PlaneAxis) -> f64 {
     }
 }
 
-/// The delay in cycles with which the reversal of an axis is at this place within its CNC cycle, 0 to 1.
+/// Returns the delay in cycles with which the reversal of an axis is at this place within its CNC cycle, 0 to 1.
 pub(super) fn phase_at(place: f64, axis: PlaneAxis, circle: &Circle) -> f64 {
     let cycles = reversal(axis) / (circle.angular_velocity() * circle.cycle_time_s);
     (place - cycles).rem_euclid(1.0)
 }
 
 impl AxisAlone<'_> {
-    /// The glitch in µm at a reversal, with or without compensation, peak to peak, less the straight
-    /// line from one end of the window to the other. The cycles are those of a whole run, so that the
-    /// reversal falls at the same place within its cycle.
+    /// Returns the glitch in µm at a reversal, with or without compensation, peak to peak, less the straight line from
+    /// one end of the window to the other. The cycles are those of a whole run, so that the reversal falls at the same
+    /// place within its cycle.
     ///
     /// # Errors
     /// A drive that is unstable.
@@ -79,8 +79,8 @@ impl AxisAlone<'_> {
         Ok(most - least)
     }
 
-    /// The least and the largest deviation outwards in µm of each CNC cycle in the window of a reversal, less the
-    /// straight line from one end of the window to the other.
+    /// Returns the least and the largest deviation outwards in µm of each CNC cycle in the window of a reversal, less
+    /// the straight line from one end of the window to the other.
     ///
     /// # Errors
     /// A drive that is unstable.
@@ -92,7 +92,7 @@ impl AxisAlone<'_> {
         Ok(self.path(circle, compensation)?.straightened())
     }
 
-    /// The deviation outwards at a reversal: for each CNC cycle the time of its middle since the reversal in s,
+    /// Returns the deviation outwards at a reversal: for each CNC cycle the time of its middle since the reversal in s,
     /// and the middle between its least and its largest deviation in m.
     ///
     /// # Errors
@@ -112,7 +112,7 @@ impl AxisAlone<'_> {
         Ok(path.cycles.iter().enumerate().map(middle).collect())
     }
 
-    /// The same for several compensations: simulated side by side, they take little longer than one.
+    /// Returns the same for several compensations: simulated side by side, they take little longer than one.
     ///
     /// # Errors
     /// A drive that is unstable.
@@ -125,13 +125,13 @@ impl AxisAlone<'_> {
         Ok(paths.map(|path| path.straightened()))
     }
 
-    /// The path of the axis in the window of a reversal.
+    /// Returns the path of the axis in the window of a reversal.
     fn path(&self, circle: Circle, compensation: Option<&Method>) -> Result<Path, CircleError> {
         let [path] = self.paths(circle, [compensation])?;
         Ok(path)
     }
 
-    /// The paths of the axis with each of these compensations.
+    /// Returns the paths of the axis with each of these compensations.
     fn paths<const N: usize>(
         &self,
         circle: Circle,
@@ -218,7 +218,7 @@ impl Path {
         }
     }
 
-    /// The least and the largest deviation of each cycle in µm, less the line through both ends.
+    /// Returns the least and the largest deviation of each cycle in µm, less the line through both ends.
     fn straightened(&self) -> Vec<[f64; 2]> {
         let ends = ENDS.min(self.cycles.len() / 2).max(1);
         let mean = |cycles: &[[f64; 2]]| {
@@ -273,15 +273,15 @@ impl CycleWindow {
     }
 }
 
-/// The number of CNC cycles in the window of a reversal.
+/// Returns the number of CNC cycles in the window of a reversal.
 pub(super) fn cycles_of_window(circle: &Circle, axis: PlaneAxis) -> usize {
     let window = CycleWindow::of(circle, axis);
     window.end - window.from
 }
 
 impl CycleWindow {
-    /// CNC cycles before the drives begin after which the additive current of a list equals that of a whole
-    /// run: its dead time has passed, and before that the axis has moved by more than its `position_delay`.
+    /// Returns the number of CNC cycles before the drives begin after which the additive current of a list equals that
+    /// of a whole run: its dead time has passed, and before that the axis has moved by more than its `position_delay`.
     /// A quarter of a turn is enough for any list.
     fn lead(&self, circle: &Circle, list: &FrictionList) -> usize {
         let quarter = circle.cycles(FRAC_PI_2);

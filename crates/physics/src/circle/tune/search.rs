@@ -22,7 +22,7 @@ pub(super) struct Search<S: Space> {
     space: S,
     tried: BTreeSet<S::Candidate>,
     best: Option<(f64, S::Candidate)>,
-    /// All candidates that may be as good as the best.
+    /// Candidates that may be as good as the best.
     good: Vec<(Heights, S::Candidate)>,
     stage: SearchStage,
     rounds: usize,
@@ -36,7 +36,7 @@ enum SearchStage {
 }
 
 impl<S: Space> Search<S> {
-    /// A search in a space.
+    /// Returns a search in a space.
     pub(super) fn new(space: S) -> Self {
         Self {
             space,
@@ -48,7 +48,7 @@ impl<S: Space> Search<S> {
         }
     }
 
-    /// The candidates to try next, all of them new; `None` when the search is over.
+    /// Returns the candidates to try next, all of them new; `None` when the search is over.
     pub(super) fn next_trials(&mut self) -> Option<Vec<S::Candidate>> {
         loop {
             let wanted = match self.stage {
@@ -68,19 +68,19 @@ impl<S: Space> Search<S> {
         }
     }
 
-    /// A trial that reaches this has lost.
+    /// Returns a trial that reaches this has lost.
     pub(super) fn bound(&self) -> f64 {
         AS_GOOD * self.least()
     }
 
-    /// The glitches that the best candidate leaves.
+    /// Returns the glitches that the best candidate leaves.
     pub(super) fn best_heights(&self) -> Option<&Heights> {
         let (_, best) = self.best?;
         let found = self.good.iter().find(|(_, candidate)| *candidate == best);
         found.map(|(heights, _)| heights)
     }
 
-    /// The smallest of the largest glitches so far.
+    /// Returns the smallest of the largest glitches so far.
     fn least(&self) -> f64 {
         self.best.map_or(f64::INFINITY, |(value, _)| value)
     }
@@ -104,8 +104,8 @@ impl<S: Space> Search<S> {
         }
     }
 
-    /// Of all sets that are as good as the best the one with the smallest mean, and of equal ones the
-    /// one with the smallest values.
+    /// Returns, of all sets that are as good as the best, the one with the smallest mean, and of equal ones the one
+    /// with the smallest values.
     pub(super) fn result(&self) -> S::Candidate {
         let bound = self.bound();
         let good = self
@@ -119,7 +119,7 @@ impl<S: Space> Search<S> {
         chosen.map_or_else(|| self.space.start(), |&(_, candidate)| candidate)
     }
 
-    /// The candidate with the smallest of the largest glitches so far.
+    /// Returns the candidate with the smallest of the largest glitches so far.
     fn best(&self) -> S::Candidate {
         self.best
             .map_or_else(|| self.space.start(), |(_, candidate)| candidate)

@@ -57,7 +57,7 @@ pub(super) struct ShapedLists {
 }
 
 impl ShapedLists {
-    /// The shapes around the friction curve of a drive, outputs written as `points`.
+    /// Returns the shapes around the friction curve of a drive, outputs written as `points`.
     pub(super) fn new(drive: &DriveParameters, points: Points) -> Self {
         Self {
             curve: plant_list_at(drive, &inputs(drive)),
@@ -65,7 +65,7 @@ impl ShapedLists {
         }
     }
 
-    /// The curve itself with these times.
+    /// Returns the curve itself with these times.
     pub(super) fn plain(times: Candidate) -> ListShape {
         ListShape {
             factors: [0.0; FREE],
@@ -76,7 +76,7 @@ impl ShapedLists {
         }
     }
 
-    /// The list of a shape before its outputs are rounded.
+    /// Returns the list of a shape before its outputs are rounded.
     pub(super) fn exact(&self, shape: &ListShape) -> FrictionList {
         let factors = shape.factors.iter().chain(std::iter::repeat(&0.0));
         let bent = self.curve.table.iter().zip(factors);
@@ -94,17 +94,17 @@ impl ShapedLists {
         }
     }
 
-    /// The list of a shape as it is written.
+    /// Returns the list of a shape as it is written.
     pub(super) fn written(&self, shape: &ListShape) -> FrictionList {
         shape.times.with_table(&self.exact(shape), self.points)
     }
 
-    /// The change of an output by one unit, as a share.
+    /// Returns the change of an output by one unit, as a share.
     pub(super) fn unit(&self, at: usize) -> f64 {
         1.0 / self.curve.table[at].output
     }
 
-    /// The shape whose outputs are those of another as they are written.
+    /// Returns the shape whose outputs are those of another as they are written.
     pub(super) fn rounded(&self, shape: &ListShape) -> ListShape {
         let written = self.written(shape);
         ListShape {
@@ -115,7 +115,7 @@ impl ShapedLists {
         }
     }
 
-    /// The largest bend of the outputs of a shape, those above 1 mm/s as they are written.
+    /// Returns the largest bend of the outputs of a shape, those above 1 mm/s as they are written.
     pub(super) fn bend(&self, factors: &[f64; FREE]) -> f64 {
         let rounded = self.points.rounded(&self.curve.table);
         let share = |at: usize| match factors.get(at) {
@@ -127,7 +127,7 @@ impl ShapedLists {
     }
 }
 
-/// The velocities of all points: above 1 mm/s those between which the curve is closest to straight lines.
+/// Returns the velocities of all points: above 1 mm/s those between which the curve is closest to straight lines.
 fn inputs(drive: &DriveParameters) -> Vec<f64> {
     let slowest = INPUTS[FREE - 1];
     let place = |at: i32| {

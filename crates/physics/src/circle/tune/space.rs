@@ -14,10 +14,10 @@ pub(super) trait Space {
     /// Candidates all over the space.
     fn grid(&self) -> Vec<Self::Candidate>;
 
-    /// The candidates around one, at a step of the size with this number.
+    /// Returns the candidates around one, at a step of the size with this number.
     fn neighbours(&self, centre: Self::Candidate, step: usize) -> Vec<Self::Candidate>;
 
-    /// The candidate to take if none is known.
+    /// Returns the candidate to take if none is known.
     fn start(&self) -> Self::Candidate;
 }
 

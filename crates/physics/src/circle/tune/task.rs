@@ -29,7 +29,7 @@ pub struct Task {
     pub reading: Reading,
     /// Form of the points of the lists.
     pub points: Points,
-    /// Whether the points below 1 mm/s get a separate shape.
+    /// Separate shape for the points below 1 mm/s.
     pub shaping: Shaping,
     /// The machines for which the list must be good.
     pub aim: TuningAim,
@@ -47,34 +47,34 @@ pub enum TuningAim {
     Robust,
 }
 
-/// Whether the points below 1 mm/s get a separate shape.
+/// Shaping of a list below 1 mm/s.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Shaping {
-    /// If it is worthwhile.
+    /// Separate shape if it is worthwhile.
     #[default]
     Allowed,
-    /// The table is the friction curve.
+    /// No separate shape: the table is the friction curve.
     None,
 }
 
 /// The friction of a driven circle, and whether it has compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Variant {
-    /// Without compensation.
+    /// No compensation.
     Off,
     /// With compensation.
     On,
     /// With compensation, and 20 % less friction.
     Minus20,
-    /// With it, and 20 % more friction.
+    /// With compensation, and 20 % more friction.
     Plus20,
 }
 
 impl Variant {
     pub(super) const ALL: [Self; 4] = [Self::Off, Self::On, Self::Minus20, Self::Plus20];
 
-    /// The factor on the friction of the machine.
+    /// Returns the factor on the friction of the machine.
     fn friction(self) -> f64 {
         match self {
             Self::Off | Self::On => 1.0,
@@ -103,7 +103,7 @@ impl Task {
         })
     }
 
-    /// The axes that are tuned one by one: both at once if their drives are equal.
+    /// Returns the axes that are tuned one by one: both at once if their drives are equal.
     pub(super) fn groups(&self) -> Vec<Vec<PlaneAxis>> {
         if self.plant.x == self.plant.y {
             return vec![PlaneAxis::ALL.to_vec()];
@@ -111,7 +111,7 @@ impl Task {
         PlaneAxis::ALL.map(|axis| vec![axis]).to_vec()
     }
 
-    /// The drive of an axis.
+    /// Returns the drive of an axis.
     pub(super) fn drive(&self, axis: PlaneAxis) -> &DriveParameters {
         match axis {
             PlaneAxis::X => &self.plant.x,
@@ -137,7 +137,7 @@ impl Task {
         Ok(Heights(heights))
     }
 
-    /// The largest glitch at a reversal of single axes, with or without compensation.
+    /// Returns the largest glitch at a reversal of single axes, with or without compensation.
     ///
     /// Equal axes differ only in the place of their reversal within a CNC cycle, which is considered if it
     /// matters.
@@ -168,7 +168,7 @@ impl Task {
             .try_fold(0.0, |most: f64, glitch| Ok(most.max(glitch?)))
     }
 
-    /// A circle beyond the tuned range, if one can be driven: the one with the largest acceleration, 2.4 times
+    /// Returns a circle beyond the tuned range, if one can be driven: the one with the largest acceleration, 2.4 times
     /// as fast.
     pub(super) fn beyond(&self) -> Option<Circle> {
         let by = |circle: &&Circle| circle.acceleration_mm_per_s2();
@@ -184,7 +184,7 @@ impl Task {
         is_possible.then_some(circle)
     }
 
-    /// The largest glitch of a whole circle with the compensation of X and Y. The direction of travel makes no
+    /// Returns the largest glitch of a whole circle with the compensation of X and Y. The direction of travel makes no
     /// difference: a clockwise circle is the mirror image of a counter-clockwise one.
     pub(super) fn whole_um(
         &self,

@@ -29,22 +29,22 @@ pub struct FeedResult {
     /// The acceleration v²/R at a reversal, on which the glitch depends.
     #[serde(rename = "acceleration")]
     pub acceleration_mm_per_s2: f64,
-    /// Without compensation.
+    /// Glitch without compensation.
     #[serde(rename = "glitch_off")]
     pub glitch_off_um: f64,
-    /// With compensation.
+    /// Glitch with compensation.
     #[serde(rename = "glitch_on")]
     pub glitch_on_um: f64,
-    /// With compensation, and 20 % less friction of the machine than in the list.
+    /// Glitch with compensation, and 20 % less friction of the machine than in the list.
     #[serde(rename = "glitch_friction_minus20")]
     pub glitch_friction_minus20_um: f64,
-    /// With it, and 20 % more friction.
+    /// Glitch with compensation, and 20 % more friction of the machine than in the list.
     #[serde(rename = "glitch_friction_plus20")]
     pub glitch_friction_plus20_um: f64,
 }
 
 impl FeedResult {
-    /// Whether compensation makes it worse.
+    /// Returns whether compensation makes it worse.
     pub fn is_worse(&self) -> bool {
         self.glitch_on_um > self.glitch_off_um
     }
@@ -62,12 +62,12 @@ pub struct TunedAxis {
 }
 
 impl TunedAxis {
-    /// The value list, if there is one.
+    /// Returns the value list, if there is one.
     pub fn list(&self) -> Option<&FrictionList> {
         self.compensation.as_ref()?.list()
     }
 
-    /// The parameters of stiction compensation, if it is that.
+    /// Returns the parameters of stiction compensation, if it is that.
     pub fn stiction(&self) -> Option<&StictionParameters> {
         self.compensation.as_ref()?.stiction()
     }
@@ -78,7 +78,8 @@ impl TunedAxis {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Robust {
-    /// Whether it gains 5 % or more and costs at most a quarter on the plant; otherwise the other list is kept.
+    /// Whether the robust list gains 5 % or more and costs at most a quarter on the plant; otherwise the other list is
+    /// kept.
     pub is_taken: bool,
     /// The list for the plant alone.
     #[serde(rename = "glitch_plain")]
@@ -105,18 +106,18 @@ pub struct Tuned {
 }
 
 impl Tuned {
-    /// Whether stiction compensation was tuned.
+    /// Returns whether stiction compensation was tuned.
     pub fn is_stiction(&self) -> bool {
         self.axes.iter().any(|axis| axis.stiction().is_some())
     }
 
-    /// The largest glitch with compensation, on the circles and over their whole range.
+    /// Returns the largest glitch with compensation, on the circles and over their whole range.
     pub fn worst_um(&self) -> f64 {
         let circles = self.feeds.iter().map(|it| it.glitch_on_um);
         circles.fold(worst(&self.check, |it| it.glitch_on_um), f64::max)
     }
 
-    /// The range of v²/R in mm/s² for which the lists were tuned.
+    /// Returns the range of v²/R in mm/s² for which the lists were tuned.
     pub fn accelerations(&self) -> [f64; 2] {
         let all = self.feeds.iter().map(|it| it.acceleration_mm_per_s2);
         all.fold([f64::INFINITY, 0.0], |[least, most], it| {
@@ -138,7 +139,7 @@ pub trait Simulations: Send + Sync {
     ) -> Result<Vec<Vec<f64>>, CircleError>;
 }
 
-/// One after the other.
+/// Simulations one after the other.
 #[derive(Debug, Clone, Copy)]
 struct InOrder;
 
@@ -160,7 +161,7 @@ pub fn tune(task: &Task) -> Result<Tuned, CircleError> {
     tune_with(task, &InOrder)
 }
 
-/// A shape is taken if it leaves at most this part of the largest glitch.
+/// Part of the largest glitch that a shape may leave to be taken.
 const WORTH_IT: f64 = 0.95;
 
 /// A robust list is taken if it leaves at most this part of what the other leaves on machines that
@@ -242,7 +243,7 @@ pub(super) struct Reserve {
     left_um: f64,
 }
 
-/// Most of a glitch is removed if at most this part of it is left.
+/// Part of a glitch that may be left if most of it is removed.
 const MOSTLY: f64 = 0.2;
 
 /// Permitted factor of the glitch beyond the range to that within it.
@@ -259,7 +260,7 @@ impl Reserve {
         Ok(holds.then_some(Self { circle, left_um }))
     }
 
-    /// The weight of a glitch beyond the range for a list that leaves `worst_um` within it: with too much left
+    /// Returns the weight of a glitch beyond the range for a list that leaves `worst_um` within it: with too much left
     /// there, it counts as more than that.
     pub(super) fn weight(&self, worst_um: f64) -> f64 {
         worst_um / self.left_um.max(MORE * worst_um)
@@ -295,7 +296,7 @@ struct Tuning<'a> {
 }
 
 impl Tuning<'_> {
-    /// The best lists, checked over the whole range: with a shape if that leaves less.
+    /// Returns the best lists, checked over the whole range: with a shape if that leaves less.
     fn found(&self, trials: &mut usize) -> Result<TunedLists, CircleError> {
         let task = self.task;
         let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
@@ -409,7 +410,7 @@ impl Tuning<'_> {
         let heights: Result<Vec<f64>, CircleError> = self.searched.iter().map(of).collect();
         Ok(Heights(heights?))
     }
-    /// The best value list of axes whose table is their friction curve, and the best with a shape.
+    /// Returns the best value list of axes whose table is their friction curve, and the best with a shape.
     fn list(
         &self,
         axes: &[PlaneAxis],
@@ -432,7 +433,7 @@ impl Tuning<'_> {
         Ok((plain, shaped))
     }
 
-    /// The best MP1511 and MP1512 of axes whose other parameters are given (R8.6).
+    /// Returns the best MP1511 and MP1512 of axes whose other parameters are given (R8.6).
     fn stiction(
         &self,
         axes: &[PlaneAxis],
@@ -454,7 +455,7 @@ impl Tuning<'_> {
         })
     }
 
-    /// The search for the parameters of axes in a space, each candidate of which is a compensation.
+    /// Returns the search for the parameters of axes in a space, each candidate of which is a compensation.
     fn search<S: Space>(
         &self,
         axes: &[PlaneAxis],
@@ -478,7 +479,7 @@ impl Tuning<'_> {
         Ok(search)
     }
 
-    /// The order in which circles are simulated: first those on which the best candidate leaves most, since
+    /// Returns the order in which circles are simulated: first those on which the best candidate leaves most, since
     /// another one loses there soonest; without one the fastest, which is the shortest simulation.
     fn order(&self, best: Option<&Heights>) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.searched.len()).collect();
@@ -490,7 +491,7 @@ impl Tuning<'_> {
         order
     }
 
-    /// The best shape of the points below 1 mm/s.
+    /// Returns the best shape of the points below 1 mm/s.
     fn shape(
         &self,
         axes: &[PlaneAxis],
@@ -512,7 +513,7 @@ impl Tuning<'_> {
         })
     }
 
-    /// The glitches of whole circles with the result: for each circle one per variant.
+    /// Returns the glitches of whole circles with the result: for each circle one per variant.
     fn wholes(
         &self,
         axes: &[TunedAxis; 2],

@@ -9,9 +9,9 @@ pub(super) const LEAST_N: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct GmsElement {
-    /// Its share of the friction, α; the shares of all elements add up to 1.
+    /// Share of the friction, α; the shares of all elements add up to 1.
     pub share: f64,
-    /// Its stiffness k.
+    /// Stiffness k.
     pub stiffness_n_per_m: f64,
 }
 
@@ -45,7 +45,7 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// The friction in N of a contact that slides at this speed, without the viscous part:
+    /// Returns the friction in N of a contact that slides at this speed, without the viscous part:
     /// `g(v) = Fc + (Fs - Fc)·exp(-(|v|/vs)^δ)` of R5.11.
     #[inline]
     pub fn level_n(&self, speed_m_per_s: f64) -> f64 {
@@ -60,14 +60,14 @@ impl Friction {
         self.coulomb_n + (self.breakaway_n - self.coulomb_n) * fading(power)
     }
 
-    /// The friction at a velocity with its direction.
+    /// Returns the friction at a velocity with its direction.
     #[inline]
     pub(super) fn level_towards_n(&self, velocity_m_per_s: f64) -> f64 {
         self.level_n(velocity_m_per_s.abs())
             * (1.0 + self.asymmetry * 1.0_f64.copysign(velocity_m_per_s))
     }
 
-    /// The friction in N at a constant velocity, `sign(v)·g(v) + fv·v` (R5.10); 0 at standstill.
+    /// Returns the friction in N at a constant velocity, `sign(v)·g(v) + fv·v` (R5.10); 0 at standstill.
     pub fn steady_n(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;
@@ -89,7 +89,7 @@ impl Friction {
         }
     }
 
-    /// Damping `σ1·exp(-(v/vd)²)` in N·s/m, which fades with the velocity (R5.11).
+    /// Returns the damping `σ1·exp(-(v/vd)²)` in N·s/m, which fades with the velocity (R5.11).
     #[inline]
     pub(super) fn micro_damping(&self, velocity: f64) -> f64 {
         let ratio = velocity / self.damping_velocity_m_per_s;
@@ -97,7 +97,7 @@ impl Friction {
     }
 }
 
-/// `exp(-exponent)`, and 0 if it is below the digits of a force.
+/// Returns `exp(-exponent)`, and 0 if it is below the digits of a force.
 #[inline]
 pub(super) fn fading(exponent: f64) -> f64 {
     const FADED: f64 = 40.0;
@@ -107,7 +107,7 @@ pub(super) fn fading(exponent: f64) -> f64 {
     (-exponent).exp()
 }
 
-/// A separate function, so that it is computed only if needed.
+/// Returns a separate function, so that it is computed only if needed.
 #[cold]
 #[inline(never)]
 fn raised(ratio: f64, exponent: f64) -> f64 {

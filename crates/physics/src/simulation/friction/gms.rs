@@ -48,7 +48,7 @@ impl Gms {
         }
     }
 
-    /// The friction in N over a step at this velocity in m/s.
+    /// Returns the friction in N over a step at this velocity in m/s.
     pub(super) fn friction(&mut self, velocity: f64) -> f64 {
         let level = self.friction.level_towards_n(velocity).max(LEAST_N);
         let damping = self.friction.micro_damping(velocity) * velocity / self.stiffness;

@@ -31,8 +31,8 @@ impl Lugre {
         }
     }
 
-    /// The friction in N over a step at this velocity in m/s. The deflection follows its equation
-    /// in closed form, `z∞ + (z - z∞)·exp(-σ0·|v|/g·dt)`, which no stiffness makes unstable.
+    /// Returns the friction in N over a step at this velocity in m/s. The deflection follows its equation in closed
+    /// form, `z∞ + (z - z∞)·exp(-σ0·|v|/g·dt)`, which no stiffness makes unstable.
     #[inline]
     pub(super) fn friction(&mut self, velocity: f64) -> f64 {
         let contact = &self.friction;

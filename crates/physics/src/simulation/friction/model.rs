@@ -72,7 +72,7 @@ pub(crate) struct Push {
 }
 
 impl Contact {
-    /// A contact that has slid at this velocity, in m/s, for a long time.
+    /// Returns a contact that has slid at this velocity, in m/s, for a long time.
     pub(crate) fn settled(friction: &Friction, model: FrictionModel, velocity: f64) -> Self {
         match model {
             FrictionModel::Stribeck => Self::Stribeck(Stribeck::new(friction)),
@@ -81,7 +81,7 @@ impl Contact {
         }
     }
 
-    /// The velocity in m/s at the end of the step, from `m·dv/dt = F - friction`.
+    /// Returns the velocity in m/s at the end of the step, from `m·dv/dt = F - friction`.
     #[inline]
     pub(crate) fn push(&mut self, push: Push) -> f64 {
         let friction = match self {

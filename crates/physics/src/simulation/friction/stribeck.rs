@@ -15,10 +15,9 @@ impl Stribeck {
         }
     }
 
-    /// The velocity in m/s at the end of a step that begins with `velocity` in m/s, under a force
-    /// in N; `per_mass` is the step divided by the mass, in s/kg. Friction takes away at most the
-    /// whole velocity, so that a mass at rest stays there until the force exceeds the breakaway
-    /// friction.
+    /// Returns the velocity in m/s at the end of a step that begins with `velocity` in m/s, under a force in N;
+    /// `per_mass` is the step divided by the mass, in s/kg. Friction takes away at most the whole velocity, so that a
+    /// mass at rest stays there until the force exceeds the breakaway friction.
     #[inline]
     pub(super) fn velocity_after(&self, velocity: f64, force: f64, per_mass: f64) -> f64 {
         let free = velocity + per_mass * force;

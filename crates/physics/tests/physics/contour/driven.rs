@@ -27,13 +27,13 @@ pub(crate) struct Found {
     pub(crate) reversals: Vec<ContourReversal>,
     /// The largest deviation in space, as programmed, in µm.
     pub(crate) largest_um: f64,
-    /// The first seconds of a line are not kept.
+    /// Time from the start of a line that is not kept, in s.
     settling_s: f64,
     /// The line that is cut, and the start of the cut.
     since: (u32, f64),
 }
 
-/// The smallest and the largest of the known values and one more.
+/// Returns the smallest and the largest of the known values and one more.
 pub(crate) fn widened(extremes: [f64; 2], deviation: f64) -> [f64; 2] {
     [extremes[0].min(deviation), extremes[1].max(deviation)]
 }
@@ -81,7 +81,8 @@ impl ContourSink for Found {
 }
 
 impl Found {
-    /// Nothing yet; the first cycles of a line show the residue of the previous line and are not kept.
+    /// Creates an empty result after a wait: the first cycles of a line show the residue of the previous line and are
+    /// not kept.
     pub(crate) fn settled() -> Self {
         Self {
             settling_s: SETTLING_S,
@@ -89,7 +90,7 @@ impl Found {
         }
     }
 
-    /// The extremes over some lines.
+    /// Returns the extremes over some lines.
     pub(crate) fn over(&self, lines: std::ops::RangeInclusive<u32>) -> Extremes {
         let mut all = Extremes::default();
         for (_, Extremes(line)) in self.lines.range(lines) {
@@ -117,7 +118,7 @@ fn run(machine: &Machine, program: &str, (at, sink): (Stand<'_>, &mut dyn Sink))
     let _ = session.program("part.nc", Program::Whole(source), &mut NoFiles, sink);
 }
 
-/// The contour of a program in the plane XY, from the given axis positions.
+/// Returns the contour of a program in the plane XY, from the given axis positions.
 pub(crate) fn drive(
     machine: &str,
     plant: &Plant,
@@ -128,7 +129,7 @@ pub(crate) fn drive(
     drive_on(machine, plant, program, found)
 }
 
-/// The contour of a program on a machine that is read.
+/// Returns the contour of a program on a machine that is read.
 pub(crate) fn drive_on(
     mut machine: Machine,
     plant: &Plant,

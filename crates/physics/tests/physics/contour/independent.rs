@@ -56,12 +56,12 @@ struct Axis {
 }
 
 impl Equations {
-    /// The friction at a steady speed in m/s, in drive units: the content of a fitting value list.
+    /// Returns the friction at a steady speed in m/s, in drive units: the content of a fitting value list.
     pub(crate) fn units_at(&self, speed: f64) -> f64 {
         (level(speed) + VISCOUS * speed) / self.unit
     }
 
-    /// 250 µs towards a place with a velocity and an additive current.
+    /// Advances an axis by 250 µs towards a place with a velocity and an additive current.
     fn tick(&self, axis: &mut Axis, (place, velocity, added): (f64, f64, f64)) {
         let kp = MASS * TAU * 45.0;
         let target = KV * (place - axis.x) + velocity;
@@ -94,7 +94,7 @@ impl Equations {
     }
 }
 
-/// The friction at which the contact slips at a speed.
+/// Returns the friction at which the contact slips at a speed.
 fn level(v: f64) -> f64 {
     COULOMB + (BREAKAWAY - COULOMB) * (-v.abs() / STRIBECK).exp()
 }
@@ -118,7 +118,7 @@ struct Motion {
     judged: Vec<u32>,
 }
 
-/// The distance and speed of a motion from rest to rest: ramps like half a turn of a cosine.
+/// Returns the distance and speed of a motion from rest to rest: ramps like half a turn of a cosine.
 fn pace(length: f64, feed: f64, ramp: f64, time: f64) -> Option<(f64, f64)> {
     let steady = length / feed - ramp;
     assert!(steady >= 0.0, "{length} mm at {feed} mm/s are too short");
@@ -240,7 +240,7 @@ impl Motion {
         }
     }
 
-    /// The additive current of an axis, cycle by cycle, with compensation as switched.
+    /// Returns the additive current of an axis, cycle by cycle, with compensation as switched.
     fn currents(
         &self,
         axis: usize,
@@ -268,7 +268,7 @@ impl Motion {
         self.commands.iter().enumerate().map(cycle).collect()
     }
 
-    /// How long the line of a cycle has lasted, up to the relevant limit.
+    /// Returns the time that the line of a cycle has lasted, up to the relevant limit.
     fn seconds_in_line(&self, at: usize) -> f64 {
         let line = self.commands[at].line;
         let before = self.commands[..at].iter().rev().take(10);
@@ -276,7 +276,7 @@ impl Motion {
         CYCLE_S * f64::from(u32::try_from(cycles).expect("ten"))
     }
 
-    /// The signed deviation of a place in µm, positive on the outside of a curve.
+    /// Returns the signed deviation of a place in µm, positive on the outside of a curve.
     fn deviation(&self, (piece, gone): (usize, f64), place: [f64; 2]) -> f64 {
         let before = piece.saturating_sub(usize::from(gone < NEAR));
         let left = self.pieces[piece].length() - gone;
@@ -305,7 +305,7 @@ pub(crate) struct Simulated {
     pub(crate) reversals: Vec<Reversal>,
 }
 
-/// Which axes are compensated.
+/// Axes that are compensated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Compensation {
     Programmed,

@@ -27,7 +27,7 @@ impl Piece {
         }
     }
 
-    /// The place after so many mm, and the direction there.
+    /// Returns the place after so many mm, and the direction there.
     pub(crate) fn at(&self, gone: f64) -> ([f64; 2], [f64; 2]) {
         match self {
             Self::Line { from, to } => {
@@ -52,7 +52,7 @@ impl Piece {
         }
     }
 
-    /// The distance of a place from the piece in mm, and the signed distance to its left.
+    /// Returns the distance of a place from the piece in mm, and the signed distance to its left.
     pub(crate) fn distance(&self, place: [f64; 2]) -> (f64, f64) {
         match self {
             Self::Line { .. } => {
@@ -83,7 +83,7 @@ impl Piece {
         }
     }
 
-    /// The side to which it turns.
+    /// Returns the side to which it turns.
     pub(crate) fn side(&self) -> Option<f64> {
         match self {
             Self::Line { .. } => None,
@@ -122,7 +122,7 @@ impl Shape {
         }
     }
 
-    /// The end of the path.
+    /// Returns the end of the path.
     pub(crate) fn end(&self) -> [f64; 2] {
         let ends = self.lines.iter().rev().find_map(|line| match line {
             Line::Cut { piece, .. } => Some(piece.at(piece.length()).0),
@@ -138,7 +138,7 @@ impl Shape {
         self.lines.push(Line::Cut { piece, judged });
     }
 
-    /// An arc about a centre by an angle in degrees, to the left if it is positive.
+    /// Adds an arc about a centre by an angle in degrees, to the left if it is positive.
     pub(crate) fn arc(&mut self, centre: [f64; 2], degrees: f64, judged: bool) {
         let from = self.end();
         let offset = [from[0] - centre[0], from[1] - centre[1]];
@@ -151,7 +151,7 @@ impl Shape {
         self.lines.push(Line::Cut { piece, judged });
     }
 
-    /// The program; line 1 sets the feed.
+    /// Returns the program; line 1 sets the feed.
     pub(crate) fn program(&self) -> String {
         let mut text = format!("G90 F{}\n", self.feed);
         for line in &self.lines {
@@ -184,7 +184,7 @@ impl Shape {
         text + "M30\n"
     }
 
-    /// The numbers of the lines that are judged.
+    /// Returns the numbers of the lines that are judged.
     pub(crate) fn judged(&self) -> Vec<u32> {
         let lines = self.lines.iter().zip(2..);
         let judged = lines.filter(|(line, _)| matches!(line, Line::Cut { judged: true, .. }));

@@ -1,6 +1,6 @@
-//! What is said about 22 faults of machines, each without noise, with 0.3 and with 1 µm (R5.34, R5.35): a
-//! slow peak of friction is one cause, and another shape is never told as backlash or position loops. The table
-//! is in docs/circular-test.md; `UPDATE_DOCS=1` writes it again.
+//! Diagnoses of 22 faults of machines, each without noise, with 0.3 and with 1 µm (R5.34, R5.35): a slow peak of
+//! friction is one cause, and another shape is never told as backlash or position loops. The table is in
+//! docs/circular-test.md; `UPDATE_DOCS=1` writes it again.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -55,7 +55,7 @@ impl Moment {
         (self.direction.sign() * self.angle).rem_euclid(TAU) / self.omega()
     }
 
-    /// The angle since the last reversal of an axis, of 0 to half a turn.
+    /// Returns the angle since the last reversal of an axis, of 0 to half a turn.
     fn since(&self, axis: PlaneAxis) -> f64 {
         let at = match axis {
             PlaneAxis::X => 0.0,
@@ -64,7 +64,7 @@ impl Moment {
         (self.direction.sign() * self.angle - at).rem_euclid(PI)
     }
 
-    /// What friction of an axis leaves of its path, radially: a lag that decays after its reversal.
+    /// Returns the radial deviation that friction of an axis causes: a lag that decays after its reversal.
     fn friction(&self, axis: PlaneAxis, (height, decay_ms): (f64, f64)) -> f64 {
         let since = self.since(axis);
         height * (-since / self.omega() / (decay_ms / 1000.0)).exp() * since.cos()
@@ -78,7 +78,7 @@ impl Moment {
         height * swing * since.cos()
     }
 
-    /// An error of a screw, with a period in mm.
+    /// Returns an error of a screw, with a period in mm.
     fn screw(&self, axis: PlaneAxis, (amplitude, period): (f64, f64)) -> f64 {
         let along = match axis {
             PlaneAxis::X => self.angle.cos(),
@@ -112,7 +112,7 @@ const fn fault(
     }
 }
 
-/// Slow friction of Y alone.
+/// Returns the fault of slow friction of Y alone.
 const fn slow(name: &'static str, motion: Motion, deviation: fn(Moment) -> f64) -> Fault {
     Fault {
         name,
@@ -253,7 +253,7 @@ fn figures(motion: Motion, radial: &dyn Fn(Moment) -> f64, noise_um: f64) -> Fig
     recording.expect("both directions").side.figures
 }
 
-/// The axis that a finding concerns.
+/// Returns the axis that a finding concerns.
 fn axis_of(found: &Diagnosis) -> Option<PlaneAxis> {
     match found.place {
         FoundAt::Crossing(crossing) => Some(crossing.axis()),
@@ -262,7 +262,7 @@ fn axis_of(found: &Diagnosis) -> Option<PlaneAxis> {
     }
 }
 
-/// The findings in words: those of one axis with its name.
+/// Returns the findings in words: those of one axis with its name.
 fn said(found: &[Diagnosis]) -> String {
     let mut findings: Vec<(Finding, BTreeSet<&str>)> = Vec::new();
     for one in found {
@@ -372,7 +372,7 @@ impl RandomPeak {
     }
 }
 
-/// The peaks that are not told as friction of their axis alone.
+/// Returns the peaks that are not told as friction of their axis alone.
 fn told_wrong(seeds: std::ops::Range<u64>) -> Vec<String> {
     let peaks = seeds.map(|seed| (seed, RandomPeak::of(seed)));
     let wrong = peaks.filter_map(|(seed, peak)| {

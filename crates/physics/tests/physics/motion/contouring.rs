@@ -11,7 +11,7 @@ use super::{Trace, assert_limits, trace, trace_of};
 /// Axes with nothing known about them.
 const DEFAULTS: &str = "[[axis]]\nname = \"X\"\n[[axis]]\nname = \"Y\"\n[[axis]]\nname = \"Z\"\n";
 
-/// A circle of 100 mm in chords, entered and left by a tangent.
+/// Returns a circle of 100 mm in chords, entered and left by a tangent.
 fn chords(mode: &str, feed: u32, (degrees, decimals): (f64, usize)) -> String {
     let mut text = format!("{mode}\nG90 G01 X100 Y-20 Z0 F{feed}\nX100 Y0\n");
     let count = (360.0 / degrees).round();
@@ -37,7 +37,7 @@ fn follow(program: &str) -> Trace {
     trace_of(DEFAULTS, program, &["X", "Y"], PlannerOptions::default())
 }
 
-/// The distance of the trace from the circle, in µm, without its ends.
+/// Returns the distance of the trace from the circle, in µm, without its ends.
 fn off_circle(trace: &Trace) -> f64 {
     let on = trace.positions.iter().filter(|place| place[0] < 99.0);
     let off = on.map(|place| (place[0].hypot(place[1]) - 100.0).abs() * 1000.0);
@@ -69,8 +69,8 @@ fn short_chords_take_the_time_of_the_arc() {
 const SHOWN: (&[f64], &[u32]) = (&[0.1], &[2000]);
 const ALL: (&[f64], &[u32]) = (&[0.05, 0.1, 0.2], &[500, 2000, 5000]);
 
-/// A circle in chords against the arc, over jerk and contour mode; with a mode the time is that of the
-/// arc (R11.22).
+/// Returns a circle in chords against the arc, over jerk and contour mode; with a mode the time is that of the arc
+/// (R11.22).
 fn chords_against_arc((lengths, feeds): (&[f64], &[u32])) -> String {
     let mut table = String::from(
         "| jerk m/s³ | mode | chord | F | arc s | chords s | off the circle µm |\n\

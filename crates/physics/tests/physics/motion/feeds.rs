@@ -7,18 +7,18 @@ use frictcomp_physics::motion::PlannerOptions;
 
 use super::{MACHINE, Trace, assert_limits, follow, trace};
 
-/// The highest speed of X in mm/min.
+/// Returns the highest speed of X in mm/min.
 fn top(program: &str) -> String {
     let trace = trace(program, &["X"]);
     round(trace.top_speed(0))
 }
 
-/// A speed in mm/min.
+/// Returns a speed in mm/min.
 fn round(speed: f64) -> String {
     ((speed * 60.0 * 1e6).round() / 1e6).to_string()
 }
 
-/// A program on a machine with settings of the channel list.
+/// Returns a program on a machine with settings of the channel list.
 fn channel(program: &str, say: impl FnOnce(&mut Machine)) -> Trace {
     let mut machine = Machine::from_toml(MACHINE).expect("a machine");
     say(&mut machine);

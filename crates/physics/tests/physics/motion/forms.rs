@@ -13,14 +13,14 @@ fn assert_on_circle(trace: &Trace, cycles: std::ops::Range<usize>, centre: [f64;
     }
 }
 
-/// The cycles of the block on a line.
+/// Returns the cycles of the block on a line.
 fn block(trace: &Trace, line: u32) -> std::ops::Range<usize> {
     let first = trace.lines.iter().position(|of| *of == line);
     let last = trace.lines.iter().rposition(|of| *of == line);
     first.expect("the block")..last.expect("the block") + 1
 }
 
-/// The distance that the axes cover.
+/// Returns the distance that the axes cover.
 fn way(trace: &Trace) -> f64 {
     let steps = trace.positions.windows(2).map(|pair| {
         let squares = pair[0].iter().zip(&pair[1]).map(|(a, b)| (b - a) * (b - a));

@@ -152,7 +152,7 @@ fn an_exact_stop_is_made_where_it_is_asked_for() {
     assert!(at("G01 X0 F3000\nG360\nX20\nG359 X40\nX60\nX80\nM30", 40.0) > 49.0);
 }
 
-/// A block of a random program.
+/// Returns a block of a random program.
 fn block() -> impl Strategy<Value = String> {
     let word = (-200_i32..200).prop_map(|value| f64::from(value) / 10.0);
     let step = (-40_i32..40).prop_map(|value| f64::from(value) / 100.0);

@@ -71,7 +71,7 @@ fn limits_are_those_of_the_axis_list() {
     assert!(found.programs.iter().any(|it| it.number == "P-CHAN-00071"));
 }
 
-/// The trace of a program on X.
+/// Returns the trace of a program on X.
 fn traced(found: Configuration, program: &str) -> Trace {
     follow(
         found.machine,
@@ -81,7 +81,7 @@ fn traced(found: Configuration, program: &str) -> Trace {
     )
 }
 
-/// The seconds of a program on X, and its top speed.
+/// Returns the seconds of a program on X, and its top speed.
 fn timed(found: Configuration, program: &str) -> (f64, f64) {
     let trace = traced(found, program);
     (trace.seconds(), trace.top_speed(0))

@@ -63,7 +63,7 @@ pub(crate) struct Trace {
     pub(crate) begins: Vec<usize>,
     /// The reported codes, with their lines.
     pub(crate) said: Vec<(String, u32)>,
-    /// Their messages and help lines.
+    /// Messages of the programs, and their help lines.
     pub(crate) messages: Vec<String>,
     /// The lines of the motions that are left out, with the times.
     pub(crate) left_out: Vec<(u32, f64)>,
@@ -74,7 +74,7 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    /// The last position.
+    /// Returns the last position.
     pub(crate) fn end(&self) -> &[f64] {
         self.positions.last().expect("a trace")
     }
@@ -85,7 +85,7 @@ impl Trace {
         f64::from(cycles - 1) * CYCLE
     }
 
-    /// The highest speed of an axis.
+    /// Returns the highest speed of an axis.
     pub(crate) fn top_speed(&self, axis: usize) -> f64 {
         let speeds = self.velocities.iter().map(|cycle| cycle[axis].abs());
         speeds.fold(0.0, f64::max)
@@ -127,7 +127,7 @@ impl Sink for Planned {
     }
 }
 
-/// The trace of the named axes.
+/// Returns the trace of the named axes.
 pub(crate) fn trace_of(
     machine: &str,
     program: &str,
@@ -138,7 +138,7 @@ pub(crate) fn trace_of(
     follow(machine, program, (axes, &[]), options)
 }
 
-/// The trace of the named axes on a machine, from their current positions.
+/// Returns the trace of the named axes on a machine, from their current positions.
 pub(crate) fn follow(
     machine: Machine,
     program: &str,
@@ -177,7 +177,7 @@ pub(crate) fn follow(
     planned.trace
 }
 
-/// The trace of the named axes on the machine of these tests.
+/// Returns the trace of the named axes on the machine of these tests.
 pub(crate) fn trace(program: &str, axes: &[&str]) -> Trace {
     trace_of(MACHINE, program, axes, PlannerOptions::default())
 }

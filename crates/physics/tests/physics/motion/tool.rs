@@ -16,14 +16,14 @@ fn followed(program: &str, radius: f64) -> Trace {
     trace_of(MACHINE, program, &AXES, options)
 }
 
-/// The positions while some lines are executed.
+/// Returns the positions while some lines are executed.
 fn places(trace: &Trace, lines: std::ops::RangeInclusive<u32>) -> Vec<[f64; 2]> {
     let cycles = trace.positions.iter().zip(&trace.lines);
     let within = cycles.filter(|(_, line)| lines.contains(line));
     within.map(|(place, _)| [place[0], place[1]]).collect()
 }
 
-/// The distance of a place from a polyline.
+/// Returns the distance of a place from a polyline.
 fn distance(polyline: &[[f64; 2]], place: [f64; 2]) -> f64 {
     let each = polyline.windows(2).map(|ends| {
         let way = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];

@@ -34,7 +34,7 @@ const MODES: [(&str, f64); 8] = [
 
 type Polyline = Vec<[f64; 3]>;
 
-/// The program that follows a polyline from its first point, which is approached at rest.
+/// Returns the program that follows a polyline from its first point, which is approached at rest.
 fn program(mode: &str, (points, decimals): (&Polyline, usize)) -> String {
     let [x, y, z] = points[0];
     let mut text =
@@ -45,7 +45,7 @@ fn program(mode: &str, (points, decimals): (&Polyline, usize)) -> String {
     text + "M30\n"
 }
 
-/// The coordinates as the program has them.
+/// Returns the coordinates as the program has them.
 fn rounded(points: &[[f64; 3]], decimals: usize) -> Polyline {
     let scale = 10_f64.powi(i32::try_from(decimals).expect("few"));
     let each = points.iter();
@@ -53,7 +53,7 @@ fn rounded(points: &[[f64; 3]], decimals: usize) -> Polyline {
         .collect()
 }
 
-/// Number of the changes of direction.
+/// Returns the number of the changes of direction.
 fn turns(steps: impl Iterator<Item = f64>) -> usize {
     let directions = steps.filter(|step| *step != 0.0).map(f64::signum);
     let (mut last, mut count) = (0.0, 0);
@@ -68,7 +68,7 @@ fn turns_of_polyline(points: &Polyline, axis: usize) -> usize {
     turns(points.windows(2).map(|pair| pair[1][axis] - pair[0][axis]))
 }
 
-/// Number of turns between strokes that are all longer than this.
+/// Returns the number of turns between strokes that are all longer than this.
 fn large_turns(points: &Polyline, (axis, stroke): (usize, f64)) -> usize {
     let mut values = points.iter().map(|point| point[axis]);
     let first = values.next().expect("a point");
@@ -91,8 +91,8 @@ fn turns_of_trace(trace: &Trace, axis: usize) -> usize {
     turns(trace.velocities.iter().map(|cycle| cycle[axis]))
 }
 
-/// The greatest distance in mm of the followed path from the polyline, each place compared with the lines near the one
-/// that was passed last.
+/// Returns the greatest distance in mm of the followed path from the polyline, each place compared with the lines near
+/// the one that was passed last.
 fn off_polyline(points: &Polyline, trace: &Trace) -> f64 {
     const NEAR: usize = 12;
     let (mut most, mut passed) = (0.0_f64, 0_usize);
@@ -107,7 +107,7 @@ fn off_polyline(points: &Polyline, trace: &Trace) -> f64 {
     most
 }
 
-/// The distance of a place from the line between two points.
+/// Returns the distance of a place from the line between two points.
 fn off_line(place: &[f64], [from, to]: [&[f64; 3]; 2]) -> f64 {
     let sum = |of: &dyn Fn(usize) -> f64| (0..AXES.len()).map(of).sum::<f64>();
     let length = sum(&|axis| (to[axis] - from[axis]).powi(2)).max(1e-12);

@@ -4,13 +4,13 @@ use frictcomp_physics::motion::PlannerOptions;
 
 use super::{MACHINE, trace, trace_of};
 
-/// The messages about a program, and where the trace of X begins.
+/// Returns the messages about a program, and where the trace of X begins.
 fn said(program: &str) -> (Vec<(String, u32)>, usize) {
     let trace = trace(program, &["X"]);
     (trace.said, trace.begins.len())
 }
 
-/// The first motion is left out, because its start is not known.
+/// Returns the message that the first motion is left out, because its start is not known.
 fn fc906() -> Vec<(String, u32)> {
     vec![("FC906".to_owned(), 1)]
 }

@@ -12,9 +12,8 @@ const PERIOD: f64 = 10.0;
 /// A sample as a row of the regression: the parameters that it depends on, with their weights.
 type Row = Vec<(usize, f64)>;
 
-/// No unbiased estimate of the offset has a smaller 95th percentile than this, in N, even if it
-/// knows the period of the ripple and the colour of the noise: friction at each speed, the
-/// offset, and both parts of the ripple are unknown.
+/// Returns the Cramér–Rao bound of the offset in N: no unbiased estimate has a smaller 95th percentile, even if it
+/// knows the period of the ripple and the colour of the noise.
 pub(crate) fn offset_bound(bench: &Bench) -> f64 {
     let (speeds, commanded) = (bench.speeds.len(), bench.commanded());
     let (offset, parameters) = (speeds, speeds + 3);
@@ -63,7 +62,7 @@ pub(crate) fn offset_bound(bench: &Bench) -> f64 {
     OF_95_PERCENT * inverse_at(information, offset).sqrt()
 }
 
-/// An element of the diagonal of the inverse of a positive definite matrix.
+/// Returns an element of the diagonal of the inverse of a positive definite matrix.
 fn inverse_at(mut rows: Vec<Vec<f64>>, wanted: usize) -> f64 {
     // The wanted one last, so that elimination leaves its inverse alone in the corner.
     let last = rows.len() - 1;

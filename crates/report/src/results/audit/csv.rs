@@ -8,7 +8,7 @@ use frictcomp::audit::Site;
 
 const HEADER: &str = "machine,file,axis,kind,effect,by_file,by_line,reason,inherits,inherits_file,inherits_line,motion,inherits_if\n";
 
-/// One row per program, axis and kind, quoted according to RFC 4180.
+/// Returns one row per program, axis and kind, quoted according to RFC 4180.
 pub fn render_csv(report: &AuditReport) -> String {
     let mut out = HEADER.as_bytes().to_vec();
     for machine in &report.machines {

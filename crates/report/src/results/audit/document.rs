@@ -7,7 +7,7 @@ use crate::wording::{counted, visible_line};
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Inherits, ProgramAudit, Site};
 use frictcomp::interpreter::MotionKind;
 
-/// The table, the findings and the cure of every machine; the verdict is the last line of the text (R18.20).
+/// Returns the table, the findings and the cure of every machine; the verdict is the last line of the text (R18.20).
 pub fn document(report: &AuditReport) -> Document<'static> {
     let mut out = Document::new("What the order of programs does", report.headline());
     out.conclude_with_verdict();
@@ -39,7 +39,7 @@ pub fn document(report: &AuditReport) -> Document<'static> {
     out
 }
 
-/// The effect of each program on each axis, the most dangerous programs first.
+/// Returns the effect of each program on each axis, the most dangerous programs first.
 fn table(machine: &MachineAudit, findings: &[&AxisFinding]) -> Table {
     let heads = findings.iter().map(|it| axis_name(&it.axis, it.kind));
     let table = Table::default().folding("program").left("program");

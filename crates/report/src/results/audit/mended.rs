@@ -25,7 +25,7 @@ pub fn missed_text(program: &ProgramAudit, missed: &Missed) -> String {
     )
 }
 
-/// Returns in which programs a block of a file changes the state in which axes move.
+/// Returns the programs in which a block of a file changes the state in which axes move.
 pub fn changed_text(file: &str, programs: &[String]) -> String {
     format!(
         "{}: a block changes the state in which axes move in {}",

@@ -7,7 +7,7 @@ use frictcomp::audit::ProgramAudit;
 use frictcomp::comp::Kind;
 use frictcomp::timeline::SCHEMA;
 
-/// One record per program and kind, one per axis and kind, and a summary. The first one has `schema`.
+/// Returns one record per program and kind, one per axis and kind, and a summary. The first one has `schema`.
 pub fn records(report: &AuditReport) -> Vec<Value> {
     let mut records = Vec::new();
     for machine in &report.machines {
@@ -48,7 +48,7 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
     records
 }
 
-/// A record of each examined kind; friction compensation alone needs no name.
+/// Adds a record of each examined kind; friction compensation alone needs no name.
 fn programs(program: &ProgramAudit, origin: Option<&str>, records: &mut Vec<Value>) {
     let mut kinds: Vec<Kind> = program.axes.iter().map(|axis| axis.kind).collect();
     kinds.sort_unstable();

@@ -96,12 +96,12 @@ impl SequenceReport {
         Headline::new(standing, text).assuming(self.assumptions.iter().cloned())
     }
 
-    /// Whether a program moves an axis that an earlier one left away from its start-up state.
+    /// Returns whether a program moves an axis that an earlier one left away from its start-up state.
     pub fn has_warnings(&self) -> bool {
         self.axes().any(|axis| axis.left_by.is_some())
     }
 
-    /// Whether a program does not reach its end.
+    /// Returns whether a program does not reach its end.
     pub fn is_cut(&self) -> bool {
         self.steps.iter().any(|step| step.stopped.is_some())
     }
@@ -117,7 +117,7 @@ impl SequenceReport {
     }
 }
 
-/// The programs of the order, one line each, the readings on which their states rest, and the verdict.
+/// Returns the programs of the order, one line each, the readings on which their states rest, and the verdict.
 pub fn sequence_text(report: &SequenceReport, detail: Detail) -> String {
     let lines = report.steps.iter().map(step_line);
     let last = detail.full(report.steps.last()).flatten();
@@ -199,7 +199,7 @@ fn place(step: &Step, file: &str, line: u32) -> String {
     }
 }
 
-/// The steps and a summary as records; the first one has `schema`.
+/// Returns the steps and a summary as records; the first one has `schema`.
 pub fn sequence_records(report: &SequenceReport) -> Vec<Value> {
     let records = report.steps.iter().enumerate().map(|(at, step)| {
         let mut record = json!(step);

@@ -133,8 +133,8 @@ pub(super) fn possible_leavers(archive: &Archive, finding: &AxisFinding) -> usiz
         .count()
 }
 
-/// "33 programs leave X off, 2 may, 262 run with it off", without what none does; `of_machine` tells the axis from that
-/// of another machine.
+/// Returns text such as "33 programs leave X off, 2 may, 262 run with it off", without what none does; `of_machine`
+/// tells the axis from that of another machine.
 fn cause(archive: &Archive, finding: &AxisFinding, of_machine: &str) -> String {
     let possible = possible_leavers(archive, finding);
     let counts = [finding.leavers.len() - possible, finding.inheritors.len()];
@@ -166,7 +166,7 @@ fn cause(archive: &Archive, finding: &AxisFinding, of_machine: &str) -> String {
 const NAMED: usize = 3;
 
 impl AuditReport {
-    /// The verdict: how many programs leave an axis away from its start-up state, and how many run with it
+    /// Returns the verdict: how many programs leave an axis away from its start-up state, and how many run with it
     /// (R10.2, R18.23).
     pub fn headline(&self) -> Headline {
         let programs = counted(self.programs(), "program");
@@ -203,7 +203,7 @@ impl AuditReport {
         Headline::new(standing, text).assuming(assumptions)
     }
 
-    /// Of how many programs the effect on some axis is not known, in words.
+    /// Returns in words of how many programs the effect on some axis is not known.
     fn not_known(&self) -> Option<String> {
         let of_machine = |machine: &MachineAudit| {
             let unknown = machine.findings.iter().flat_map(|it| &it.unknown);
@@ -256,7 +256,7 @@ impl AuditReport {
         self.machines.iter().flat_map(|machine| &machine.findings)
     }
 
-    /// The readings on which the findings rest.
+    /// Returns the readings on which the findings rest.
     pub(super) fn rests_on(&self) -> ReadingsInForce {
         let mut all = ReadingsInForce::default();
         for machine in &self.machines {
@@ -265,31 +265,31 @@ impl AuditReport {
         all
     }
 
-    /// The assumptions about axes on which the findings rest.
+    /// Returns the assumptions about axes on which the findings rest.
     pub(super) fn assumptions(&self) -> impl Iterator<Item = &str> {
         self.machines
             .iter()
             .filter_map(|it| it.assumption.as_deref())
     }
 
-    /// The hazards of all axes.
+    /// Returns the hazards of all axes.
     pub fn hazards(&self) -> u64 {
         let hazards = self.findings().map(AxisFinding::hazards);
         hazards.fold(0, u64::saturating_add)
     }
 
-    /// The possible hazards of all axes.
+    /// Returns the possible hazards of all axes.
     pub fn possible_hazards(&self) -> u64 {
         let hazards = self.findings().map(AxisFinding::possible_hazards);
         hazards.fold(0, u64::saturating_add)
     }
 
-    /// Whether something has to be corrected, or is not known.
+    /// Returns whether something has to be corrected, or is not known.
     pub fn has_warnings(&self) -> bool {
         self.findings().any(AxisFinding::is_worth_a_warning)
     }
 
-    /// The axes and kinds for which the effect of a program is not known, or only on some ways.
+    /// Returns the axes and kinds for which the effect of a program is not known, or only on some ways.
     pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
         let programs = self.machines.iter().flat_map(|it| it.archive.programs());
         let axes = programs.flat_map(|program| &program.axes);
@@ -304,7 +304,7 @@ impl AuditReport {
         programs.sum()
     }
 
-    /// The machine's name if there are several machines.
+    /// Returns the machine's name if there are several machines.
     pub(super) fn origin_among_several<'a>(&self, machine: &'a MachineAudit) -> Option<&'a str> {
         let several = self.machines.len() > 1;
         several.then(|| machine.origin.as_deref().unwrap_or("no configuration"))
@@ -316,21 +316,21 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     #[non_exhaustive]
     pub enum Word {
-        /// It moves the axis as it finds it, and leaves it away from its start-up state.
+        /// Motion of the axis as it is found, and an end away from its start-up state.
         Both = "both",
-        /// It leaves the axis away from its start-up state.
+        /// End with the axis away from its start-up state.
         Leaves = "leaves",
-        /// It does so on some ways.
+        /// Such an effect on some ways.
         Depends = "depends",
-        /// It is not known offline.
+        /// Effect not known offline.
         Unknown = "unknown",
-        /// It moves the axis in the state that it finds.
+        /// Motion of the axis in the state that is found.
         Inherits = "inherits",
-        /// It may move the axis in the state that it finds.
+        /// Possible motion of the axis in the state that is found.
         Perhaps = "perhaps",
-        /// It leaves the axis in its start-up state, and does not move it before that.
+        /// End with the axis in its start-up state, and no motion of it before that.
         StartUp = "start-up",
-        /// It neither takes the axis away from its start-up state nor moves it before it is set.
+        /// No effect: the axis is neither taken away from its start-up state nor moved before it is set.
         Keeps = "keeps",
     }
 }
@@ -384,7 +384,7 @@ impl Word {
     }
 }
 
-/// An axis, with its kind if that is not friction compensation.
+/// Returns an axis, with its kind if that is not friction compensation.
 pub(super) fn axis_name(axis: &str, kind: Kind) -> String {
     if kind == Kind::Frict {
         axis.to_owned()

@@ -9,7 +9,7 @@ use frictcomp_physics::circle::UM_PER_M;
 /// Rows of the CSV per turn: one every 0.1°.
 const ROWS: usize = 3600;
 
-/// The radial deviations: a row every 0.1° for each path.
+/// Returns the radial deviations: a row every 0.1° for each path.
 pub fn render_csv(report: &CircleReport) -> String {
     let mut out = Vec::from("compensation,direction,angle_deg,deviation_um\n");
     for side in &report.sides {

@@ -17,7 +17,7 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::stiction::StictionParameters;
 
-/// The figures, what the shapes suggest, and the conditions.
+/// Returns the figures, what the shapes suggest, and the conditions.
 pub fn document(report: &CircleReport) -> Document<'_> {
     let mut out = Document::new(title(report), report.headline());
     out.figure(|| picture(report));
@@ -51,7 +51,7 @@ pub fn document(report: &CircleReport) -> Document<'_> {
     out
 }
 
-/// The value lists of the axes, one if both have the same.
+/// Returns the value lists of the axes, one if both have the same.
 fn lists(report: &CircleReport) -> Vec<AcceptedList> {
     let Subject::Simulated { test, .. } = &report.subject else {
         return Vec::new();
@@ -79,11 +79,11 @@ const RECORDED: usize = 3;
 /// One figure of all paths.
 struct FigureRow {
     name: String,
-    /// One per path; a figure of both directions is in the first column of its side.
+    /// Values by path; a figure of both directions is in the first column of its side.
     values: Vec<Option<f64>>,
 }
 
-/// The figures of ISO 230-4, then the glitches, in µm.
+/// Returns the figures of ISO 230-4, then the glitches, in µm.
 fn table(report: &CircleReport) -> Table {
     let columns = columns(report);
     let mut table = columns
@@ -133,7 +133,7 @@ fn columns(report: &CircleReport) -> Vec<PathColumn<'_>> {
     found.collect()
 }
 
-/// The conditions of the test, one line each (R5.21).
+/// Returns the conditions of the test, one line each (R5.21).
 fn conditions(report: &CircleReport) -> Vec<String> {
     let mut lines = match &report.subject {
         Subject::Simulated { test, origin, .. } => simulated_conditions(test, origin),
@@ -144,7 +144,7 @@ fn conditions(report: &CircleReport) -> Vec<String> {
     lines
 }
 
-/// The centre about which both paths are compared (R5.21).
+/// Returns the centre about which both paths are compared (R5.21).
 fn bidirectional_condition(report: &CircleReport) -> Option<String> {
     let figures = report.sides.iter().map(|side| &side.side.figures);
     let distances: Vec<String> = figures
@@ -183,7 +183,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
     ))
 }
 
-/// Why the report has no glitches, and what would give some (R5.22).
+/// Returns the reason why the report has no glitches, and what would give some (R5.22).
 pub(super) fn no_glitches(report: &CircleReport) -> Option<String> {
     let limit = report.too_fast()?;
     let radius = limit.radius_mm.map_or(String::new(), |radius| {
@@ -235,7 +235,7 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String>
     lines
 }
 
-/// The value lists, which may differ between the axes.
+/// Returns the value lists, which may differ between the axes.
 fn list_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String> {
     let lists = test.compensation.each_ref();
     let [Some(x), Some(y)] = lists.map(|it| it.as_ref().and_then(Method::list)) else {
@@ -263,8 +263,8 @@ fn list_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String> {
     lines
 }
 
-/// Stiction compensation of the axes: where it does not act, and which guidelines it does not keep
-/// (R8.2, R8.3).
+/// Returns the remarks on stiction compensation of the axes: where it does not act, and which guidelines it does not
+/// keep (R8.2, R8.3).
 fn stiction_conditions(test: &CircularTest) -> Vec<String> {
     let mut lines = vec!["stiction compensation, as the plant file says".to_owned()];
     let drives = [&test.plant.x, &test.plant.y];
@@ -292,7 +292,7 @@ fn stiction_conditions(test: &CircularTest) -> Vec<String> {
     lines
 }
 
-/// The parameters of stiction compensation in one line.
+/// Returns the parameters of stiction compensation in one line.
 pub(crate) fn stiction_line(stiction: &StictionParameters) -> String {
     let feed = stiction.mp1513_m_per_min.map_or(String::new(), |feed| {
         format!(", MP1513 {} m/min", ReadableNumber(feed))
@@ -358,7 +358,7 @@ fn left_out(circle: &RecordedCircle) -> String {
     )
 }
 
-/// What the other turns leave, in words (R5.26).
+/// Describes the glitches of the other turns (R5.26).
 fn other_turns(turns: WholeTurns) -> String {
     match turns.worse {
         Some(worse) => format!("  not every turn is like the evaluated one: {worse}"),

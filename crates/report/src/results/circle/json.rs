@@ -51,10 +51,10 @@ struct ConditionsRecord<'a> {
     data: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     saturated_cycles: Option<u64>,
-    /// What the simulation leaves out.
+    /// Properties of a machine that the simulation leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_modelled: Option<Vec<&'static str>>,
-    /// Why there are no glitches.
+    /// Reason why there are no glitches.
     #[serde(skip_serializing_if = "Option::is_none")]
     glitches_up_to: Option<TooFast>,
     /// Turns of a recording that leave more than the evaluated ones.
@@ -212,14 +212,14 @@ impl<'a> SideRecord<'a> {
     }
 }
 
-/// Stiction compensation of both axes.
+/// Returns the stiction compensation of both axes.
 fn stiction(test: &CircularTest) -> ByAxis<Option<StictionParameters>> {
     let of = |axis: &Option<Method>| axis.as_ref()?.stiction().copied();
     let [x, y] = &test.compensation;
     ByAxis { x: of(x), y: of(y) }
 }
 
-/// The report as JSON, all lengths in µm unless the key says otherwise.
+/// Returns the report as JSON, all lengths in µm unless the key says otherwise.
 pub fn render_json(report: &CircleReport) -> String {
     let side = |name: &str| {
         let side = report.sides.iter().find(|side| side.name == name);

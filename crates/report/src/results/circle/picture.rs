@@ -11,8 +11,8 @@ use frictcomp_physics::circle::{Direction, RadialProfile, UM_PER_M};
 /// Points of a path in the picture.
 const POINTS: usize = 7200;
 
-/// The paths of a circular test, compensation off and on in one circle at one magnification, and the
-/// deviation left with compensation in an inset that magnifies it as far as it needs (R5.30).
+/// Returns the paths of a circular test, compensation off and on in one circle at one magnification, and the deviation
+/// left with compensation in an inset that magnifies it as far as it needs (R5.30).
 pub fn picture(report: &CircleReport) -> PolarChart {
     let mut panels = Vec::new();
     let mut told = Vec::new();

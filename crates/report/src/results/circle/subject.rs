@@ -19,16 +19,16 @@ pub(super) const TREATMENT: &str = "every point of the path for G, F and the gli
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ListOrigin {
-    /// It is the friction curve of the plant.
+    /// Friction curve of the plant.
     Plant,
     /// A file of the user for both axes.
     File(String),
-    /// One for X and one for Y.
+    /// A list for X and a list for Y.
     EachAxis([String; 2]),
 }
 
 impl ListOrigin {
-    /// The names of the files.
+    /// Returns the names of the files.
     pub(super) fn name(&self) -> String {
         match self {
             Self::Plant => "plant".to_owned(),
@@ -46,7 +46,7 @@ pub struct CircleReport {
     pub subject: Subject,
     /// The paths without and with compensation, or the recorded ones.
     pub sides: Vec<NamedSide>,
-    /// What was assumed to read recorded ones.
+    /// Assumptions made in reading recorded paths.
     pub findings: Vec<TraceFinding>,
 }
 
@@ -80,7 +80,7 @@ pub struct NamedSide {
 }
 
 impl CircleReport {
-    /// The report of a simulated test.
+    /// Returns the report of a simulated test.
     pub fn simulated(test: CircularTest, comparison: Comparison, origin: ListOrigin) -> Self {
         let side = |name, advice, side| NamedSide { name, side, advice };
         let without = diagnose(&comparison.off.figures, Some(Switched::Off));
@@ -99,7 +99,7 @@ impl CircleReport {
         }
     }
 
-    /// The report of recorded circles, with what was assumed to read them.
+    /// Returns the report of recorded circles, with what was assumed to read them.
     pub fn recorded((recording, findings): (Recording, Vec<TraceFinding>)) -> Self {
         let side = recording.side.clone();
         Self {
@@ -119,7 +119,8 @@ impl CircleReport {
 const EQUAL_HEIGHTS: f64 = 1e-9;
 
 impl CircleReport {
-    /// The verdict: the largest glitch, without and with compensation or in the recording, and its cure (R18.20).
+    /// Returns the verdict: the largest glitch, without and with compensation or in the recording, and its cure
+    /// (R18.20).
     pub fn headline(&self) -> Headline {
         let worst = |side: &NamedSide| {
             let figures = &side.side.figures;
@@ -167,8 +168,8 @@ impl CircleReport {
         verdict.with_fault(&self.findings)
     }
 
-    /// How far a recorded circle is from the commanded radius, in words, where that is more than any deviation of a
-    /// machine.
+    /// Returns in words the distance of a recorded circle from the commanded radius, where that is more than any
+    /// deviation of a machine.
     fn other_radius(&self) -> Option<String> {
         /// A thousandth of the radius.
         const PART: f64 = 0.001;
@@ -188,7 +189,7 @@ impl CircleReport {
         })
     }
 
-    /// The radius in mm, and the feed in mm/min if it is known.
+    /// Returns the radius in mm, and the feed in mm/min if it is known.
     pub(super) fn driven(&self) -> (f64, Option<f64>) {
         match &self.subject {
             Subject::Simulated { test, .. } => {
@@ -229,9 +230,9 @@ impl CircleReport {
 /// Change that would give figures at the crossings.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct TooFast {
-    /// A feed of at most this.
+    /// Highest feed with figures at the crossings.
     #[serde(rename = "feed_mm_min")]
     pub(super) feed_mm_per_min: f64,
-    /// Or a radius of at least this.
+    /// Radius from which there are figures, as an alternative.
     pub(super) radius_mm: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! What the acceptance of a commissioning needs beyond its results (R16.5).
+//! Requirements for the acceptance of a commissioning beyond its results (R16.5).
 
 use std::fmt::Write as _;
 
@@ -92,7 +92,7 @@ fn push_axis<'a>(out: &mut Document<'a>, report: &'a ResultsReport, verdict: &Ax
     }
 }
 
-/// "travel 0 to 500 mm, 30000 mm/min, 5000 mm/s²"
+/// Returns text such as "travel 0 to 500 mm, 30000 mm/min, 5000 mm/s²".
 fn described(axis: &MeasuredAxis) -> String {
     let (travel, dynamics, unit) = (axis.travel, axis.dynamics, axis.unit());
     format!(

@@ -3,7 +3,7 @@
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use frictcomp_recordings::commission::{BeforeAfter, FrictionFound, Round, Shows};
 
-/// Friction over speed with bars of one standard error, and the points of the list.
+/// Draws friction over speed with bars of one standard error, and the points of the list.
 pub(super) fn friction_of_axis(found: &FrictionFound) -> LineChart {
     let bar = |&[speed, friction, error]: &[f64; 3]| {
         [
@@ -51,8 +51,8 @@ pub(super) fn friction_of_axis(found: &FrictionFound) -> LineChart {
     }
 }
 
-/// A straight line between two points of a list, as points without its end: over the logarithm of the speed it is
-/// a curve.
+/// Returns a straight line between two points of a list, as points without its end: over the logarithm of the speed it
+/// is a curve.
 fn between(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     const PARTS: u32 = 12;
     (0..PARTS).map(move |part| {
@@ -61,7 +61,7 @@ fn between(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// The glitches of a round over the feed, off and on.
+/// Returns the glitches of a round over the feed, off and on.
 pub(super) fn glitches_by_feed(round: &Round) -> LineChart {
     let series = |name: &str, value: fn(&BeforeAfter) -> f64| Series {
         name: name.to_owned(),

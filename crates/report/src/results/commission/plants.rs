@@ -49,7 +49,7 @@ struct FittedParameter {
     range: String,
 }
 
-/// The fitted parameters of an axis.
+/// Returns the fitted parameters of an axis.
 fn parameters(axis: &PlantAxis) -> [FittedParameter; 6] {
     const UM_PER_M: f64 = 1e6;
     const MS_PER_S: f64 = 1e3;
@@ -173,7 +173,7 @@ fn push_plant(out: &mut Document<'_>, verdict: &PlantVerdict) {
     }
 }
 
-/// What was off, or the beginning of the SHA-256 of the list that was on, as in the file names.
+/// Returns `off`, or the beginning of the SHA-256 of the list that was on, as in the file names.
 fn list_on(compared: &ComparedGlitch) -> &str {
     let list = compared.recorded.list.as_deref();
     list.map_or("off", |sum| sum.get(..8).unwrap_or(sum))

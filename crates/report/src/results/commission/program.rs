@@ -7,7 +7,7 @@ use frictcomp_recordings::commission::{
     Installed, MeasuredAxis, MeasuringProgram, PlanReport, PlanStep, Stage, Turning,
 };
 
-/// A program of a plan, with `\n` at the end of each line and ASCII letters only.
+/// Returns a program of a plan, with `\n` at the end of each line and ASCII letters only.
 pub fn render_program(report: &PlanReport, program: &MeasuringProgram) -> String {
     let plan = &report.plan;
     let mut blocks = NumberedBlocks::default();
@@ -64,7 +64,7 @@ pub fn render_program(report: &PlanReport, program: &MeasuringProgram) -> String
     blocks.text
 }
 
-/// The plane of the circles.
+/// Returns the plane of the circles.
 fn plane_of(axes: &[MeasuredAxis]) -> u8 {
     match axes {
         [first, _] if first.name == "Z" => 18,

@@ -15,7 +15,7 @@ use frictcomp_recordings::commission::{
     Shows, ValueListUsed,
 };
 
-/// The verdict: whether the lists of the last round are accepted, and what speaks against them (R18.20).
+/// Returns the verdict: whether the lists of the last round are accepted, and what speaks against them (R18.20).
 fn headline(report: &ResultsReport) -> Headline {
     let missing = match report.missing().len() {
         0 => String::new(),
@@ -58,7 +58,7 @@ fn headline(report: &ResultsReport) -> Headline {
     Headline::new(standing, format!("{text}{rejected}{missing}"))
 }
 
-/// What an acceptance does not cover.
+/// Returns the limitation of an acceptance, in words.
 fn limit(round: &Round) -> &'static str {
     match round.shows {
         Shows::FollowingError => ", and no contour",
@@ -66,7 +66,7 @@ fn limit(round: &Round) -> &'static str {
     }
 }
 
-/// The figure that is compared.
+/// Returns in words the figure that is compared.
 fn figure(round: &Round) -> &'static str {
     match round.shows {
         Shows::FollowingError => "following error after reversals; motor side, not contour",
@@ -74,7 +74,7 @@ fn figure(round: &Round) -> &'static str {
     }
 }
 
-/// The verdict on lists that are not accepted: something speaks against them, or only proof is missing.
+/// Returns the verdict on lists that are not accepted: something speaks against them, or only proof is missing.
 fn refusal(round: &Round) -> &'static str {
     match round.against.as_deref() {
         Some([]) => "not proven",
@@ -82,8 +82,8 @@ fn refusal(round: &Round) -> &'static str {
     }
 }
 
-/// The recordings, what is missing, the lists, the circles before and after, and the plants; then what an acceptance
-/// needs: the friction of each axis, and the files and statements on which the results rest.
+/// Returns the recordings, what is missing, the lists, the circles before and after, and the plants; then what an
+/// acceptance needs: the friction of each axis, and the files and statements on which the results rest.
 pub fn document<'a>(report: &'a ResultsReport, given: &'a Acceptance) -> Document<'a> {
     let machine = given.machine.as_deref();
     let title = format!(
@@ -178,7 +178,7 @@ fn push_recording(out: &mut Document<'_>, report: &ResultsReport, result: &Recor
     }
 }
 
-/// The circles off and on, and whether the lists are accepted.
+/// Adds the circles off and on, and whether the lists are accepted.
 fn push_round<'a>(out: &mut Document<'a>, round: &'a Round) {
     let Some(against) = &round.against else {
         return;
@@ -247,7 +247,7 @@ struct ResultsDocument<'a> {
     rounds: &'a [Round],
 }
 
-/// The results as JSON.
+/// Returns the results as JSON.
 pub fn render_results_json(report: &ResultsReport) -> String {
     to_json(&ResultsDocument {
         schema: Results::SCHEMA,

@@ -9,7 +9,7 @@ use crate::document::{Document, Headline, Standing, Table};
 use crate::wording::{counted, to_json, visible_line};
 use frictcomp_recordings::commission::{MeasuringProgram, PlanFile, PlanReport, Stage};
 
-/// The verdict: the stage, and how long its programs take (R18.20).
+/// Returns the verdict: the stage, and how long its programs take (R18.20).
 fn headline(report: &PlanReport) -> Headline {
     let plan = &report.plan;
     let stage = match plan.stage {
@@ -28,7 +28,7 @@ struct PlanDocument {
     file: PlanFile,
 }
 
-/// The plan with its verdict as JSON.
+/// Returns the plan with its verdict as JSON.
 pub fn render_json(report: &PlanReport) -> String {
     to_json(&PlanDocument {
         headline: headline(report),
@@ -36,7 +36,7 @@ pub fn render_json(report: &PlanReport) -> String {
     })
 }
 
-/// The programs with their times, and their basis.
+/// Returns the programs with their times, and their basis.
 pub fn plan_document(report: &PlanReport) -> Document<'static> {
     let plan = &report.plan;
     let mut out = Document::new("Measuring programs", headline(report));
@@ -99,7 +99,7 @@ pub fn plan_document(report: &PlanReport) -> Document<'static> {
     out
 }
 
-/// A time in a form for the operator.
+/// Returns a time in a form for the operator.
 pub(super) fn minutes(seconds: f64) -> String {
     let whole = (seconds / 60.0).floor();
     format!("{whole:.0}:{:02.0} min", (seconds - whole * 60.0).floor())

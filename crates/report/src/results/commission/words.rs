@@ -3,7 +3,7 @@
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::commission::{MeasuredAxis, Measurement, MeasuringProgram};
 
-/// The measurement of a program in a few words.
+/// Returns the measurement of a program in a few words.
 pub(super) fn told(program: &MeasuringProgram, axes: &[MeasuredAxis]) -> String {
     let name = |axis: usize| axes.get(axis).map_or("?", |it| it.name.as_str());
     match &program.role {
@@ -30,7 +30,7 @@ pub(super) fn told(program: &MeasuringProgram, axes: &[MeasuredAxis]) -> String 
     }
 }
 
-/// A number in a program, to a tenth of a µm.
+/// Returns a number in a program, to a tenth of a µm.
 pub(super) fn number(value: f64) -> String {
     let text = Rounded(value, 4).to_string();
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -85,7 +85,7 @@ impl ContoursReport {
     }
 }
 
-/// The figures of both contours, then the blocks that deviate more.
+/// Adds the figures of both contours, then the blocks that deviate more.
 pub(super) fn push_contours(out: &mut Document<'_>, report: &ContoursReport, program: &str) {
     let comparison = &report.comparison;
     let [old, new] = [Which::Old, Which::New].map(|which| comparison.deviations(which));

@@ -27,7 +27,8 @@ pub struct VersionsReport {
 }
 
 impl VersionsReport {
-    /// The verdict: what changes at the end of the program, then whether the versions switch alike (R18.20, R18.22).
+    /// Returns the verdict: what changes at the end of the program, then whether the versions switch alike (R18.20,
+    /// R18.22).
     pub fn headline(&self) -> Headline {
         let is_known = self.comparison.agreement() != Agreement::NotComparable;
         let ends = self.comparison.ends().iter().filter(|_| is_known);
@@ -85,7 +86,7 @@ impl VersionsReport {
     }
 }
 
-/// The sign of a difference.
+/// Returns the sign of a difference.
 fn sign(which: Which) -> char {
     match which {
         Which::Old => '-',
@@ -99,8 +100,8 @@ const LINE: usize = 6;
 /// Changes of state that a table has at most (R9.52).
 const MAX_CHANGES: usize = 4000;
 
-/// The blocks that switch in one version only, with the reasons why the versions cannot be compared; then the contours,
-/// and all changes of both versions.
+/// Returns the blocks that switch in one version only, with the reasons why the versions cannot be compared; then the
+/// contours, and all changes of both versions.
 pub fn document(report: &VersionsReport) -> Document<'_> {
     let title = format!("{} and {}", report.old, report.new);
     let mut out = Document::new(title, report.headline());
@@ -290,12 +291,12 @@ impl<'a> Hindrance<'a> {
     }
 }
 
-/// The comparison as a JSON document.
+/// Returns the comparison as a JSON document.
 pub fn render_json(report: &VersionsReport) -> String {
     to_json(&record(report))
 }
 
-/// The comparisons of the programs that changed since a revision as one JSON document.
+/// Returns the comparisons of the programs that changed since a revision as one JSON document.
 pub fn render_json_since(reports: &[VersionsReport], revision: &str) -> String {
     #[derive(Serialize)]
     struct ComparisonsDocument<'a> {

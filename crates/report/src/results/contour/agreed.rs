@@ -81,7 +81,7 @@ impl AgreedLine {
         let start = self.text.rfind(' ').map_or(0, |blank| blank + 1);
         self.figures.push(Figure {
             place: start..self.text.len(),
-            // What is compared is what a file can hold.
+            // Values are compared as rounded in a file.
             um: (um * 10.0).round_ties_even() / 10.0,
         });
         self.and(UNIT)
@@ -110,7 +110,7 @@ impl AgreedLine {
         }
     }
 
-    /// The line without its figures, and without the blanks that align them.
+    /// Returns the line without its figures, and without the blanks that align them.
     fn words(&self) -> String {
         let mut words = String::with_capacity(self.text.len());
         let mut done = 0;
@@ -123,7 +123,7 @@ impl AgreedLine {
         words.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Whether no figure differs by more than the tolerance, in tenths as written.
+    /// Returns whether no figure differs by more than the tolerance, in tenths as written.
     fn is_near(&self, other: &Self, tolerance_um: f64) -> bool {
         let mut pairs = self.figures.iter().zip(&other.figures);
         pairs.all(|(one, other)| (one.um - other.um).abs() <= tolerance_um + 1e-9)

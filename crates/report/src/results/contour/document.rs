@@ -34,7 +34,7 @@ impl ContourSubject {
     }
 }
 
-/// The verdict: the reversals without compensation and what they cost, or what is not judged (R18.11, R18.20,
+/// Returns the verdict: the reversals without compensation and what they cost, or what is not judged (R18.11, R18.20,
 /// R18.26).
 pub fn headline(contour: &ContourReport) -> Headline {
     let missing = contour.axes.iter().filter(|axis| axis.uncompensated > 0);
@@ -109,7 +109,7 @@ pub fn headline(contour: &ContourReport) -> Headline {
     }
 }
 
-/// The figures of the three runs, a sentence for each axis, the worst reversals, and the conditions.
+/// Returns the figures of the three runs, a sentence for each axis, the worst reversals, and the conditions.
 pub fn document(
     contour: &ContourReport,
     recorder: &ContourRecorder<'_>,
@@ -205,7 +205,7 @@ fn push_figures(out: &mut Document<'_>, contour: &ContourReport) {
     }
 }
 
-/// "part.nc:165 N1640 (programmed, all off), part.nc:168 N1670 (all on)"
+/// Returns text such as "part.nc:165 N1640 (programmed, all off), part.nc:168 N1670 (all on)".
 fn places(at: [Option<&Cause>; 3]) -> Option<String> {
     let mut places: Vec<(String, Vec<&str>)> = Vec::new();
     for (at, run) in at.into_iter().zip(["programmed", "all on", "all off"]) {
@@ -286,7 +286,7 @@ fn push_beside_the_plane(out: &mut Document<'_>, axes: &[ContourSummary]) {
     }
 }
 
-/// Whether every reversal of a program is counted.
+/// Extent to which the reversals of a program are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Counted {
     All,
@@ -300,7 +300,7 @@ impl Counted {
     }
 }
 
-/// "X reverses 412 times while cutting, 57 times without compensation: …"
+/// Returns text such as "X reverses 412 times while cutting, 57 times without compensation: …".
 fn sentence(axis: &ContourSummary, counted: Counted) -> String {
     let mut text = format!("{} ", axis.axis);
     let rapid = match axis.rapid {

@@ -19,8 +19,8 @@ pub struct GoldenContour {
     pub start: Vec<(String, f64)>,
 }
 
-/// The figures of the three runs, the counts of each axis, and for each block that is cut its
-/// largest deviation, with the glitches of its reversals below.
+/// Returns the figures of the three runs, the counts of each axis, and for each block that is cut its largest
+/// deviation, with the glitches of its reversals below.
 pub fn agreed_contour(
     (contour, blocks): (ContourReport, BlockDeviations),
     subject: &GoldenContour,

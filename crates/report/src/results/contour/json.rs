@@ -26,7 +26,7 @@ fn figures(deviations: &Deviations) -> Value {
     })
 }
 
-/// The counts of an axis, its drive, and the relation of its list to that.
+/// Returns the counts of an axis, its drive, and the relation of its list to that.
 fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
     let glitch = |of: fn(&ContourReversal) -> f64| counted.dearest.as_ref().map_or(0.0, of);
     let mut axis = json!({
@@ -130,7 +130,7 @@ pub fn render_summary(contour: &ContourReport, limits: &ContourLimits) -> String
     to_json_line(&record)
 }
 
-/// Everything as one document.
+/// Renders the whole contour as one document.
 pub fn render_json(
     contour: &ContourReport,
     recorder: &ContourRecorder<'_>,

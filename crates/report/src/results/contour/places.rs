@@ -34,13 +34,13 @@ impl<'a> From<&'a ContourReversal> for ProgramBlock<'a> {
 }
 
 impl ProgramBlock<'_> {
-    /// "part.nc:165 N1640"
+    /// Returns text such as "part.nc:165 N1640".
     pub(crate) fn words(&self) -> String {
         let number = self.number.map_or(String::new(), |n| format!(" N{n}"));
         format!("{}:{}{number}", visible_line(self.file), self.line)
     }
 
-    /// "N1640", with its file if that is not the main program.
+    /// Returns text such as "N1640", with its file if that is not the main program.
     pub(crate) fn beside(&self, program: &str) -> String {
         let number = self.number.map(|n| format!("N{n}"));
         let file = (self.file != program).then(|| visible_line(self.file).into_owned());
@@ -53,7 +53,7 @@ impl ProgramBlock<'_> {
     }
 }
 
-/// The record of a block; `null` if there is none.
+/// Returns the record of a block; `null` if there is none.
 pub(crate) fn record<'a>(at: Option<impl Into<ProgramBlock<'a>>>) -> Value {
     at.map_or(Value::Null, |at| at.into().record())
 }

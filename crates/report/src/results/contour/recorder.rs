@@ -18,13 +18,13 @@ const MOST_SWITCHES: usize = 100;
 
 /// Destination of the reversals.
 enum ReversalSink<'a> {
-    /// Only the worst are kept.
+    /// Only the worst reversals are kept.
     Worst,
-    /// All are kept, and the largest deviation of each block.
+    /// All reversals are kept, and the largest deviation of each block.
     Kept,
-    /// Each is written as a line of JSON.
+    /// Each reversal is written as a line of JSON.
     Ndjson(&'a mut (dyn Write + Send)),
-    /// Each is written as a row.
+    /// Each reversal is written as a row.
     Csv(&'a mut (dyn Write + Send)),
 }
 
@@ -90,12 +90,12 @@ impl<'a> ContourRecorder<'a> {
         }
     }
 
-    /// All reversals, if they are kept.
+    /// Returns all reversals, if they are kept.
     pub fn reversals(&self) -> &[ContourReversal] {
         &self.all
     }
 
-    /// The reversals in feed moves with the largest glitches, the largest first.
+    /// Returns the reversals in feed moves with the largest glitches, the largest first.
     pub fn worst(&self) -> &[ContourReversal] {
         &self.worst
     }
@@ -106,7 +106,7 @@ impl<'a> ContourRecorder<'a> {
         (&self.switches, self.more_switches)
     }
 
-    /// The largest deviation of each block in µm, by file and line, if everything is kept.
+    /// Returns the largest deviation of each block in µm, by file and line, if everything is kept.
     pub fn blocks(&self) -> &BTreeMap<(Arc<str>, u32), f64> {
         &self.blocks
     }

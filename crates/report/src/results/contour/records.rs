@@ -15,7 +15,7 @@ fn position(reversal: &ContourReversal, names: &[String]) -> Map<String, Value> 
         .collect()
 }
 
-/// A reversal: µm, mm, mm/min, mm/s², s, currents in drive units.
+/// Returns a reversal: µm, mm, mm/min, mm/s², s, currents in drive units.
 pub(super) fn reversal_record(reversal: &ContourReversal, names: &[String]) -> Value {
     let glitch = &reversal.glitch_um;
     let figure = |um: f64| reversal.has_figure().then_some(um);

@@ -94,7 +94,7 @@ fn misfit(axis: &ContourAxis, options: &ContourOptions) -> Option<String> {
     ))
 }
 
-/// "compensation of X: the list of the machine, 5 N a drive unit"
+/// Returns text such as "compensation of X: the list of the machine, 5 N a drive unit".
 pub(super) fn compensation(axis: &ContourAxis) -> String {
     let newtons = (axis.newtons_per_unit() * 1000.0).round() / 1000.0;
     let name = visible_line(&axis.name);
@@ -113,7 +113,7 @@ pub(super) fn compensation(axis: &ContourAxis) -> String {
     }
 }
 
-/// Why a contour is not judged: one line each.
+/// Returns the reasons why a contour is not judged: one line each.
 pub(super) fn not_judged(obstacles: &[ContourObstacle]) -> impl Iterator<Item = String> {
     let lines = obstacles.iter();
     lines.map(|obstacle| format!("not judged: {obstacle}"))

@@ -30,7 +30,7 @@ pub struct IdentifyReport {
 }
 
 impl IdentifyReport {
-    /// The findings about the channels, then those about the friction.
+    /// Returns the findings about the channels, then those about the friction.
     pub fn findings(&self) -> impl Iterator<Item = &TraceFinding> {
         self.recording
             .findings
@@ -38,7 +38,7 @@ impl IdentifyReport {
             .chain(&self.identified.findings)
     }
 
-    /// The verdict: the friction over the speeds, and the first fault of the recording (R18.20).
+    /// Returns the verdict: the friction over the speeds, and the first fault of the recording (R18.20).
     pub fn headline(&self) -> Headline {
         let found = &self.identified;
         let axis = self.axis.as_deref();
@@ -60,7 +60,7 @@ impl IdentifyReport {
         Headline::new(Standing::Plain, text).with_fault(self.findings())
     }
 
-    /// What the value list cannot hold, each a clause.
+    /// Returns the limits of what the value list can hold, each a clause.
     fn limits_of_list(&self) -> impl Iterator<Item = String> {
         let found = &self.identified;
         let branches = found
@@ -78,7 +78,7 @@ impl IdentifyReport {
         branches.into_iter().chain(missed)
     }
 
-    /// What is shown, and of which axis.
+    /// Returns a title with the name of the axis, if it has one.
     pub(crate) fn titled(&self, what: &str) -> String {
         match &self.axis {
             Some(axis) => format!("{what} of axis {axis}"),
@@ -95,13 +95,13 @@ impl IdentifyReport {
         faults.chain(self.limits_of_list()).collect()
     }
 
-    /// The unit of torque and friction.
+    /// Returns the unit of torque and friction.
     pub fn unit(&self) -> &str {
         self.recording.torque_unit.as_deref().unwrap_or(DRIVE_UNITS)
     }
 }
 
-/// The findings, then speeds, curve and points.
+/// Returns the findings, then speeds, curve and points.
 pub fn document(report: &IdentifyReport) -> Document<'_> {
     let mut out = Document::new(report.titled("Friction"), report.headline());
     out.figure(|| friction_curve(report));
@@ -183,7 +183,7 @@ fn push_pairs(out: &mut Document<'_>, found: &Identified) {
     out.table(table);
 }
 
-/// Both directions, where an offset does not make them one (R6.25).
+/// Adds both directions, where an offset does not make them one (R6.25).
 fn push_branches(out: &mut Document<'_>, branches: &DirectionBranches, unit: &str) {
     let table = Table::of_numbers(["speed\nmm/s"]);
     let mut table = ["forth", "back"]
@@ -320,12 +320,13 @@ struct SegmentRecord {
     v: f64,
 }
 
-/// The report of an axis, or those of several, as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
+/// Returns the report of an axis, or those of several, as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the
+/// torque.
 pub fn render_json(reports: &[IdentifyReport]) -> String {
     json_of_axes(reports.iter().map(record))
 }
 
-/// The record of an identification.
+/// Returns the record of an identification.
 pub(crate) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
     const PER_MM: f64 = 1000.0;
     let found = &report.identified;
@@ -401,7 +402,7 @@ struct AxesDocument<T> {
     axes: Vec<T>,
 }
 
-/// The record of an axis, or a document with those of several.
+/// Returns the record of an axis, or a document with those of several.
 pub(crate) fn json_of_axes<T: Serialize>(records: impl Iterator<Item = T>) -> String {
     let records: Vec<T> = records.collect();
     match &records[..] {

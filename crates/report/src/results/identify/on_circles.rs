@@ -25,7 +25,7 @@ pub struct OnCirclesReport {
 }
 
 impl OnCirclesReport {
-    /// The unit of torque and friction.
+    /// Returns the unit of torque and friction.
     pub fn unit(&self) -> &str {
         let units = self
             .recordings
@@ -34,7 +34,7 @@ impl OnCirclesReport {
         units.into_iter().next().unwrap_or(DRIVE_UNITS)
     }
 
-    /// The verdict: the friction over the speeds (R18.20).
+    /// Returns the verdict: the friction over the speeds (R18.20).
     pub fn headline(&self) -> Headline {
         let axis = self.axis.as_deref();
         let axis = axis.map_or(String::new(), |axis| format!(" of {axis}"));
@@ -65,7 +65,7 @@ impl OnCirclesReport {
             .collect()
     }
 
-    /// The findings about the channels, those of several files once, then those about the friction.
+    /// Returns the findings about the channels, those of several files once, then those about the friction.
     fn findings(&self) -> Vec<&TraceFinding> {
         let mut findings: Vec<&TraceFinding> = Vec::new();
         let of_files = self.recordings.iter().flat_map(|it| &it.findings);
@@ -78,7 +78,7 @@ impl OnCirclesReport {
     }
 }
 
-/// The friction at each speed.
+/// Returns the friction at each speed.
 pub fn document(report: &OnCirclesReport) -> Document<'_> {
     let mut out = Document::new("Friction on circles", report.headline());
     let found = &report.found;
@@ -120,7 +120,7 @@ struct OnCirclesDocument<'a> {
     diagnostics: Vec<&'a TraceFinding>,
 }
 
-/// The report as JSON; speeds in µm/s or 0.001°/s.
+/// Returns the report as JSON; speeds in µm/s or 0.001°/s.
 pub fn render_json(report: &OnCirclesReport) -> String {
     const PER_MM: f64 = 1000.0;
     let points = report

@@ -26,21 +26,21 @@ pub struct StatesReport {
 }
 
 impl StatesReport {
-    /// The name of the state that the list is for.
+    /// Returns the name of the state that the list is for.
     pub fn working_name(&self) -> &str {
         self.states.get(self.working).map_or("", |it| &it.0)
     }
 
-    /// The verdict: the spread of the states, and the state for which the list is (R18.20).
+    /// Returns the verdict: the spread of the states, and the state for which the list is (R18.20).
     pub fn headline(&self) -> Headline {
         let findings = self.states.iter().flat_map(|(_, report)| report.findings());
-        // What is wrong with a recording has the higher codes.
+        // Faults of a recording have the higher codes.
         let mut findings: Vec<_> = findings.collect();
         findings.sort_by_key(|it| std::cmp::Reverse(it.code));
         Headline::new(Standing::Plain, self.spread()).with_fault(findings)
     }
 
-    /// The spread of the states in a sentence.
+    /// Returns the spread of the states in a sentence.
     pub fn spread(&self) -> String {
         let working = visible_line(self.working_name());
         let Some((speed, spread)) = self
@@ -67,7 +67,7 @@ impl StatesReport {
     }
 }
 
-/// The states side by side, then the one that the list is for.
+/// Returns the states side by side, then the one that the list is for.
 pub fn document(report: &StatesReport) -> Document<'_> {
     let mut out = Document::new("Friction in several states", report.headline());
     out.figure(|| friction_states(report));
@@ -112,7 +112,7 @@ struct StatesDocument<'a, T> {
 
 #[derive(Serialize)]
 struct SpeedStateRecord<'a> {
-    /// In µm/s or 0.001°/s.
+    /// Velocity in µm/s or 0.001°/s.
     v: f64,
     frictions: &'a [Option<[f64; 2]>],
     spread: Option<f64>,
@@ -125,7 +125,7 @@ struct State<'a, T> {
     identified: T,
 }
 
-/// The report as JSON; each state as `identify` gives it alone.
+/// Returns the report as JSON; each state as `identify` gives it alone.
 pub fn render_json(report: &StatesReport) -> String {
     let states = report.states.iter().map(|(name, found)| State {
         name,

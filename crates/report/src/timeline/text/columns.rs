@@ -19,7 +19,7 @@ const LEAST_TEXT: usize = 16;
 /// Maximum width of the block text, so that a few axes are not far away from it.
 const MAX_TEXT: usize = 72;
 
-/// The maximum width of the block text: six tenths of the width if that is less than [`MAX_TEXT`].
+/// Returns the maximum width of the block text: six tenths of the width if that is less than [`MAX_TEXT`].
 fn most_text(width: usize) -> usize {
     MAX_TEXT.min(width * 6 / 10)
 }
@@ -106,12 +106,12 @@ impl AxisColumns {
         }
     }
 
-    /// The number of axes.
+    /// Returns the number of axes.
     pub(super) fn len(&self) -> usize {
         self.axes.len()
     }
 
-    /// The meaning of the symbols, if there are any.
+    /// Returns the meaning of the symbols, if there are any.
     pub(super) fn legend(&self) -> Option<&'static str> {
         (self.words != Words::Full).then_some(
             "on active, off inactive, on! ineffective, - unconfigured, ? unknown, ◄ changed",

@@ -40,7 +40,7 @@ impl<'a> TextLine<'a> {
         self.column += blanks;
     }
 
-    /// The column of the next text.
+    /// Returns the column of the next text.
     pub(super) fn column(&self) -> usize {
         self.column
     }
@@ -137,7 +137,7 @@ pub(super) struct Paragraph<'a> {
 }
 
 impl<'a> Paragraph<'a> {
-    /// A text in a style, without an indent.
+    /// Returns a text in a style, without an indent.
     pub(super) fn new(style: Style, text: &'a str) -> Self {
         Self {
             indent: 0,
@@ -177,7 +177,7 @@ impl<'a> Paragraph<'a> {
     }
 }
 
-/// The colour of a state.
+/// Returns the colour of a state.
 pub(super) fn style(state: State) -> Style {
     match state {
         State::Active => AnsiColor::Green.on_default(),

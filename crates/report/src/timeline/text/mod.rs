@@ -31,7 +31,7 @@ pub enum Runs {
     /// Several of them in a row become one line with their count.
     #[default]
     Folded,
-    /// Each has a line.
+    /// A line for each block.
     Full,
 }
 
@@ -49,14 +49,14 @@ pub struct TextOptions {
     pub messages: MessageExtent,
 }
 
-/// What is shown of a message.
+/// Extent to which a message is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum MessageExtent {
-    /// Its words, its place and its advice.
+    /// Words, its place and its advice.
     #[default]
     Words,
-    /// Its code, place and axis, so that better words change nothing that was agreed (R18.30).
+    /// Code, place and axis, so that better words change nothing that was agreed (R18.30).
     Code,
 }
 
@@ -117,14 +117,13 @@ pub struct Text<W> {
 /// The possible states that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Saying {
-    /// Those that were not printed before.
+    /// States that were not printed before.
     New,
     All,
 }
 
 impl<W: Write> Text<W> {
-    /// A timeline as text. The columns show friction compensation, so its changes are always
-    /// shown.
+    /// Returns a timeline as text. The columns show friction compensation, so its changes are always shown.
     pub fn new(writer: W, mut options: TextOptions) -> Self {
         options.view.kinds.insert(Kind::Frict);
         Self {

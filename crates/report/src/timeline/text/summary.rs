@@ -119,14 +119,14 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
 /// The form of a file name.
 #[derive(Clone, Copy)]
 enum Files {
-    /// As the user named it.
+    /// Name as given by the user.
     Path,
-    /// Without its folders.
+    /// File name without its folders.
     Name,
 }
 
-/// The blocks that changed an axis, as many as fit; without the folders of their files if that takes
-/// too much room.
+/// Returns the blocks that changed an axis, as many as fit; without the folders of their files if that takes too much
+/// room.
 fn changed_by(axis: &AxisSummary, room: usize) -> String {
     let whole = named_blocks(axis, room, Files::Path);
     if whole.width() <= room {

@@ -257,7 +257,7 @@ impl<S: ContourSink> ProgramContour<S> {
         })
     }
 
-    /// The axes that are cut while their state is not known.
+    /// Returns the axes that are cut while their state is not known.
     fn unknown_states(&self) -> impl Iterator<Item = ContourObstacle> {
         let tracer = self.tracer();
         let axes = tracer.options.axes.iter().zip(&tracer.unknown);

@@ -51,8 +51,8 @@ pub struct ContourReport {
 }
 
 impl ContourReport {
-    /// Whether every motion was driven, with positions of the machine: otherwise an axis may reverse
-    /// more often.
+    /// Returns whether every motion was driven, with positions of the machine: otherwise an axis may reverse more
+    /// often.
     pub fn is_whole(&self) -> bool {
         let is_beside = |it: &ContourObstacle| {
             matches!(

@@ -24,7 +24,7 @@ pub struct ContourSubject {
 }
 
 impl ContourSubject {
-    /// The program, and whether its contour is judged.
+    /// Returns the program, and whether its contour is judged.
     pub fn heading(&self, contour: &ContourReport) -> String {
         if contour.obstacles.is_empty() {
             self.program.clone()
@@ -174,7 +174,7 @@ pub fn document(
     out
 }
 
-/// The figures of the three runs, and the places of the extreme ones.
+/// Adds the figures of the three runs, and the places of the extreme ones.
 fn push_figures(out: &mut Document<'_>, contour: &ContourReport) {
     let runs = &contour.deviations;
     let runs = [&runs.programmed, &runs.all_on, &runs.all_off];

@@ -92,7 +92,7 @@ fn limits_record(axis: &AssumedLimits) -> Value {
     })
 }
 
-/// The figures of the three runs, the counts of each axis, and their totals.
+/// Returns the figures of the three runs, the counts of each axis, and their totals.
 fn summary_record(contour: &ContourReport, limits: &ContourLimits) -> Value {
     let deviations = &contour.deviations;
     let due = &contour.due;
@@ -123,7 +123,7 @@ fn summary_record(contour: &ContourReport, limits: &ContourLimits) -> Value {
     })
 }
 
-/// The figures and counts as one line, below the reversals.
+/// Returns the figures and counts as one line, below the reversals.
 pub fn render_summary(contour: &ContourReport, limits: &ContourLimits) -> String {
     let mut record = summary_record(contour, limits);
     record["record"] = "summary".into();
@@ -154,7 +154,7 @@ pub fn render_json(
     to_json(&document)
 }
 
-/// The names of the driven axes.
+/// Returns the names of the driven axes.
 fn names(contour: &ContourReport) -> Vec<String> {
     let axes = contour.options.axes.iter();
     axes.map(|axis| axis.name.clone()).collect()

@@ -9,8 +9,8 @@ use frictcomp_physics::contour::{
 };
 use frictcomp_physics::motion::{Departure, Transitions};
 
-/// The programmed feed and the reached one, the assumed limits, and lists that do not belong to the
-/// plant: one line each (R11.23, R11.25).
+/// Returns the programmed feed and the reached one, the assumed limits, and lists that do not belong to the plant: one
+/// line each (R11.23, R11.25).
 pub fn contour_remarks(contour: &ContourReport, detail: Detail) -> Vec<String> {
     let mut lines: Vec<String> = feed(contour).into_iter().collect();
     lines.extend(transitions(&contour.transitions));
@@ -21,13 +21,13 @@ pub fn contour_remarks(contour: &ContourReport, detail: Detail) -> Vec<String> {
     lines
 }
 
-/// The assumed limits, and the readings on which the figures rest: one line each.
+/// Returns the assumed limits, and the readings on which the figures rest: one line each.
 pub(super) fn conditions(contour: &ContourReport) -> Vec<String> {
     let assumed = assumed_limits(&contour.assumed_limits).into_iter();
     assumed.chain(rests_on_text(&contour.rests_on)).collect()
 }
 
-/// "feed: 2000 mm/min programmed, 105 mm/min reached; 98 % of the cutting time is below 80 % of F"
+/// Returns text such as "feed: 2000 mm/min programmed, 105 mm/min reached; 98 % of the cutting time is below 80 % of F".
 fn feed(contour: &ContourReport) -> Option<String> {
     let feed = &contour.feed;
     Some(format!(

@@ -34,6 +34,6 @@ pub use obstacle::ContourObstacle;
 pub use options::{ContourAxis, ContourOptions, ListSource, MOST_AXES};
 pub use per_run::PerRun;
 pub use program::{ContourPoint, ContourSink, ProgramContour};
-pub use report::ContourReport;
+pub use report::{ContourCompensation, ContourReport};
 pub use reversals::{ContourReversal, GlitchFigure};
 pub use verdict::{ContourLimits, ContourVerdict, ExceededLimit, LimitedFigure};

@@ -5,6 +5,7 @@ use super::figures::{ContourSummary, Deviations, Due};
 use super::obstacle::ContourObstacle;
 use super::options::ContourOptions;
 use super::per_run::PerRun;
+use super::reversals::{ContourReversal, GlitchFigure};
 use crate::motion::{AssumedLimits, Transitions};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::timeline::ReadingsInForce;
@@ -50,7 +51,65 @@ pub struct ContourReport {
     pub rests_on: ReadingsInForce,
 }
 
+/// What the reversals of a contour show of compensation (R18.20).
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum ContourCompensation<'a> {
+    /// Axes that reverse without it while cutting.
+    Missing {
+        /// Those whose cost is measured, or all if none is.
+        axes: Vec<&'a ContourSummary>,
+        /// Whether the cost is measured.
+        is_measured: bool,
+    },
+    /// The reversal with the largest glitch, where compensation makes it larger.
+    Worsening(&'a ContourReversal),
+    /// The reversal with the largest glitch, where every reversal that was driven is compensated.
+    Complete(&'a ContourReversal),
+    /// No axis reverses while cutting.
+    NoReversal,
+    /// No path was driven while cutting.
+    NothingCut,
+}
+
 impl ContourReport {
+    /// Returns what the reversals that were driven show of compensation.
+    pub fn compensation(&self) -> ContourCompensation<'_> {
+        let is_measured = |axis: &&ContourSummary| {
+            let dearest = axis.dearest.as_ref();
+            dearest.is_some_and(|it| it.figure == GlitchFigure::Measured)
+        };
+        let missing: Vec<_> = self
+            .axes
+            .iter()
+            .filter(|axis| axis.uncompensated > 0)
+            .collect();
+        if !missing.is_empty() {
+            let measured: Vec<_> = missing.iter().copied().filter(is_measured).collect();
+            return ContourCompensation::Missing {
+                is_measured: !measured.is_empty(),
+                axes: if measured.is_empty() {
+                    missing
+                } else {
+                    measured
+                },
+            };
+        }
+        let glitch = |it: &ContourReversal| it.glitch_um.programmed;
+        let worst = self.axes.iter().filter_map(|axis| axis.worst.as_ref());
+        let worst = worst.max_by(|one, other| glitch(one).total_cmp(&glitch(other)));
+        match worst {
+            Some(worst) if worst.glitch_um.all_on > worst.glitch_um.all_off => {
+                ContourCompensation::Worsening(worst)
+            }
+            Some(worst) => ContourCompensation::Complete(worst),
+            None if self.deviations.programmed.max_at().is_some() => {
+                ContourCompensation::NoReversal
+            }
+            None => ContourCompensation::NothingCut,
+        }
+    }
+
     /// Returns whether every motion was driven, with positions of the machine: otherwise an axis may reverse more
     /// often.
     pub fn is_whole(&self) -> bool {

@@ -10,7 +10,7 @@ use crate::document::{Document, Headline, Phrase, Standing, Table};
 use crate::wording::{Detail, counted, glitch_in_words, visible_line};
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{
-    ContourReport, ContourReversal, ContourSummary, Deviations, GlitchFigure,
+    ContourCompensation, ContourReport, ContourReversal, ContourSummary, Deviations, GlitchFigure,
 };
 use frictcomp_physics::motion::Cause;
 
@@ -37,64 +37,49 @@ impl ContourSubject {
 /// Returns the verdict: the reversals without compensation and what they cost, or what is not judged (R18.11, R18.20,
 /// R18.26).
 pub fn headline(contour: &ContourReport) -> Headline {
-    let missing = contour.axes.iter().filter(|axis| axis.uncompensated > 0);
-    let costs = |axis: &&ContourSummary| {
-        let dearest = axis.dearest.as_ref();
-        dearest.is_some_and(|it| it.figure == GlitchFigure::Measured)
-    };
-    let any_cost = missing.clone().any(|axis| costs(&axis));
-    let missing = missing.filter(|axis| costs(axis) || !any_cost);
-    let missing = missing.map(|axis| {
-        let reversals = counted(axis.uncompensated, "reversal");
-        let cost = axis
-            .dearest
-            .as_ref()
-            .filter(|_| any_cost)
-            .map_or(String::new(), |dearest| {
-                format!(
-                    ": {:.1} µm at {}, {:.1} µm with compensation",
-                    dearest.glitch_um.programmed,
-                    ProgramBlock::from(dearest).words(),
-                    dearest.glitch_um.all_on,
-                )
+    let (standing, found) = match contour.compensation() {
+        ContourCompensation::Missing { axes, is_measured } => {
+            let missing = axes.into_iter().map(|axis| {
+                let reversals = counted(axis.uncompensated, "reversal");
+                let dearest = axis.dearest.as_ref().filter(|_| is_measured);
+                let cost = dearest.map_or(String::new(), |dearest| {
+                    format!(
+                        ": {:.1} µm at {}, {:.1} µm with compensation",
+                        dearest.glitch_um.programmed,
+                        ProgramBlock::from(dearest).words(),
+                        dearest.glitch_um.all_on,
+                    )
+                });
+                format!("{} is not compensated at {reversals}{cost}", axis.axis)
             });
-        format!("{} is not compensated at {reversals}{cost}", axis.axis)
-    });
-    let missing: Vec<String> = missing.collect();
-    let worst = contour.axes.iter().filter_map(|axis| axis.worst.as_ref());
-    let worst = worst.max_by(|one, other| {
-        one.glitch_um
-            .programmed
-            .total_cmp(&other.glitch_um.programmed)
-    });
-    let (standing, found) = if !missing.is_empty() {
-        (Standing::Bad, missing.join("; "))
-    } else if let Some(worst) = worst
-        && worst.glitch_um.all_on > worst.glitch_um.all_off
-    {
-        let text = format!(
-            "compensation makes {} worse: {:.1} µm at {}, {:.1} µm without compensation",
-            worst.axis,
-            worst.glitch_um.programmed,
-            ProgramBlock::from(worst).words(),
-            worst.glitch_um.all_off
-        );
-        (Standing::Bad, text)
-    } else if let Some(worst) = worst {
-        let text = format!(
-            "every reversal that was driven is compensated: {} leaves at most {:.1} µm, at {}",
-            worst.axis,
-            worst.glitch_um.programmed,
-            ProgramBlock::from(worst).words()
-        );
-        (Standing::Good, text)
-    } else if contour.deviations.programmed.max_at().is_some() {
-        (Standing::Good, "no axis reverses while cutting".to_owned())
-    } else {
-        (
-            Standing::Open,
-            "no path was driven while cutting".to_owned(),
-        )
+            (Standing::Bad, missing.collect::<Vec<_>>().join("; "))
+        }
+        ContourCompensation::Worsening(worst) => {
+            let text = format!(
+                "compensation makes {} worse: {:.1} µm at {}, {:.1} µm without compensation",
+                worst.axis,
+                worst.glitch_um.programmed,
+                ProgramBlock::from(worst).words(),
+                worst.glitch_um.all_off
+            );
+            (Standing::Bad, text)
+        }
+        ContourCompensation::Complete(worst) => {
+            let text = format!(
+                "every reversal that was driven is compensated: {} leaves at most {:.1} µm, at {}",
+                worst.axis,
+                worst.glitch_um.programmed,
+                ProgramBlock::from(worst).words()
+            );
+            (Standing::Good, text)
+        }
+        ContourCompensation::NoReversal => {
+            (Standing::Good, "no axis reverses while cutting".to_owned())
+        }
+        _ => {
+            let text = "no path was driven while cutting".to_owned();
+            (Standing::Open, text)
+        }
     };
     match (contour.obstacles.first(), standing) {
         (None, _) => Headline::new(standing, found),

@@ -178,6 +178,11 @@ impl BlockLowering<'_> {
         self.block
             .items
             .push(Item::Unread(Effect::Everything, span));
+        // A user who says that the command does nothing says so of its own arguments only.
+        if let Some(other) = other_command(&span.of(self.code)[1..]) {
+            let behind = Span::new(start + 1 + other, span.end as usize);
+            self.beside(&format!("`{name}`"), behind);
+        }
     }
 
     fn expressions_in(&mut self, rest: Span) -> Vec<Operand> {
@@ -217,6 +222,46 @@ impl BlockLowering<'_> {
         }
         places
     }
+}
+
+/// Returns where the arguments of an unknown command end and something begins that the control would execute: a COMP
+/// command, a call, a jump, a macro or another command.
+fn other_command(text: &str) -> Option<usize> {
+    let mut depth = 0_u32;
+    let mut word = 0;
+    for (at, letter) in text.char_indices() {
+        let before = text[..at].chars().next_back();
+        let is_in_word = |it: char| it.is_ascii_alphanumeric() || it == '_';
+        if is_in_word(letter) && !before.is_some_and(is_in_word) {
+            word = at;
+            let rest = &text[at..];
+            let name = rest.trim_start_matches(['L', 'l']);
+            let calls = matches!(rest.len() - name.len(), 1 | 2)
+                && name
+                    .trim_start_matches(is_blank)
+                    .starts_with(|it: char| it.is_alphabetic() || it == '"')
+                && name.starts_with(|it: char| is_blank(it) || it == '"');
+            if depth == 0 && calls {
+                return Some(at);
+            }
+        }
+        match letter {
+            '[' => {
+                let inner = text[at + 1..].trim_start_matches(is_blank);
+                if inner
+                    .get(..4)
+                    .is_some_and(|it| it.eq_ignore_ascii_case("COMP"))
+                {
+                    return Some(word);
+                }
+                depth += 1;
+            }
+            ']' => depth = depth.saturating_sub(1),
+            '$' | '#' | '"' if depth == 0 => return Some(at),
+            _ => {}
+        }
+    }
+    None
 }
 
 /// Returns the start of the next name that may be one of a parameter or variable.

@@ -8,7 +8,7 @@ use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{Installed, PlanReport, Stage};
 
 /// One page in ASCII letters, at most 78 columns wide: the programs, and how to run and record them.
-pub fn render_readme(report: &PlanReport) -> String {
+pub(super) fn render_readme(report: &PlanReport) -> String {
     let plan = &report.plan;
     let mut out = String::new();
     let names: Vec<&str> = plan.axes.iter().map(|it| it.name.as_str()).collect();

@@ -24,8 +24,8 @@ use crate::work::{Stop, interruptible};
 /// Writes the NC programs that test on the control what its documents leave open, and a page for the operator.
 ///
 /// Only the folder ``into`` gets files, and no program there is replaced. ``axis`` is the axis to test, by default the first
-/// one with P-AXIS-00522 = 1; it moves no farther than ``travel``, by default 10 mm or degrees. Returns the names of the
-/// programs.
+/// one with P-AXIS-00522 = 1; it moves no farther than ``travel``, by default 10 mm or degrees. Returns a document with the
+/// names of the programs.
 #[pyfunction]
 #[pyo3(signature = (into, *, axis=None, travel=None, machine=None, cnc_build=None))]
 pub(crate) fn ask_write(

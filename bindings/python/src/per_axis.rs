@@ -22,31 +22,31 @@ impl<T> PerAxis<T> {
     /// The value of one of some axes in an argument, if it has one.
     pub(crate) fn of(
         &self,
-        axis: &str,
+        name: &str,
         (argument, axes): (&str, &[&str]),
     ) -> Result<Option<&T>, Failure> {
         let values = match self {
             Self::Every(value) => return Ok(Some(value)),
             Self::Each(values) => values,
         };
-        if let Some(name) = values.keys().find(|it| !axes.contains(&it.as_str())) {
-            let message = format!("`{argument}` names `{name}`, which is not an axis here");
+        if let Some(other) = values.keys().find(|it| !axes.contains(&it.as_str())) {
+            let message = format!("`{argument}` names `{other}`, which is not an axis here");
             let help = format!("the axes are {}", axes.join(", "));
             return Err(Failure::new(message).with_help(help));
         }
-        Ok(values.get(axis))
+        Ok(values.get(name))
     }
 
     /// The value of one of some axes in an argument that has to give one for each.
     pub(crate) fn required(
         &self,
-        axis: &str,
+        name: &str,
         (argument, axes): (&str, &[&str]),
     ) -> Result<&T, Failure> {
-        self.of(axis, (argument, axes))?.ok_or_else(|| {
+        self.of(name, (argument, axes))?.ok_or_else(|| {
             let each = axes.iter().map(|it| format!("'{it}': …"));
             let each = each.collect::<Vec<_>>().join(", ");
-            Failure::new(format!("`{argument}` gives nothing for `{axis}`")).with_help(format!(
+            Failure::new(format!("`{argument}` gives nothing for `{name}`")).with_help(format!(
                 "give one value for every axis, or `{argument}={{{each}}}`"
             ))
         })

@@ -16,6 +16,7 @@ use pyo3::prelude::*;
 
 use crate::identify::{given_units, switched};
 use crate::json::JsonText;
+use crate::outputs::place;
 use crate::words::{meant_if_given, seconds};
 use crate::work::interruptible;
 
@@ -55,15 +56,14 @@ pub(crate) fn evaluate_commissioning(
         let planned = read_plans(&folder, &registry)?;
         let recordings = recordings_in(&folder.join("recordings"))?;
         let of_axis = |axis: &str| {
-            let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
             let selection = ChannelSelection {
                 axis: Some(axis.to_owned()),
                 time: time.clone(),
-                position: named(&position),
-                velocity: named(&velocity),
-                torque: named(&torque),
-                actual_position: named(&actual_position),
-                following_error: named(&following_error),
+                position: position.clone(),
+                velocity: velocity.clone(),
+                torque: torque.clone(),
+                actual_position: actual_position.clone(),
+                following_error: following_error.clone(),
                 units: units.clone(),
                 is_for_several: true,
                 ..ChannelSelection::default()
@@ -99,7 +99,7 @@ pub(crate) fn evaluate_commissioning(
         let mut outputs = OutputFiles::new(&registry);
         let watch = Watch::by(Arc::new(stop.clone()));
         let report = commissioning.evaluate(&mut outputs, &watch)?;
-        outputs.finish(|_| ())?;
+        place(outputs, stop)?;
         Ok(JsonText(commission::render_results_json(&report)))
     })
 }

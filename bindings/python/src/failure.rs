@@ -1,6 +1,6 @@
 //! Failures as exceptions of Python.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::session::StateError;
@@ -9,10 +9,12 @@ use frictcomp_host::{HostError, NoDrivenContour};
 use frictcomp_physics::circle::CircleError;
 use frictcomp_physics::contour::NoContour;
 use frictcomp_physics::current::FollowError;
+use frictcomp_recordings::evidence::UnreadAnswer;
 use frictcomp_recordings::identify::IdentifyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::advice;
 use crate::exceptions::error;
 use crate::messages::PyMessage;
 
@@ -39,6 +41,15 @@ impl Failure {
     /// A failure with advice on what to do.
     pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
         let help = Some(help.into());
+        Self { help, ..self }
+    }
+
+    /// The failure after lines that could not be read as answers: they are named first.
+    pub(crate) fn after(self, unread: &[UnreadAnswer]) -> Self {
+        let places = unread.iter();
+        let places = places.map(|it| format!("{}:{}: {}", it.file, it.line, it.reason));
+        let help: Vec<String> = places.chain(self.help).collect();
+        let help = (!help.is_empty()).then(|| help.join("; "));
         Self { help, ..self }
     }
 
@@ -111,13 +122,17 @@ impl From<HostError> for Failure {
             | HostError::StateNotRegular(path)
             | HostError::StateInUse(path)
             | HostError::State { path, .. }
+            | HostError::ValueList { path, .. }
+            | HostError::Plant { path, .. }
             | HostError::NotAProject { path, .. }
             | HostError::NotAStartupList { path, .. } => Some(path.clone()),
+            HostError::Commission(error) => error.path().map(Path::to_owned),
+            HostError::Ask(error) => error.path().map(Path::to_owned),
             _ => None,
         };
         Self {
             message: error.to_string(),
-            help: error.help(),
+            help: advice::about(&error),
             file,
             diagnostics: error.diagnostics().to_vec(),
         }

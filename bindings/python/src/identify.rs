@@ -25,7 +25,7 @@ use crate::failure::Failure;
 use crate::json;
 use crate::notebook;
 use crate::pickled::{self, Reduced};
-use crate::several::Several;
+use crate::several::OneOrSeveral;
 use crate::words::{meant_if_given, seconds};
 use crate::work::interruptible;
 
@@ -75,7 +75,7 @@ pub(crate) fn switched(word: &str) -> PyResult<Switched> {
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn identify(
     py: Python<'_>,
-    recordings: Recordings,
+    recordings: OneOrSeveral<PathBuf>,
     axis: Option<String>,
     time: Option<String>,
     position: Option<String>,
@@ -105,7 +105,7 @@ pub(crate) fn identify(
         ..ChannelSelection::default()
     };
     let mut recorded = AxisRecordings {
-        recordings: recordings.paths(),
+        recordings: recordings.0,
         selection,
         cycle_s: seconds(py, cycle_time_ms)?,
         torque_kind: meant_if_given("torque_kind", torque_kind)?,
@@ -142,24 +142,6 @@ pub(crate) fn given_units(units: Option<HashMap<String, String>>) -> PyResult<Ve
         ))),
     });
     known.collect()
-}
-
-/// One recording, or several.
-#[derive(FromPyObject)]
-pub(crate) enum Recordings {
-    /// One.
-    One(PathBuf),
-    /// Several.
-    Several(Several<PathBuf>),
-}
-
-impl Recordings {
-    pub(crate) fn paths(self) -> Vec<PathBuf> {
-        match self {
-            Self::One(path) => vec![path],
-            Self::Several(Several(paths)) => paths,
-        }
-    }
 }
 
 impl AxisRecordings {

@@ -1,7 +1,9 @@
 //! The Python module `frictcomp._engine`: the features of `frictcomp` as Python classes and functions.
 //! They are documented where Python users read it, in `python/frictcomp/_engine.pyi`.
 
+mod advice;
 mod arrow;
+mod ask;
 mod audit;
 mod check;
 mod command;
@@ -14,11 +16,15 @@ mod failure;
 mod identify;
 mod json;
 mod kinds;
+mod learn;
 mod limits;
 mod machine;
 mod messages;
 mod notebook;
+mod outputs;
+mod per_axis;
 mod pickled;
+mod planned;
 mod planner;
 mod program;
 mod recording;
@@ -46,6 +52,8 @@ mod _engine {
     }
 
     #[pymodule_export]
+    use super::ask::{ask_list, ask_read, ask_write};
+    #[pymodule_export]
     use super::audit::{PyAudit, audit};
     #[pymodule_export]
     use super::check::check;
@@ -62,11 +70,15 @@ mod _engine {
     #[pymodule_export]
     use super::identify::{PyIdentified, identify};
     #[pymodule_export]
+    use super::learn::learn;
+    #[pymodule_export]
     use super::limits::PyLimits;
     #[pymodule_export]
     use super::machine::PyMachine;
     #[pymodule_export]
     use super::messages::{PyEnd, PyFix, PyMessage, PyMessages};
+    #[pymodule_export]
+    use super::planned::plan;
     #[pymodule_export]
     use super::program::PyText;
     #[pymodule_export]

@@ -197,6 +197,14 @@ pub(crate) fn machine_of(
     of_first(machines, programs)
 }
 
+/// The machine of the current folder.
+pub(crate) fn machine_here(
+    options: MachineOptions,
+    registry: &FileRegistry,
+) -> Result<Arc<LoadedMachine>, Failure> {
+    Ok(Machines::new(options, registry).for_folder(Path::new("."))?)
+}
+
 /// The machine of a program that is watched.
 pub(crate) fn watched_machine_of(
     options: MachineOptions,

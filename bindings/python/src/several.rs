@@ -21,3 +21,18 @@ impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for Several<T> {
         values.collect::<PyResult<_>>().map(Self)
     }
 }
+
+/// One value, or the values of an iterable.
+pub(crate) struct OneOrSeveral<T>(pub(crate) Vec<T>);
+
+impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for OneOrSeveral<T> {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(one) = given.extract::<T>() {
+            return Ok(Self(vec![one]));
+        }
+        let Several(values) = given.extract()?;
+        Ok(Self(values))
+    }
+}

@@ -1,6 +1,5 @@
 //! `frictcomp.circle` and `frictcomp.tune`: circular tests, and the parameters that suit them.
 
-use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -28,11 +27,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::exceptions::refused;
 use crate::failure::Failure;
-use crate::identify::Recordings;
 use crate::json;
 use crate::notebook;
+use crate::per_axis::PerAxis;
 use crate::pickled::{self, Reduced};
-use crate::several::Several;
+use crate::several::{OneOrSeveral, Several};
 use crate::words::{meant, meant_if_given, seconds};
 use crate::work::{Stop, interruptible};
 
@@ -41,15 +40,6 @@ const MAX_CIRCLES: usize = 32;
 
 /// The first build that reads outputs with fractions (P-COMP-00047).
 const FRACTIONS: CncBuild = CncBuild::new([3, 1, 3132, 0]);
-
-/// One value list for both axes, or one for each.
-#[derive(FromPyObject)]
-pub(crate) enum Lists {
-    /// For both.
-    Both(PathBuf),
-    /// By the axis, `X` and `Y`.
-    Each(HashMap<String, PathBuf>),
-}
 
 /// A circular test: its figures and its picture.
 #[pyclass(frozen, name = "Circle", module = "frictcomp")]
@@ -82,14 +72,14 @@ pub(crate) fn circle(
     feed_mm_per_min: Option<f64>,
     plant: &str,
     model: Option<&str>,
-    value_list: Option<Lists>,
+    value_list: Option<PerAxis<PathBuf>>,
     cycle_time_ms: Option<f64>,
     reading: Option<&str>,
-    recordings: Option<Recordings>,
+    recordings: Option<OneOrSeveral<PathBuf>>,
     centre: Option<&str>,
 ) -> PyResult<PyCircle> {
     let centre: PathCentre = meant("centre", centre)?;
-    if let Some(recordings) = recordings {
+    if let Some(OneOrSeveral(recordings)) = recordings {
         let of_simulations = [
             ("model", model.is_some()),
             ("value_list", value_list.is_some()),
@@ -100,7 +90,6 @@ pub(crate) fn circle(
             let message = format!("`{name}` has no effect on recordings");
             return Err(Failure::new(message).into_error(py));
         }
-        let recordings = recordings.paths();
         if recordings.is_empty() {
             let failure = Failure::new("no recording was given");
             let failure =
@@ -147,7 +136,7 @@ struct Simulated {
 impl Simulated {
     fn driven(
         self,
-        lists: Option<Lists>,
+        lists: Option<PerAxis<PathBuf>>,
         centre: PathCentre,
         stop: &Stop,
     ) -> Result<PyCircle, Failure> {
@@ -156,7 +145,7 @@ impl Simulated {
         let (compensation, origin) = match lists {
             None => (Method::of_plant(&plant), ListOrigin::Plant),
             Some(lists) => {
-                let (lists, origin) = read(lists)?;
+                let (lists, origin) = read(&lists)?;
                 (lists.map(|list| Some(list.into())), origin)
             }
         };
@@ -174,25 +163,17 @@ impl Simulated {
     }
 }
 
-fn read(lists: Lists) -> Result<([FrictionList; 2], ListOrigin), Failure> {
+fn read(lists: &PerAxis<PathBuf>) -> Result<([FrictionList; 2], ListOrigin), Failure> {
     let list = |path: &PathBuf| {
         Ok::<_, Failure>(read_value_list(path, &FileRegistry::default(), &Disk::default())?.list)
     };
     let name = |path: &PathBuf| shown_path(path);
-    match &lists {
-        Lists::Both(path) => {
-            let both = list(path)?;
-            Ok(([both.clone(), both], ListOrigin::File(name(path))))
-        }
-        Lists::Each(each) => match (each.get("X"), each.get("Y"), each.len()) {
-            (Some(x), Some(y), 2) => Ok((
-                [list(x)?, list(y)?],
-                ListOrigin::EachAxis([name(x), name(y)]),
-            )),
-            _ => Err(Failure::new("there is not one value list for each axis")
-                .with_help("give one path for both, or `{'X': …, 'Y': …}`")),
-        },
-    }
+    let [x, y] = lists.required_of_plane("value_list")?;
+    let origin = match lists {
+        PerAxis::Every(path) => ListOrigin::File(name(path)),
+        PerAxis::Each(_) => ListOrigin::EachAxis([name(x), name(y)]),
+    };
+    Ok(([list(x)?, list(y)?], origin))
 }
 
 /// The parameters of a value list that leave the smallest glitch on a simulated machine.

@@ -32,6 +32,14 @@ impl Stop {
         }
     }
 
+    /// Refuses to go on with work that was cancelled.
+    pub(crate) fn refuse(&self) -> Result<(), Failure> {
+        match self.flow() {
+            ControlFlow::Break(()) => Err(Failure::new("the work was cancelled")),
+            ControlFlow::Continue(()) => Ok(()),
+        }
+    }
+
     fn want(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

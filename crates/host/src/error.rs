@@ -377,9 +377,7 @@ impl HostError {
                 });
             }
             Self::Trace(error) => return error.help(),
-            Self::Ask(AskError::Contradiction(_)) => {
-                "give the files of one control, and one at a time to see which it is"
-            }
+            Self::Ask(error) => return error.help(),
             Self::Commission(error) => return error.help(),
             Self::Memory { .. } if cfg!(windows) => "close other programs",
             Self::Memory { .. } => {

@@ -4,7 +4,9 @@
 compensation active after each block. The timeline is a table that pandas, polars and DuckDB accept
 without a copy. ``check`` returns the messages of whole folders, ``audit`` the effect of the order of
 programs. ``current``, ``contour``, ``circle``, ``tune``, ``identify`` and ``verify`` are about the compensation itself,
-``trace`` shows what is in a recording, ``replay`` compares one with the dry run, ``commission`` and ``trend`` evaluate folders of recordings.
+``trace`` shows what is in a recording, ``replay`` compares one with the dry run. ``plan`` writes measuring programs,
+``commission``, ``learn`` and ``trend`` evaluate folders of recordings, ``ask_write``, ``ask_read`` and ``ask_list`` put to a
+control what its documents leave open.
 
     import frictcomp, polars
     timeline = frictcomp.run("part.nc")
@@ -35,6 +37,9 @@ from ._engine import (
     Text,
     Timeline,
     Tuned,
+    ask_list,
+    ask_read,
+    ask_write,
     audit,
     audit_sequence,
     check,
@@ -45,6 +50,8 @@ from ._engine import (
     current_of_recording,
     explain,
     identify,
+    learn,
+    plan,
     replay,
     run,
     trace,
@@ -76,6 +83,9 @@ __all__ = [
     "Text",
     "Timeline",
     "Tuned",
+    "ask_list",
+    "ask_read",
+    "ask_write",
     "audit",
     "audit_sequence",
     "check",
@@ -86,6 +96,8 @@ __all__ = [
     "current_of_recording",
     "explain",
     "identify",
+    "learn",
+    "plan",
     "replay",
     "run",
     "trace",

@@ -6,6 +6,9 @@ import numpy
 from numpy.typing import NDArray
 
 __all__ = [
+    "ask_list",
+    "ask_read",
+    "ask_write",
     "Audit",
     "audit",
     "check",
@@ -20,12 +23,14 @@ __all__ = [
     "current_of_recording",
     "Identified",
     "identify",
+    "learn",
     "Limits",
     "Machine",
     "End",
     "Fix",
     "Message",
     "Messages",
+    "plan",
     "Text",
     "trace",
     "verify",
@@ -807,6 +812,28 @@ def replay(
     ``tolerance_um`` is how much positions may differ where no blocks were recorded, in µm or 0.001°.
     """
 
+def plan(
+    axis: str | Iterable[str],
+    *,
+    travel: tuple[float, float] | Mapping[str, tuple[float, float]],
+    feeds: Iterable[float],
+    radius_mm: float | None = None,
+    pitch: float | Mapping[str, float] | None = None,
+    slowest: float | None = None,
+    approach: float | None = None,
+    value_list: _Path | Mapping[str, _Path] | None = None,
+    into: _Path | None = None,
+    machine: Machine | _Path | None = None,
+) -> Any:
+    """Plans the NC programs that measure friction: the document of ``frictcomp commission plan --format json``.
+
+    ``axis`` is one axis, or two linear ones. ``travel`` is what is free of each, in mm or degrees, ``{"X": (0, 300)}``;
+    nothing leaves its inner 90 %. ``feeds`` are those of circles or strokes in mm/min or °/min, at least four over a decade.
+    ``pitch`` is the distance over which the torque repeats, ``slowest`` the slowest speed, by default 0.2 mm/s, ``approach``
+    the feed of all motions that are not measured, by default 1000 mm/min. With ``value_list`` it is stage 2, with these lists
+    on. Only ``into`` writes the programs, a page for the operator and the plan, to this folder.
+    """
+
 def commission(
     folder: _Path,
     *,
@@ -832,6 +859,31 @@ def commission(
     tuned on them, without ``shaping`` as the friction curve is.
     """
 
+def learn(
+    folder: _Path,
+    *,
+    plant: str,
+    friction: _Path | Mapping[str, _Path] | None = None,
+    value_list: _Path | Mapping[str, _Path] | None = None,
+    model: str | None = None,
+    cycle_time_ms: float | None = None,
+    reading: str | None = None,
+    time: str | None = None,
+    position: str | Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    cnc_build: str | None = None,
+    write_list: _Path | Mapping[str, _Path] | None = None,
+) -> Any:
+    """Learns value lists from recorded circles, round by round: the document of ``frictcomp commission learn --format json``.
+
+    The folder holds ``round-1``, ``round-2`` and so on, each with the lists ``X.lis`` and ``Y.lis`` and the circles that were
+    recorded with them. The recordings judge the lists; ``plant`` gives only the direction of the next step. ``friction``
+    begins the first round with the measured friction, ``value_list`` with other lists of at most 1.3 times as much. Each call
+    judges what is recorded, and writes the lists of the next round and ``learning.json`` to the folder; no other list there is
+    replaced. ``position`` names the channel of the actual positions, with ``%`` for the axis. ``write_list`` is where the best
+    list of each axis is written, ``{"X": "comp_x.lis"}``.
+    """
+
 def trend(
     folder: _Path,
     *,
@@ -851,6 +903,50 @@ def trend(
     Takes every recording of constant speeds in a folder whose name holds a date, ``x-2026-03-01.csv``; the channels are named
     as for ``identify``.
     """
+
+def ask_write(
+    into: _Path,
+    *,
+    axis: str | None = None,
+    travel: float | None = None,
+    machine: Machine | _Path | None = None,
+    cnc_build: str | None = None,
+) -> Any:
+    """Writes the NC programs that test on the control what its documents leave open, and a page for the operator.
+
+    Only the folder ``into`` gets files, and no program there is replaced. ``axis`` is the axis to test, by default the first
+    one with P-AXIS-00522 = 1; it moves no farther than ``travel``, by default 10 mm or degrees. Returns a document with the
+    names of the programs.
+    """
+
+def ask_read(
+    files: _Path | Iterable[_Path],
+    *,
+    axis: str | None = None,
+    time: str | None = None,
+    position: str | None = None,
+    velocity: str | None = None,
+    torque: str | None = None,
+    units: Mapping[str, str] | None = None,
+    cycle_time_ms: float | None = None,
+    machine: Machine | _Path | None = None,
+    cnc_build: str | None = None,
+    into: _Path | None = None,
+) -> Any:
+    """Reads the answers of a control: the document of ``frictcomp ask read --format json``.
+
+    The files are ``message.txt`` of the control, notes, and recordings, in which ``axis`` is read, by default the first one
+    with P-AXIS-00522 = 1; their channels are named as for ``identify``, ``torque`` being the additive current. Only
+    ``into``, a ``frictcomp.toml`` that may be new, records what is decided; without it nothing is written. ``unread`` of the
+    document has the lines that are marked as answers and cannot be read.
+    """
+
+def ask_list(
+    *,
+    machine: Machine | _Path | None = None,
+    cnc_build: str | None = None,
+) -> Any:
+    """The open questions, what is assumed, and what is answered: the document of ``frictcomp ask list --format json``."""
 
 def command(arguments: Sequence[_Path]) -> int:
     """Runs the command line, the name of the program first; returns its exit status."""

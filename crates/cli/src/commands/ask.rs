@@ -8,13 +8,14 @@ use clap::{Args, Subcommand};
 use crate::args::{
     CncBuildArgs, CycleArgs, MachineArgs, MotionChannels, TorqueChannel, quantities,
 };
-use crate::output::{Console, Failure, Job, Outputs, ResultArgs, exit, shown};
+use crate::output::{Console, Failure, Job, Outputs, ResultArgs, exit};
 use frictcomp::text::shown_path;
-use frictcomp_host::ask::{AskedAxis, AskedControl, RecordedAnswers, TRAVEL, UnreadAnswer};
+use frictcomp_host::ask::{AskedControl, RecordedAnswers, TRAVEL};
 use frictcomp_host::{FileRegistry, LoadedMachine};
+use frictcomp_recordings::evidence::UnreadAnswer;
 use frictcomp_recordings::trace::ChannelSelection;
-use frictcomp_report::results::ask::{answers_document, document, render_json};
-use frictcomp_report::{counted, visible_line};
+use frictcomp_report::results::ask::{AnswersReport, WrittenPrograms, document, render_json};
+use frictcomp_report::visible_line;
 
 /// Test on your control what its documents leave open
 #[derive(Debug, Subcommand)]
@@ -37,7 +38,7 @@ pub(crate) struct WriteArgs {
     #[arg(long, value_name = "FOLDER", default_value = "ask")]
     into: PathBuf,
     /// How far the axis may move, in mm or degrees
-    #[arg(long, value_name = "MM", default_value_t = TRAVEL, value_parser = parse_travel)]
+    #[arg(long, value_name = "MM", default_value_t = TRAVEL, value_parser = quantities::mm_or_degrees)]
     travel: f64,
     #[command(flatten)]
     control: ControlArgs,
@@ -60,6 +61,8 @@ pub(crate) struct ReadArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     #[command(flatten)]
+    result: ResultArgs,
+    #[command(flatten)]
     control: ControlArgs,
 }
 
@@ -79,12 +82,6 @@ struct ControlArgs {
     build: CncBuildArgs,
     #[command(flatten)]
     machine: MachineArgs,
-}
-
-fn parse_travel(text: &str) -> Result<f64, String> {
-    let travel = quantities::mm_or_degrees(text)?;
-    let travel = Some(travel).filter(|it| (0.1..=1000.0).contains(it));
-    travel.ok_or_else(|| "give a distance from 0.1 to 1000".to_owned())
 }
 
 /// Runs the command.
@@ -112,20 +109,20 @@ impl WriteArgs {
         let mut outputs = Outputs::new(registry, console);
         let loaded = self.control.loaded(registry)?;
         let control = self.control.asked(&loaded)?;
-        let axis = AskedAxis {
-            travel: self.travel,
-            ..control.axis(self.axis.as_deref().unwrap_or(control.usual_axis()))?
-        };
-        let count = AskedControl::write(&axis, &self.into, outputs.files())?;
+        let axis = control.axis(control.axis_name(self.axis.as_deref()))?;
+        let axis = axis.within(self.travel)?;
+        let programs = AskedControl::write(&axis, &self.into, outputs.files())?;
         outputs.check()?;
         outputs.finish_quietly()?;
-        console.print(&console.fitted(&format!(
-            "{} for {} in `{}`: run them on the control as `README.txt` there says, then `frictcomp ask read` what \
-             they leave\n",
-            counted(count, "program"),
-            axis.name,
-            shown_path(&self.into)
-        )))?;
+        let written = WrittenPrograms {
+            axis: &axis.name,
+            travel: axis.travel,
+            build: axis.build,
+            folder: shown_path(&self.into),
+            programs,
+        };
+        let mut target = console.stdout();
+        target.text(&written.document().text(console.detail, target.look.width))?;
         if axis.build.is_none() {
             Console::talk(
                 "the build of the control is not known, so nothing will be confirmed: give it with `--cnc-build`",
@@ -149,18 +146,29 @@ impl ReadArgs {
     fn read(&self, registry: &FileRegistry, console: Console) -> Result<u8, Failure> {
         let loaded = self.control.loaded(registry)?;
         let control = self.control.asked(&loaded)?;
-        let unread = |path: &Path, UnreadAnswer { line, reason }: &UnreadAnswer| {
-            let reason = visible_line(reason);
-            Console::talk(&format!("{}:{line}: not an answer: {reason}", shown(path)));
+        let mut unread = Vec::new();
+        let say = |line: &UnreadAnswer| {
+            let (file, reason) = (visible_line(&line.file), visible_line(&line.reason));
+            Console::talk(&format!("{file}:{}: not an answer: {reason}", line.line));
+            unread.push(line.clone());
         };
-        let read = control.read(&self.files, &self.recorded(&control)?, (registry, unread))?;
-        let document = answers_document(&read.answers);
-        let mut target = console.stdout();
-        target.text(&document.text(console.detail, target.look.width))?;
-        if let Some(path) = &read.written {
-            console.remark(&format!("wrote `{}`", shown_path(path)));
+        let read = control.read(&self.files, &self.recorded(&control)?, (registry, say))?;
+        let job = Job::new(&self.result, registry, console)?;
+        job.outputs.check()?;
+        let configuration = control.configuration();
+        let is_kept = read.keep(&configuration)?;
+        let configuration = shown_path(&configuration);
+        let report = AnswersReport {
+            answers: &read.answers,
+            unread,
+            recorded_in: is_kept.then(|| configuration.clone()),
+            lacks_build: read.lacks_build(),
+        };
+        job.finish(&report.document(), || report.render_json())?;
+        if is_kept {
+            console.remark(&format!("wrote `{configuration}`"));
         }
-        if read.lacks_build {
+        if report.lacks_build {
             Console::talk(
                 "the build of the control is not known, so nothing is confirmed: give it with `--cnc-build`",
             );
@@ -170,7 +178,7 @@ impl ReadArgs {
 
     /// Returns the axis and the channels of recordings.
     fn recorded(&self, control: &AskedControl<'_>) -> Result<RecordedAnswers, Failure> {
-        let name = self.axis.as_deref().unwrap_or(control.usual_axis());
+        let name = control.axis_name(self.axis.as_deref());
         let channels = ChannelSelection {
             torque: self.torque.of_axis(name, &[name])?,
             ..self.channels.of_axis(name, &[name])?

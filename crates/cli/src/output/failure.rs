@@ -84,7 +84,7 @@ impl From<&HostError> for Failure {
                 }
                 HostError::Ask(AskError::Recording(reason)) => {
                     let mut help = Self::from(&**reason).help;
-                    help.push(ANSWERS.to_owned());
+                    help.push(AskError::ANSWERS.to_owned());
                     help
                 }
                 _ => circle_option(error)
@@ -98,10 +98,6 @@ impl From<&HostError> for Failure {
         }
     }
 }
-
-/// The files that `ask read` takes.
-const ANSWERS: &str =
-    "answers are lines that begin with `frictcomp-ask`, as in `message.txt`, or a recording";
 
 /// Returns the advice in terms of command line options, if the host has none.
 fn options_for(error: &HostError) -> Option<String> {
@@ -140,7 +136,6 @@ fn options_for(error: &HostError) -> Option<String> {
                 frictcomp_physics::simulation::Preset::names()
             ));
         }
-        HostError::Ask(AskError::NoAnswer(_)) => ANSWERS,
         HostError::Commission(error) => return commission_option(error),
         _ => return None,
     };

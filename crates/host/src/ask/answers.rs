@@ -1,11 +1,13 @@
 //! The answers of a control.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use super::control::AskedAxis;
 use super::programs::{TAG, fingerprint};
 use frictcomp::readings::{Alternative, Question, Way};
-use frictcomp_recordings::evidence::{Answer, AnswerVerdict};
+use frictcomp::text::shown_path;
+use frictcomp_recordings::evidence::{Answer, AnswerVerdict, UnreadAnswer};
 
 /// The values of one run, by their words; the last value of a word counts.
 type Values = BTreeMap<String, String>;
@@ -20,29 +22,22 @@ struct AskedRun {
     noted: BTreeSet<String>,
 }
 
-/// A line that is marked as an answer but cannot be read as one.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct UnreadAnswer {
-    /// The line, from 1.
-    pub line: usize,
-    /// The reason.
-    pub reason: String,
-}
-
-/// Reads the answers in a text, in the order of the questions, and the lines that are marked as answers
+/// Reads the answers in the text of a file, in the order of the questions, and the lines that are marked as answers
 /// but cannot be read. `axis` returns what else is known of an axis by its
 /// name, as when the programs were written.
 pub(super) fn read_answers(
-    text: &str,
+    (path, text): (&Path, &str),
     axis: impl Fn(&str) -> AskedAxis,
 ) -> (Vec<Answer>, Vec<UnreadAnswer>) {
     let mut unread = Vec::new();
     let mut runs: BTreeMap<(Question, String, String), AskedRun> = BTreeMap::new();
     for (at, line) in text.lines().enumerate() {
         let mut leave = |reason: String| {
-            let line = at + 1;
-            unread.push(UnreadAnswer { line, reason });
+            unread.push(UnreadAnswer {
+                file: shown_path(path),
+                line: at + 1,
+                reason,
+            });
         };
         let Some(found) = line.find(TAG) else {
             continue;

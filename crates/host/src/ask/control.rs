@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::answers::{UnreadAnswer, read_answers};
+use super::answers::read_answers;
 use super::programs::{ask, readme};
 use super::recording::{RecordedQuestions, read_recorded_answers};
 use super::written::{AnsweredReading, date_of, with_findings};
@@ -18,7 +18,9 @@ use frictcomp::diagnostic::{Diagnostic, Severity, UnknownName};
 use frictcomp::machine::Machine;
 use frictcomp::readings::Question;
 use frictcomp::text::shown_path;
-use frictcomp_recordings::evidence::{Answer, AnswerVerdict, contradicted, drop_answered};
+use frictcomp_recordings::evidence::{
+    Answer, AnswerVerdict, UnreadAnswer, contradicted, drop_answered,
+};
 use frictcomp_recordings::trace::ChannelSelection;
 
 /// The usual distance that an axis may move, in mm or degrees.
@@ -40,6 +42,12 @@ pub enum AskError {
     /// Answers to the question of this rule that contradict each other.
     #[error("the answers to {0} contradict each other")]
     Contradiction(&'static str),
+    /// A distance that is too short for a test, or too long for a careful one.
+    #[error("no axis is tested within {0} mm or degrees")]
+    Travel(f64),
+    /// A file that answers cannot be kept in.
+    #[error("`{}` is not a configuration: its name does not end in `.toml`", shown_path(.0))]
+    NotAConfiguration(PathBuf),
     /// A configuration that is not valid TOML.
     #[error("{}: {reason}", shown_path(.path))]
     InvalidToml {
@@ -48,6 +56,36 @@ pub enum AskError {
         /// The place, and what is wrong there.
         reason: String,
     },
+}
+
+impl AskError {
+    /// What answers are.
+    pub const ANSWERS: &str =
+        "answers are lines that begin with `frictcomp-ask`, as in `message.txt`, or a recording";
+
+    /// Returns the file at fault.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::NoAnswer(path)
+            | Self::NotAConfiguration(path)
+            | Self::InvalidToml { path, .. } => Some(path),
+            _ => None,
+        }
+    }
+
+    /// Returns the advice, unless it depends on the calling program.
+    pub(crate) fn help(&self) -> Option<String> {
+        let help = match self {
+            Self::Contradiction(_) => {
+                "give the files of one control, and one at a time to see which it is"
+            }
+            Self::NoAnswer(_) => Self::ANSWERS,
+            Self::Travel(_) => "give a distance from 0.1 to 1000",
+            Self::NotAConfiguration(_) => "name a `frictcomp.toml`",
+            _ => return None,
+        };
+        Some(help.to_owned())
+    }
 }
 
 /// A control that is asked.
@@ -66,10 +104,52 @@ pub struct AskedControl<'a> {
 pub struct ReadAnswers {
     /// The answers in the order of the questions.
     pub answers: Vec<Answer>,
-    /// The configuration that keeps what is decided, if anything is.
-    pub written: Option<PathBuf>,
-    /// Whether a decision is not confirmed because the build is not known.
-    pub lacks_build: bool,
+    /// What they decide.
+    decided: Vec<AnsweredReading>,
+}
+
+impl ReadAnswers {
+    /// Whether something is decided that is not confirmed, because the build is not known.
+    pub fn lacks_build(&self) -> bool {
+        self.decided.iter().any(|it| it.build.is_none())
+    }
+
+    /// Writes what is decided into a configuration, which may be a new one; returns whether there was anything to write.
+    ///
+    /// # Errors
+    /// The file is not a configuration, is not valid TOML, or cannot be written.
+    pub fn keep(&self, configuration: &Path) -> Result<bool, HostError> {
+        if self.decided.is_empty() {
+            return Ok(false);
+        }
+        let path = configuration.to_owned();
+        if !is_configuration(&path) {
+            return Err(AskError::NotAConfiguration(path).into());
+        }
+        let is_new = !path.exists();
+        let before = if is_new {
+            String::new()
+        } else {
+            read_text(&path)?
+        };
+        let with_decided = with_findings(&before, &self.decided);
+        let after = with_decided.map_err(|error| AskError::InvalidToml {
+            path: path.clone(),
+            reason: error.to_string(),
+        })?;
+        if is_new {
+            write_new(&path, &after)?;
+        } else {
+            write_mended([&MendedFile {
+                path,
+                bytes: after.clone().into_bytes(),
+                before,
+                after,
+                changes: self.decided.len(),
+            }])?;
+        }
+        Ok(true)
+    }
 }
 
 impl<'a> AskedControl<'a> {
@@ -90,8 +170,22 @@ impl<'a> AskedControl<'a> {
         self.build.or(self.loaded.machine.build)
     }
 
-    /// Returns the name of the axis that is asked where none is given: of the first one with P-AXIS-00522 = 1.
-    pub fn usual_axis(&self) -> &'a str {
+    /// Returns the configuration that keeps answers: that of the machine, or one in the current folder.
+    pub fn configuration(&self) -> PathBuf {
+        let own = self.loaded.origin.as_ref();
+        let own = own.filter(|path| is_configuration(path));
+        own.map_or_else(|| PathBuf::from(CONFIG_NAME), Clone::clone)
+    }
+
+    /// Returns the name of the axis that is asked: the given one, or that of the first with P-AXIS-00522 = 1.
+    pub fn axis_name<'n>(&self, given: Option<&'n str>) -> &'n str
+    where
+        'a: 'n,
+    {
+        given.unwrap_or_else(|| self.usual_axis())
+    }
+
+    fn usual_axis(&self) -> &'a str {
         let mut axes = self.loaded.machine.axes.iter();
         let configured = axes.find(|axis| axis.configured.contains(Kind::Frict));
         configured.map_or("X", |axis| &axis.name)
@@ -122,7 +216,7 @@ impl<'a> AskedControl<'a> {
         }
     }
 
-    /// Writes the programs that ask the control, and a page for the operator, to a folder; returns the number of
+    /// Writes the programs that ask the control, and a page for the operator, to a folder; returns the names of the
     /// programs.
     ///
     /// # Errors
@@ -131,7 +225,7 @@ impl<'a> AskedControl<'a> {
         axis: &AskedAxis,
         folder: &Path,
         outputs: &mut OutputFiles,
-    ) -> Result<usize, HostError> {
+    ) -> Result<Vec<String>, HostError> {
         let questions = Question::ALL.into_iter();
         let programs: Vec<_> = questions.flat_map(|it| ask(it, axis)).collect();
         let texts = programs.iter().map(|it| (it.name.as_str(), &it.text));
@@ -140,23 +234,22 @@ impl<'a> AskedControl<'a> {
             let mut file = outputs.create_in_folder("a program", &path, Replaces::Results)?;
             file.bytes(text.as_bytes())?;
         }
-        Ok(programs.len())
+        Ok(programs.into_iter().map(|it| it.name).collect())
     }
 
-    /// Reads answers, and keeps what they decide in the configuration of the machine; `unread` hears of lines that are
-    /// marked as answers but cannot be read. In recordings the axis and the channels of `recorded` are read.
+    /// Reads answers; `unread` hears of lines that are marked as answers but cannot be read. In recordings the axis and
+    /// the channels of `recorded` are read.
     ///
     /// # Errors
-    /// A file cannot be read or holds no answer, answers contradict each other, or the configuration cannot be
-    /// written.
+    /// A file cannot be read or holds no answer, or answers contradict each other.
     pub fn read(
         &self,
         files: &[PathBuf],
         recorded: &RecordedAnswers,
-        (registry, mut unread): (&FileRegistry, impl FnMut(&Path, &UnreadAnswer)),
+        (registry, mut unread): (&FileRegistry, impl FnMut(&UnreadAnswer)),
     ) -> Result<ReadAnswers, HostError> {
         let mut answers = Vec::new();
-        let mut findings = Vec::new();
+        let mut decided = Vec::new();
         for path in files {
             registry.reads("answers", path);
             let changed = fs::metadata(path).and_then(|it| it.modified());
@@ -164,7 +257,7 @@ impl<'a> AskedControl<'a> {
             for answer in self.answers_in(path, recorded, &mut unread)? {
                 if let AnswerVerdict::Reading(reading) = answer.verdict {
                     let build = self.build.or(answer.build).or(self.loaded.machine.build);
-                    findings.push(AnsweredReading {
+                    decided.push(AnsweredReading {
                         question: answer.question,
                         reading,
                         build,
@@ -178,11 +271,7 @@ impl<'a> AskedControl<'a> {
             return Err(AskError::Contradiction(question.facts().rule).into());
         }
         drop_answered(&mut answers);
-        Ok(ReadAnswers {
-            answers,
-            lacks_build: findings.iter().any(|it| it.build.is_none()),
-            written: self.keep(&findings)?,
-        })
+        Ok(ReadAnswers { answers, decided })
     }
 
     /// Returns the answers in a file: lines of a text, or what a recording shows.
@@ -190,12 +279,10 @@ impl<'a> AskedControl<'a> {
         &self,
         path: &Path,
         recorded: &RecordedAnswers,
-        unread: &mut impl FnMut(&Path, &UnreadAnswer),
+        unread: &mut impl FnMut(&UnreadAnswer),
     ) -> Result<Vec<Answer>, HostError> {
-        let (answers, lines) = read_answers(&read_text(path)?, |name| self.named(name));
-        for line in &lines {
-            unread(path, line);
-        }
+        let (answers, lines) = read_answers((path, &read_text(path)?), |name| self.named(name));
+        lines.iter().for_each(&mut *unread);
         if !answers.is_empty() {
             return Ok(answers);
         }
@@ -219,38 +306,6 @@ impl<'a> AskedControl<'a> {
         };
         let read = read_recorded_answers(path, asked);
         Ok(read.map_err(|error| AskError::Recording(Box::new(error)))?)
-    }
-
-    /// Writes what is decided into the configuration of the machine, and returns its path if there is anything.
-    fn keep(&self, findings: &[AnsweredReading]) -> Result<Option<PathBuf>, HostError> {
-        if findings.is_empty() {
-            return Ok(None);
-        }
-        let own = self.loaded.origin.as_ref();
-        let own = own.filter(|path| is_configuration(path));
-        let path = own.map_or_else(|| PathBuf::from(CONFIG_NAME), Clone::clone);
-        let is_new = !path.exists();
-        let before = if is_new {
-            String::new()
-        } else {
-            read_text(&path)?
-        };
-        let after = with_findings(&before, findings).map_err(|error| AskError::InvalidToml {
-            path: path.clone(),
-            reason: error.to_string(),
-        })?;
-        if is_new {
-            write_new(&path, &after)?;
-        } else {
-            write_mended([&MendedFile {
-                path: path.clone(),
-                bytes: after.clone().into_bytes(),
-                before,
-                after,
-                changes: findings.len(),
-            }])?;
-        }
-        Ok(Some(path))
     }
 }
 
@@ -280,4 +335,17 @@ pub struct AskedAxis {
     /// Permitted travel in mm or degrees, from the present position in the positive direction and
     /// back.
     pub travel: f64,
+}
+
+impl AskedAxis {
+    /// Returns the axis with the distance that it may move, in mm or degrees.
+    ///
+    /// # Errors
+    /// The distance is not one for a test.
+    pub fn within(self, travel: f64) -> Result<Self, HostError> {
+        if (0.1..=1000.0).contains(&travel) {
+            return Ok(Self { travel, ..self });
+        }
+        Err(AskError::Travel(travel).into())
+    }
 }

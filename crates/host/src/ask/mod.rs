@@ -12,5 +12,4 @@ mod programs;
 mod recording;
 mod written;
 
-pub use answers::UnreadAnswer;
 pub use control::{AskError, AskedAxis, AskedControl, ReadAnswers, RecordedAnswers, TRAVEL};

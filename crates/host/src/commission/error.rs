@@ -1,6 +1,6 @@
 //! Failures that stop a commissioning.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -142,6 +142,28 @@ pub enum CommissionError {
 }
 
 impl CommissionError {
+    /// Returns the file or the folder at fault.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::NotAPlan { path, .. }
+            | Self::PlanForm { path, .. }
+            | Self::NoPlan(path)
+            | Self::OtherPlan(path)
+            | Self::NotLearning(path)
+            | Self::NotBegun(path)
+            | Self::Begun(path)
+            | Self::OtherList { path, .. }
+            | Self::ListThere(path)
+            | Self::ChangedRecording { path, .. }
+            | Self::RecordedTwice { path, .. }
+            | Self::FirstList { path, .. }
+            | Self::NotFriction(path)
+            | Self::Learn { folder: path, .. }
+            | Self::NoTrend { folder: path, .. } => Some(path),
+            _ => None,
+        }
+    }
+
     /// Returns the advice, unless it depends on the calling program.
     pub fn help(&self) -> Option<String> {
         let help = match self {

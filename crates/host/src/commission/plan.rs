@@ -1,12 +1,12 @@
 //! The plan of a commissioning, made for a machine and written to its folder (R16.1, R16.8).
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::error::CommissionError;
 use super::evaluated::plan_name;
-use crate::disk::{Replaces, read_text};
+use crate::disk::{Disk, FileRegistry, Replaces, read_text, sha256_of};
 use crate::error::HostError;
-use crate::machines::LoadedMachine;
+use crate::machines::{LoadedMachine, read_value_list};
 use crate::outputs::{OutputFiles, json_text};
 use frictcomp::comp::Kind;
 use frictcomp::machine::{Axis, Machine};
@@ -34,10 +34,12 @@ pub struct Planning<'a> {
     pub radius: Option<f64>,
     /// The slowest speed in mm/s or °/s.
     pub slowest: f64,
-    /// The lists of stage 2; none for stage 1.
-    pub lists: Vec<ValueListUsed>,
+    /// The lists of stage 2, that of each axis in their order; none for stage 1.
+    pub lists: Vec<PathBuf>,
     /// The folder to which the plan is written, if there is one.
     pub folder: Option<&'a Path>,
+    /// The files that are read.
+    pub registry: &'a FileRegistry,
 }
 
 /// An axis that is measured, beyond what its machine says.
@@ -53,15 +55,23 @@ pub struct AxisToMeasure {
 }
 
 impl Planning<'_> {
+    /// The usual slowest speed in mm/s or °/s.
+    pub const SLOWEST: f64 = 0.2;
+
+    /// The usual feed of motions that are not measured, in mm/min or °/min.
+    pub const APPROACH: f64 = 1000.0;
+
     /// Makes the plan for a machine.
     ///
     /// # Errors
-    /// The machine lacks an axis or what has to be known of it, or the programs do not fit its travel.
+    /// The machine lacks an axis or what has to be known of it, the programs do not fit its travel, or a list cannot be
+    /// used.
     pub fn plan(&self, loaded: &LoadedMachine) -> Result<PlanReport, HostError> {
         let machine = &loaded.machine;
         if machine.channel.inch {
             return Err(CommissionError::Inch.into());
         }
+        let lists = self.lists_used()?;
         let axes = self.axes.iter().map(|it| it.on(machine));
         let request = PlanRequest {
             axes: axes.collect::<Result<_, CommissionError>>()?,
@@ -69,9 +79,9 @@ impl Planning<'_> {
             approach: self.approach,
             radius: self.radius,
             slowest: self.slowest,
-            round: self.round(),
+            round: self.round(&lists),
         };
-        let stage = if self.lists.is_empty() {
+        let stage = if lists.is_empty() {
             Stage::Off
         } else {
             Stage::On
@@ -82,7 +92,7 @@ impl Planning<'_> {
         let origin = loaded.origin.as_ref();
         Ok(PlanReport {
             plan: Plan::new(&request, stage).map_err(CommissionError::from)?,
-            lists: self.lists.clone(),
+            lists,
             machine: origin.map_or("the command line".to_owned(), |it| shown_path(it)),
             assumed_jerk: assumed.map(|it| it.name.clone()).collect(),
         })
@@ -101,7 +111,7 @@ impl Planning<'_> {
         let Some(folder) = self.folder else {
             return Ok(());
         };
-        let path = folder.join(plan_name(self.round()));
+        let path = folder.join(plan_name(self.round(&report.lists)));
         let plan = json_text(&report.file())?;
         let is_other = read_text(&path).is_ok_and(|there| there.trim_end() != plan.trim_end());
         if is_other && outputs.replaces(Replaces::Results) == Replaces::Results {
@@ -116,10 +126,23 @@ impl Planning<'_> {
         file.bytes(plan.as_bytes())
     }
 
-    /// Returns the round of the plan: 1 without lists; with lists the one that already has them, or the next that is
+    /// Returns the lists of stage 2, each read as the control reads it.
+    fn lists_used(&self) -> Result<Vec<ValueListUsed>, HostError> {
+        let used = |(axis, path): (&AxisToMeasure, &PathBuf)| {
+            read_value_list(path, self.registry, &Disk::default())?;
+            Ok(ValueListUsed {
+                axis: axis.name.clone(),
+                file: shown_path(path),
+                sha256: sha256_of(path)?,
+            })
+        };
+        self.axes.iter().zip(&self.lists).map(used).collect()
+    }
+
+    /// Returns the round of a plan with these lists: 1 without lists; with lists the one that already has them, or the next that is
     /// not in the folder.
-    fn round(&self) -> u16 {
-        if self.lists.is_empty() {
+    fn round(&self, lists: &[ValueListUsed]) -> u16 {
+        if lists.is_empty() {
             return 1;
         }
         let sums = |lists: &[ValueListUsed]| {
@@ -131,7 +154,7 @@ impl Planning<'_> {
             let Some(path) = path.filter(|it| it.exists()) else {
                 return true;
             };
-            plan_in(&path).is_some_and(|it| sums(&it.lists) == sums(&self.lists))
+            plan_in(&path).is_some_and(|it| sums(&it.lists) == sums(lists))
         };
         (2..u16::MAX).find(is_free).unwrap_or(u16::MAX)
     }

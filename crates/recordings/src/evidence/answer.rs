@@ -1,5 +1,7 @@
 //! Conclusions from recordings, and answers of a control to the questions that the documents leave open.
 
+use serde::Serialize;
+
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Alternative, Question};
 
@@ -17,6 +19,18 @@ pub struct Answer {
     pub verdict: AnswerVerdict,
     /// Evidence for the conclusion, or the reason for none.
     pub evidence: String,
+}
+
+/// A line that is marked as an answer but cannot be read as one.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct UnreadAnswer {
+    /// The name of the file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The reason.
+    pub reason: String,
 }
 
 /// Conclusion from an answer.

@@ -12,7 +12,7 @@ mod recorded;
 mod stroke;
 mod switching;
 
-pub use answer::{Answer, AnswerVerdict, Conclusion, contradicted, drop_answered};
+pub use answer::{Answer, AnswerVerdict, Conclusion, UnreadAnswer, contradicted, drop_answered};
 pub use currents::judge_currents;
 pub use recorded::{EvidenceRecording, Samples};
 pub use switching::{LOOK_AHEAD_PARTS, WITH_MOTION_PARTS, judge_look_ahead, judge_with_motion};

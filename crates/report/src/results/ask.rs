@@ -9,7 +9,7 @@ use crate::wording::{counted, to_json, visible_line};
 use frictcomp::comp::CncBuild;
 use frictcomp::machine::Machine;
 use frictcomp::readings::{Basis, Question};
-use frictcomp_recordings::evidence::{Answer, AnswerVerdict};
+use frictcomp_recordings::evidence::{Answer, AnswerVerdict, UnreadAnswer};
 
 /// Returns the questions with the readings in force on a machine; `build` is that of its control.
 pub fn document(machine: &Machine, build: Option<CncBuild>) -> Document<'static> {
@@ -34,8 +34,105 @@ pub fn render_json(machine: &Machine, build: Option<CncBuild>) -> String {
     to_json(&list)
 }
 
-/// Returns the answers of a control; a reason for several undecidable ones is given once.
-pub fn answers_document(answers: &[Answer]) -> Document<'static> {
+/// Programs that were written to ask a control.
+#[derive(Debug)]
+pub struct WrittenPrograms<'a> {
+    /// The axis that they test.
+    pub axis: &'a str,
+    /// The distance that it may move, in mm or degrees.
+    pub travel: f64,
+    /// The build of the control, if it is known.
+    pub build: Option<CncBuild>,
+    /// The folder.
+    pub folder: String,
+    /// The names of the programs in it.
+    pub programs: Vec<String>,
+}
+
+impl WrittenPrograms<'_> {
+    /// The verdict: how many programs there are, and what to do with them.
+    fn headline(&self) -> Headline {
+        let text = format!(
+            "{} for {} in `{}`: run them on the control as `README.txt` there says, then `frictcomp ask read` what they \
+             leave",
+            counted(self.programs.len(), "program"),
+            visible_line(self.axis),
+            visible_line(&self.folder)
+        );
+        Headline::new(Standing::Plain, text)
+    }
+
+    /// The verdict as a document.
+    pub fn document(&self) -> Document<'static> {
+        Document::new("Programs that ask the control", self.headline())
+    }
+
+    /// The programs as JSON.
+    pub fn render_json(&self) -> String {
+        to_json(&json!({
+            "schema": 1,
+            "headline": self.headline(),
+            "axis": self.axis,
+            "travel": self.travel,
+            "build": self.build.map(|it| it.to_string()),
+            "folder": self.folder,
+            "programs": self.programs,
+        }))
+    }
+}
+
+/// The answers of a control, and what became of them.
+#[derive(Debug)]
+pub struct AnswersReport<'a> {
+    /// The answers in the order of the questions.
+    pub answers: &'a [Answer],
+    /// The lines that are marked as answers and cannot be read.
+    pub unread: Vec<UnreadAnswer>,
+    /// The configuration in which what is decided was recorded, if anything was.
+    pub recorded_in: Option<String>,
+    /// Whether something is decided that is not confirmed, because the build is not known.
+    pub lacks_build: bool,
+}
+
+impl AnswersReport<'_> {
+    /// The answers as JSON.
+    pub fn render_json(&self) -> String {
+        let answers = self.answers.iter().map(answer_record);
+        to_json(&json!({
+            "schema": 1,
+            "headline": answers_headline(self.answers),
+            "answers": answers.collect::<Vec<_>>(),
+            "unread": self.unread,
+            "recorded_in": self.recorded_in,
+            "lacks_build": self.lacks_build,
+        }))
+    }
+
+    /// The answers; a reason for several undecidable ones is given once.
+    pub fn document(&self) -> Document<'static> {
+        answers_document(self.answers)
+    }
+}
+
+fn answer_record(answer: &Answer) -> Value {
+    let facts = answer.question.facts();
+    let reading = match answer.verdict {
+        AnswerVerdict::Reading(reading) => Some(answer.question.name_of(reading)),
+        AnswerVerdict::Undecidable => None,
+    };
+    json!({
+        "rule": facts.rule,
+        "question": facts.question,
+        "axis": answer.axis,
+        "build": answer.build.map(|it| it.to_string()),
+        "answer": answer.word(),
+        "reading": reading,
+        "evidence": answer.evidence,
+    })
+}
+
+/// The verdict: how many questions are answered, and how many are not.
+fn answers_headline(answers: &[Answer]) -> Headline {
     let undecided = |it: &&Answer| it.verdict == AnswerVerdict::Undecidable;
     let undecided = answers.iter().filter(undecided).count();
     let answered = match answers.len() - undecided {
@@ -46,8 +143,11 @@ pub fn answers_document(answers: &[Answer]) -> Document<'static> {
         0 => String::new(),
         left => format!(", {left} left open"),
     };
-    let headline = Headline::new(Standing::Plain, format!("{answered}{left}"));
-    let mut out = Document::new("Answers of the control", headline);
+    Headline::new(Standing::Plain, format!("{answered}{left}"))
+}
+
+fn answers_document(answers: &[Answer]) -> Document<'static> {
+    let mut out = Document::new("Answers of the control", answers_headline(answers));
     out.push_str("\n");
     let is_alike = |one: &Answer, other: &Answer| {
         one.verdict == AnswerVerdict::Undecidable

@@ -96,10 +96,10 @@ impl LearnArgs {
         };
         let friction = both("--friction", &self.friction)?;
         let lists = match &self.value_list[..] {
-            [] => friction,
-            given => both("--value-list", given)?,
+            [] => None,
+            given => Some(both("--value-list", given)?),
         };
-        for path in [friction, lists].concat() {
+        for path in friction.into_iter().chain(lists.into_iter().flatten()) {
             value_list(path, registry)?;
         }
         Ok(Some(FirstLists { friction, lists }))

@@ -5,13 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::args::{ByAxis, MachineArgs, PerAxis, quantities, value_list};
-use crate::output::{Console, Failure, Job, ResultArgs, exit, shown};
+use crate::output::{Console, Failure, Job, ResultArgs, exit};
+use frictcomp_host::FileRegistry;
 use frictcomp_host::commission::{AxisToMeasure, Planning};
-use frictcomp_host::{FileRegistry, sha256_of};
-use frictcomp_recordings::commission::{FreeTravel, ValueListUsed};
-use frictcomp_report::results::commission::{
-    plan_document, render_json, render_program, render_readme,
-};
+use frictcomp_recordings::commission::FreeTravel;
+use frictcomp_report::results::commission::{plan_document, plan_texts, render_json};
 use frictcomp_report::visible_line;
 
 /// Write the NC programs that measure friction, and a page for the operator
@@ -48,7 +46,7 @@ pub(crate) struct PlanArgs {
     #[arg(
         long,
         value_name = "MM/S",
-        default_value_t = 0.2,
+        default_value_t = Planning::SLOWEST,
         value_parser = quantities::speed_of_axis,
         allow_negative_numbers = true
     )]
@@ -57,7 +55,7 @@ pub(crate) struct PlanArgs {
     #[arg(
         long,
         value_name = "MM/MIN",
-        default_value_t = 1000.0,
+        default_value_t = Planning::APPROACH,
         value_parser = quantities::feed_of_axis,
         allow_negative_numbers = true
     )]
@@ -93,15 +91,13 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
         slowest: args.slowest,
         lists: args.lists(&registry)?,
         folder: args.into.as_deref(),
+        registry: &registry,
     };
     let mut machines = args.machine.machines(&registry);
     let loaded = machines.for_folder(Path::new("."))?;
     let report = planning.plan(&loaded)?;
     let mut job = Job::new(&args.result, &registry, console)?;
-    let programs = report.plan.programs.iter();
-    let programs = programs.map(|it| (it.file.clone(), render_program(&report, it)));
-    let pages = [("README.txt".to_owned(), render_readme(&report))];
-    planning.write(&report, programs.chain(pages), job.outputs.files())?;
+    planning.write(&report, plan_texts(&report), job.outputs.files())?;
     job.finish(&plan_document(&report), || render_json(&report))?;
     Ok(exit::CLEAN)
 }
@@ -141,8 +137,8 @@ impl PlanArgs {
         })
     }
 
-    /// Returns the lists of stage 2, one for each axis, each read as the control reads it.
-    fn lists(&self, registry: &FileRegistry) -> Result<Vec<ValueListUsed>, Failure> {
+    /// Returns the lists of stage 2, one for each axis, and reports where one has remarks.
+    fn lists(&self, registry: &FileRegistry) -> Result<Vec<PathBuf>, Failure> {
         if self.value_list.is_empty() {
             return Ok(Vec::new());
         }
@@ -151,11 +147,7 @@ impl PlanArgs {
         let of_axis = |axis: &String| {
             let path = lists.required(axis)?;
             value_list(path, registry)?;
-            Ok(ValueListUsed {
-                axis: axis.clone(),
-                file: shown(path),
-                sha256: sha256_of(path)?,
-            })
+            Ok(path.to_owned())
         };
         self.axis.iter().map(of_axis).collect()
     }

@@ -1,6 +1,7 @@
 //! Answers in notes of an operator (R15.2).
 
 use super::bench;
+use crate::folder::json;
 
 /// R15.2: a line that is marked as an answer but cannot be read as one is named with its place.
 #[test]
@@ -20,6 +21,29 @@ fn lines_that_are_no_answers_are_named() {
     ] {
         assert!(said.contains(words), "{said}");
     }
+}
+
+/// R15.2: the answers are a document, with the lines that cannot be read and where it was recorded what they decide.
+#[test]
+fn answers_are_a_document() {
+    let bench = bench();
+    bench.stdout(&["ask", "write", "--into", "ask"]);
+    let copied = bench.read("ask/README.txt");
+    let line = copied
+        .lines()
+        .find(|line| line.ends_with(" reading before"));
+    let line = line.expect("a line to copy");
+    bench.write("note.txt", &format!("{line}\nfrictcomp-ask R1.9\n"));
+    let read = json(&bench.stdout(&["ask", "read", "note.txt", "--format", "json"]));
+    assert_eq!(read["headline"]["text"], "1 question answered");
+    let answer = &read["answers"][0];
+    assert_eq!(answer["rule"], "R1.9");
+    assert_eq!(answer["answer"], "confirmed");
+    assert_eq!(answer["reading"], "before");
+    assert_eq!(answer["build"], "V3.1.3081.05");
+    assert_eq!(read["unread"][0]["line"], 2);
+    assert_eq!(read["recorded_in"], "frictcomp.toml");
+    assert_eq!(read["lacks_build"], false);
 }
 
 /// R15.2: the lines to copy name both readings of a question and are not an answer, nor are both of them in

@@ -212,14 +212,15 @@ impl Learning<'_> {
             self.measured(PlaneAxis::X, x)?,
             self.measured(PlaneAxis::Y, y)?,
         ];
-        for (path, friction) in first.lists.into_iter().zip(&friction) {
+        let lists = first.lists.unwrap_or(first.friction);
+        for (path, friction) in lists.into_iter().zip(&friction) {
             let list = self.list(path)?;
             TooMuchCurrent::check(&list, &friction.list, MOST_CURRENT).map_err(|reason| {
                 let path = path.to_owned();
                 CommissionError::FirstList { path, reason }
             })?;
         }
-        let [x, y] = first.lists;
+        let [x, y] = lists;
         let mut folder = LearningFolder::new(self.folder, friction);
         folder.add_round(&[read_text(x)?, read_text(y)?], [None; 2], outputs)?;
         Ok(folder)

@@ -57,8 +57,8 @@ pub struct Learning<'a> {
 pub struct FirstLists<'a> {
     /// The measured friction, which bounds all lists.
     pub friction: [&'a Path; 2],
-    /// The lists of the first round.
-    pub lists: [&'a Path; 2],
+    /// The lists of the first round; by default those of the friction.
+    pub lists: Option<[&'a Path; 2]>,
 }
 
 impl Learning<'_> {

@@ -10,7 +10,5 @@ mod summary;
 mod words;
 
 pub use acceptance::Acceptance;
-pub use program::render_program;
-pub use readme::render_readme;
 pub use results::{document, render_results_json};
-pub use summary::{plan_document, render_json};
+pub use summary::{plan_document, plan_texts, render_json};

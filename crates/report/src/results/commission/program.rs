@@ -7,8 +7,8 @@ use frictcomp_recordings::commission::{
     Installed, MeasuredAxis, MeasuringProgram, PlanReport, PlanStep, Stage, Turning,
 };
 
-/// Returns a program of a plan, with `\n` at the end of each line and ASCII letters only.
-pub fn render_program(report: &PlanReport, program: &MeasuringProgram) -> String {
+/// A program of a plan, with `\n` at the end of each line and ASCII letters only.
+pub(super) fn render_program(report: &PlanReport, program: &MeasuringProgram) -> String {
     let plan = &report.plan;
     let mut blocks = NumberedBlocks::default();
     blocks.comment(&format!(

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::program::render_program;
+use super::readme::render_readme;
 use super::words::{number, told};
 use crate::document::{Document, Headline, Standing, Table};
 use crate::wording::{counted, to_json, visible_line};
@@ -36,7 +38,14 @@ pub fn render_json(report: &PlanReport) -> String {
     })
 }
 
-/// Returns the programs with their times, and their basis.
+/// The programs of a plan and the page for the operator, each with the name of its file.
+pub fn plan_texts(report: &PlanReport) -> impl Iterator<Item = (String, String)> {
+    let programs = report.plan.programs.iter();
+    let programs = programs.map(|it| (it.file.clone(), render_program(report, it)));
+    programs.chain([("README.txt".to_owned(), render_readme(report))])
+}
+
+/// The programs with their times, and their basis.
 pub fn plan_document(report: &PlanReport) -> Document<'static> {
     let plan = &report.plan;
     let mut out = Document::new("Measuring programs", headline(report));

@@ -21,6 +21,7 @@ mod g;
 mod hash;
 mod motion;
 mod refusal;
+mod state;
 mod system_variable;
 
 pub(crate) use bracket::AxisAction;
@@ -38,4 +39,5 @@ pub(crate) use motion::{AxisWords, ChainStep, MotionEffect, Moves, OnOff};
 pub use motion::{Certainty, MotionKind};
 pub use motion::{Simplification, Simplifications};
 pub use refusal::{ControlError, ControlErrorCheck};
+pub(crate) use state::{ChannelState, Mode, Modes, RefusedIn};
 pub(crate) use system_variable::is_read_only;

@@ -83,6 +83,8 @@ pub struct Axis {
     pub listed: ListedDynamics,
     /// The factor for the torque to the drive, P-AXIS-00325 and P-AXIS-00326.
     pub torque_scale: TorqueScale,
+    /// Whether the lists of the control give it the index 0, 1 or 2 in its channel: a main axis.
+    pub(crate) is_main: bool,
 }
 
 impl Axis {
@@ -108,6 +110,7 @@ impl Axis {
             motor_lead_mm: None,
             listed: ListedDynamics::default(),
             torque_scale: TorqueScale::default(),
+            is_main: false,
         }
     }
 
@@ -357,6 +360,8 @@ pub(super) struct AxisDraft {
     pub(super) is_listed: bool,
     /// Whether a start-up list leads to the axis, and every axis list that it names was read: no other one says more.
     pub(super) is_covered: bool,
+    /// Whether a channel list gives it the index of a main axis.
+    pub(super) is_main: bool,
     /// The list with the defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
     /// The path of its axis list.
@@ -376,6 +381,7 @@ impl AxisDraft {
             enabled: None,
             is_listed: false,
             is_covered: false,
+            is_main: false,
             shared: None,
             list: None,
         }
@@ -471,6 +477,7 @@ impl AxisDraft {
             motor_lead_mm: self.dynamics.lead,
             listed: self.values.dynamics.dynamics(),
             torque_scale: TorqueScale::default(),
+            is_main: self.is_main,
         };
         if let Some(given) = &self.enabled {
             let (file, line) = (given.file().to_owned(), given.line());

@@ -152,6 +152,11 @@ impl BlockMotion {
         self.geometry.get_or_insert_default()
     }
 
+    /// Those that it has so far.
+    pub(crate) fn geometry_words(&self) -> Option<&Geometry> {
+        self.geometry.as_ref()
+    }
+
     pub(crate) fn has_geometry(&self) -> bool {
         self.geometry.is_some()
     }
@@ -370,7 +375,10 @@ impl BlockMotion {
             .collect();
         let words: Vec<AxisIndex> = of_words.map(|(axis, _)| axis).collect();
         let mut found: BTreeMap<AxisIndex, (Certainty, Span)> = BTreeMap::new();
-        for name in &setting.modal.transformed {
+        // The motion after G40, or in its block, takes the tool radius back.
+        let leaving = setting.modal.leaving_radius.then_some(CUTTER_RADIUS);
+        let names = setting.modal.transformed.iter().map(String::as_str);
+        for name in names.chain(leaving) {
             let Some((axes, certainty)) = setting.frame(name) else {
                 continue;
             };

@@ -11,8 +11,8 @@ use crate::interpreter::motion::pace::{
     Contouring, LackingFeeds, Pace, ProgrammedFeed, SlopeSelection,
 };
 use crate::language::{
-    ChainStep, ContouringCommand, GAction, GFunction, Group, GroupSet, HashCommand, HashWords,
-    Holds, OnOff, Simplification, Simplifications,
+    ChainStep, ChannelState, ContouringCommand, GAction, GFunction, Group, GroupSet, HashCommand,
+    HashWords, Holds, Mode, Modes, OnOff, Simplification, Simplifications,
 };
 use crate::lists::{ChannelSettings, ChannelSwitch, SlopeProfile};
 
@@ -67,6 +67,15 @@ pub struct Modal {
     /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
     #[serde(default)]
     pub(crate) skewed: bool,
+    /// Modes in which the control refuses some words.
+    #[serde(default)]
+    pub(crate) modes: Modes,
+    /// Whether G40 left the tool radius compensation and no axis has moved since.
+    #[serde(default)]
+    pub(crate) leaving_radius: bool,
+    /// Axes that the operator moves along with the program, G201.
+    #[serde(default)]
+    pub(crate) manual: BTreeSet<AxisIndex>,
     /// Whether coordinates count from an origin other than that at the start of the program.
     origin_moved: bool,
     /// Absolute positions: the programmed coordinate and the offset of G92.
@@ -90,6 +99,9 @@ impl Modal {
             slope: None,
             pace: Pace::new(Some(1.0)),
             skewed: false,
+            modes: Modes::default(),
+            leaving_radius: false,
+            manual: BTreeSet::new(),
             origin_moved: false,
             positions: vec![None; axes],
             references: vec![Some(0.0); axes],
@@ -108,7 +120,7 @@ impl Modal {
                 Some(group) => modal.set(group, number),
                 // G51: diameters are programmed.
                 None if number == 51 => modal.note_transformed("G51"),
-                None => {}
+                None => modal.switch_mode(GFunction::of(number).and_then(|row| row.mode)),
             }
         }
         let chosen = |number: &u32| Group::of(*number) == Some(Group::Unit);
@@ -142,7 +154,8 @@ impl Modal {
     /// Whether it describes a number of axes.
     pub(crate) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
-        [self.positions.len(), self.references.len(), suspended] == [axes; 3]
+        let are_axes = self.manual.iter().all(|axis| axis.get() < axes);
+        are_axes && [self.positions.len(), self.references.len(), suspended] == [axes; 3]
     }
 
     /// Whether it is known which G function of a group is in force.
@@ -181,6 +194,8 @@ impl Modal {
                 self.functions.offset = number;
             }
             Group::CutterRadius => {
+                let was_on = self.transformed.contains(CUTTER_RADIUS);
+                self.leaving_radius = number == 40 && (was_on || self.leaving_radius);
                 self.functions.tool_side = number;
                 self.transform(CUTTER_RADIUS, number != 40);
             }
@@ -270,6 +285,10 @@ impl Modal {
         } else {
             OnOff::On
         };
+        self.switch_mode(command.mode.map(|(mode, on)| match switch {
+            OnOff::On => (mode, on),
+            OnOff::Off => (mode, OnOff::Off),
+        }));
         if let Some(step) = command.chain {
             self.chain((step, command.name(), switch));
         }
@@ -319,6 +338,48 @@ impl Modal {
     pub(crate) fn is_spline(&self) -> bool {
         let fast = self.simplified.contains(Simplification::HighSpeed);
         self.transformed.contains("#SPLINE") || fast && self.high_speed.is_spline
+    }
+
+    /// Switches the mode of a word or command, if it has one.
+    pub(crate) fn switch_mode(&mut self, mode: Option<(Mode, OnOff)>) {
+        if let Some((mode, switch)) = mode {
+            self.modes.switch(mode, switch);
+        }
+    }
+
+    /// Whether some words that are plain elsewhere may be refused.
+    #[inline]
+    pub(crate) fn limits_words(&self) -> bool {
+        !self.transformed.is_empty() || !self.simplified.is_empty()
+    }
+
+    /// Whether a state may be in force in which the control refuses some words. Couplings are not known here.
+    pub(crate) fn is_in(&self, state: ChannelState) -> bool {
+        let is_fast = self.simplified.contains(Simplification::HighSpeed);
+        let is_any = |names: &[&str]| names.iter().any(|name| self.transformed.contains(*name));
+        match state {
+            ChannelState::CutterRadius => is_any(&[CUTTER_RADIUS]),
+            ChannelState::LeavingRadius => {
+                self.leaving_radius && self.modes.has(Mode::LeavesWithMotion)
+            }
+            ChannelState::ProgrammedSpline => is_any(&["#SPLINE"]),
+            ChannelState::FastSpline => is_fast && self.high_speed.is_spline,
+            ChannelState::Spline => self.is_spline(),
+            ChannelState::BSpline => is_any(&["#SPLINE"]) && self.modes.has(Mode::BSpline),
+            ChannelState::HighSpeed => is_fast,
+            ChannelState::Contouring => self.simplified.contains(Simplification::Contouring),
+            ChannelState::Frame => is_any(&["#CS", "#ACS"]),
+            ChannelState::Kinematics => is_any(&["#TRAFO", "#RTCP"]),
+            ChannelState::PointToPoint => self.modes.has(Mode::PointToPoint),
+            ChannelState::Mirror => is_any(&["G21"]),
+            ChannelState::Coupling => false,
+        }
+    }
+
+    /// The block moved axes, or none: G40 is over with the first motion, or at once where it inserts one.
+    #[inline]
+    pub(crate) fn end_leaving(&mut self, has_moved: bool) {
+        self.leaving_radius &= !has_moved && self.modes.has(Mode::LeavesWithMotion);
     }
 
     /// Whether offsets may be switched off.
@@ -503,6 +564,9 @@ impl Modal {
         match function.group {
             Some(Group::Offset) => self.havoc_positions(),
             Some(Group::CutterRadius) if number != 40 => self.transform(CUTTER_RADIUS, true),
+            Some(Group::CutterRadius) => {
+                self.leaving_radius |= self.transformed.contains(CUTTER_RADIUS);
+            }
             _ => {}
         }
         match function.action {
@@ -510,6 +574,9 @@ impl Modal {
             GAction::WeighRapid => self.pace.havoc_overrides(),
             GAction::Rotate => self.skewed = false,
             _ => {}
+        }
+        if let Some((mode, OnOff::On)) = function.mode {
+            self.modes.switch(mode, OnOff::On);
         }
         if let Some(step) = function.chain {
             let mut after = self.clone();
@@ -543,6 +610,9 @@ impl Modal {
             self.perhaps_simplify(Simplification::Slope);
         }
         self.skewed &= other.skewed;
+        self.modes = self.modes.union(other.modes);
+        self.leaving_radius |= other.leaving_radius;
+        self.manual.extend(&other.manual);
         self.origin_moved |= other.origin_moved;
         let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {
             if mine != theirs {
@@ -803,6 +873,8 @@ const TRANSFORMING: [&str; 2] = [CUTTER_RADIUS, "G21"];
 pub(crate) struct Saved {
     functions: GFunctions,
     transformed: [bool; 2],
+    #[serde(default)]
+    modes: Modes,
 }
 
 impl Saved {
@@ -821,6 +893,7 @@ impl Saved {
         for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
             *mine |= theirs;
         }
+        self.modes = self.modes.union(other.modes);
     }
 }
 
@@ -830,6 +903,7 @@ impl Modal {
         Saved {
             functions: self.functions.clone(),
             transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
+            modes: self.modes,
         }
     }
 
@@ -839,6 +913,7 @@ impl Modal {
             self.havoc_positions();
         }
         self.functions = saved.functions.clone();
+        self.modes.restore(saved.modes);
         for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
             self.transform(name, on);
         }

@@ -11,7 +11,7 @@ use crate::interpreter::motion::form::BlockEnd;
 use crate::interpreter::programs::calls::FunctionWord;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
-use crate::interpreter::words::refusal::PossibleRefusal;
+use crate::interpreter::words::refusal::{PossibleRefusal, StopScope};
 use crate::language::{AxisWords, GAction, GFunction, Group};
 use crate::readings::Question;
 use crate::syntax::ast::{Address, Operand, Word};
@@ -349,6 +349,8 @@ impl Executor {
             self.further_g(number, span, at);
             return Ok(());
         };
+        let states = (function.refused, function.flushes);
+        self.check_states(states, &format!("G{number}"), span, at);
         if let Some(group) = function.group {
             self.state.control.modal.set(group, number);
             return Ok(());
@@ -356,6 +358,7 @@ impl Executor {
         if let Some(step) = function.chain {
             self.state.control.modal.chain(step);
         }
+        self.state.control.modal.switch_mode(function.mode);
         match function.action {
             GAction::Mirror | GAction::SwitchSpline => return Ok(()),
             GAction::Dwell => {
@@ -389,7 +392,12 @@ impl Executor {
             GAction::WeighRapid => self.weigh_rapid(span, at),
             GAction::SetCuttingSpeed => self.state.control.modal.pace.cut(true),
             GAction::SetSpindleSpeed => self.state.control.modal.pace.cut(false),
-            GAction::PassOver | GAction::Call | GAction::SetRadius => {
+            GAction::SwitchManual(switch) => {
+                self.scratch.actions.manual = Some(switch);
+                self.further_g(number, span, at);
+                return Ok(());
+            }
+            GAction::PassOver | GAction::Call | GAction::SetRadius | GAction::WaitForOperator => {
                 self.further_g(number, span, at);
                 return Ok(());
             }
@@ -404,7 +412,6 @@ impl Executor {
             return;
         }
         if let Some(function) = GFunction::of(number) {
-            self.check_flush(function.flushes, &format!("G{number}"), span, at);
             if let Some(motion) = function.motion {
                 self.scratch.moves.move_as(motion);
             }
@@ -431,6 +438,15 @@ impl Executor {
             self.scratch.moves.drop_all();
             return;
         }
+        if self.scratch.moves.has_geometry()
+            || self.state.control.modal.modes.limit_circles()
+            || self.scratch.moves.dwells()
+        {
+            self.check_shape(at);
+        }
+        if let Some(switch) = self.scratch.actions.manual {
+            self.switch_manual(switch, at);
+        }
         if matches!(self.scratch.actions.axis_words, AxisWords::Homing)
             && self.state.control.couplings.is_any()
             && let Some(word) = self.scratch.moves.words().first()
@@ -445,6 +461,8 @@ impl Executor {
         let modal = &mut self.state.control.modal;
         let moves = &mut self.scratch.moves;
         let before = self.scratch.actions.radius.map(|_| moves.ends(modal));
+        let words = self.scratch.actions.axis_words;
+        modal.end_leaving(!moves.words().is_empty() && words.move_axes());
         match self.scratch.actions.axis_words {
             AxisWords::Motion => modal.move_axes(moves.coordinates()),
             AxisWords::Homing | AxisWords::Measuring => {
@@ -466,6 +484,16 @@ impl Executor {
         }
     }
 
+    /// Looks at the words of a circle or a dwell.
+    #[inline(never)]
+    fn check_shape(&mut self, at: &BlockContext<'_>) {
+        if self.scratch.moves.dwells() {
+            self.check_dwell(at);
+        } else if self.scratch.actions.axis_words == AxisWords::Motion {
+            self.check_circle(at);
+        }
+    }
+
     /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
         let circular = self.state.control.modal.functions.is_arc();
@@ -478,7 +506,9 @@ impl Executor {
                 "a circle by its radius ends where it starts; `R` cannot describe a full circle",
             )
             .with_help("give the centre of a full circle with `I`, `J`, `K`");
-            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
+            self.say_before_parting(at.diagnostic(fault));
+            let asked = (Unknown::Refused(Some(20034)), StopScope::Block);
+            self.perhaps_stop(asked, span, at);
         }
     }
 }
@@ -493,6 +523,11 @@ impl ControlState {
         let Some(group) = Group::of(number) else {
             return false;
         };
+        if self.modal.limits_words()
+            && GFunction::of(number).is_some_and(|it| !it.refused.is_empty())
+        {
+            return false;
+        }
         if !actions.take_group(group) {
             return false;
         }

@@ -265,6 +265,7 @@ impl EffectReader<'_> {
             | HashAction::EndComment
             | HashAction::EndDeclarations
             | HashAction::Dwell
+            | HashAction::NameManualAxes
             | HashAction::Wait
             | HashAction::RealTimeLoop
             | HashAction::EndRealTimeLoop

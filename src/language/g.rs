@@ -216,7 +216,7 @@ static FUNCTIONS: &[GFunction] = {
     };
     use Mode::{FixedCentre, LeavesWithMotion};
     use MotionKind::{Feed, Homing, Unknown};
-    use Moves::{Words, WordsOrAll};
+    use Moves::{Words, WordsInSpace, WordsOrAll};
     use OnOff::{Off, On};
     use Simplification::{
         AccelerationWeight, Contouring, CornerDeceleration, FeedRamp, LateDeceleration, RampWeight,
@@ -308,7 +308,7 @@ static FUNCTIONS: &[GFunction] = {
         294 (EDITOR) coordinates(Unfollowed);
         296 (MANUAL);
         301..=302 (MANUAL) motion(Feed, Words, Certain) unmodelled("G301 and G302 insert a contour");
-        303 (MANUAL) motion(Feed, Words, Certain) unmodelled("G303 is an arc in space") refused(&[(CutterRadius, 22081), (LeavingRadius, 90193)]);
+        303 (MANUAL) motion(Feed, WordsInSpace, Certain) unmodelled("G303 is an arc in space") refused(&[(CutterRadius, 22081), (LeavingRadius, 90193)]);
         310 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) refused(MEASURING);
         331..=332 (MANUAL) motion(Feed, Words, Certain);
         333..=334 (MANUAL) axis_words(Other);

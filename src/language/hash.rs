@@ -115,7 +115,7 @@ pub(crate) enum HashAction {
     ForgetMacros,
     /// The blocks up to its end describe geometry and do not move (R2.81): the contour for a cycle (tf5293,
     /// 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
-    Describe,
+    Describe(Described),
     /// A description ends.
     EndDescription,
     /// A coupling group is defined (PM/207120267).
@@ -148,6 +148,17 @@ pub(crate) enum HashAction {
     SelectSlope(SlopeForm),
     /// A parameter of an axis is written while the program runs (R2.92; PM/207492747).
     WriteMachineData,
+}
+
+/// What blocks describe that do not move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Described {
+    /// The contour for a cycle.
+    Contour,
+    /// What each motion triggers while strokes are on.
+    Stroke,
+    /// The limits of an area.
+    Area,
 }
 
 /// Kind of an axis exchange.
@@ -390,7 +401,7 @@ static COMMANDS: &[HashCommand] = {
         SaveConfig, SelectSlope, SelectSpindle, SkipBackward, Wait, WriteMachineData,
     };
     use HashArguments::{Declarations, Expressions, Lines, RemedyClass};
-    use Mode::{BSpline, PointToPoint};
+    use Mode::{BSpline, PointToPoint, Punching};
     use MotionKind::{Coupled, Frame, Independent};
     use Moves::{Channel, Follower, Main, NamedOrAll};
     use OnOff::{Off, On};
@@ -441,11 +452,11 @@ static COMMANDS: &[HashCommand] = {
         "#COMMENT" ("PM/205979659") path(GoesOn);
         "#COMMENT BEGIN" ("PM/205979659") action(Comment) until("#COMMENT END") path(GoesOn);
         "#COMMENT END" ("PM/205979659") action(EndComment) path(GoesOn);
-        "#CONTOUR BEGIN" (EDITOR) action(Describe) until("#CONTOUR END") refuses_comp(22101);
+        "#CONTOUR BEGIN" (EDITOR) action(Describe(Described::Contour)) until("#CONTOUR END") refuses_comp(22101);
         "#CONTOUR END" (EDITOR) action(EndDescription);
         "#CONTOUR MODE" ("tccncprogramming/15557317259") action(Round(ContouringCommand::Contour)) simplifies(Contouring);
         "#CONTROL AREA" ("tccncprogramming/15557317259");
-        "#CONTROL AREA BEGIN" ("tccncprogramming/15557317259") action(Describe) until("#CONTROL AREA END");
+        "#CONTROL AREA BEGIN" ("tccncprogramming/15557317259") action(Describe(Described::Area)) until("#CONTROL AREA END");
         "#CONTROL AREA END" ("tccncprogramming/15557317259") action(EndDescription);
         "#CORNER PARAM" (EDITOR);
         "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Both) refused(SYSTEM);
@@ -529,7 +540,7 @@ static COMMANDS: &[HashCommand] = {
         "#MICROJOINT" (EDITOR);
         "#MSG" (EDITOR) plc(Plc::ActsAfterAcknowledgement) path(GoesOn);
         "#MSG SAVE" ("PM/207518603") action(ChangeFile(FileAction::Message)) plc(Plc::ActsAfterAcknowledgement) path(GoesOn);
-        "#NIBBLE" (EDITOR);
+        "#NIBBLE" (EDITOR) mode(Punching, On);
         "#OPTIONAL EXECUTION" (EDITOR) action(SkipBackward);
         "#ORI MODE" (EDITOR);
         "#ORIMODE" (EDITOR);
@@ -539,7 +550,7 @@ static COMMANDS: &[HashCommand] = {
         "#PRESET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates) flushes(Radius) refused(SET_VALUE);
         "#PSET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates) refused(SET_VALUE);
         "#PTP" (EDITOR) mode(PointToPoint, On) flushes(Radius) refused(&[(CutterRadius, 21525)]);
-        "#PUNCH" (EDITOR);
+        "#PUNCH" (EDITOR) mode(Punching, On);
         "#PUT AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange) flushes(Radius) refused(EXCHANGE);
         "#RETAIN CYCLE CHANGES" ("PM/206859019") action(RetainCycleChanges);
         "#RND" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
@@ -585,7 +596,7 @@ static COMMANDS: &[HashCommand] = {
         "#START" (EDITOR);
         "#STOP REVERSIBLE" (EDITOR);
         "#STROKE DEF" (EDITOR);
-        "#STROKE DEF BEGIN" (EDITOR) action(Describe) until("#STROKE DEF END") refuses_comp(120_716);
+        "#STROKE DEF BEGIN" (EDITOR) action(Describe(Described::Stroke)) until("#STROKE DEF END") refuses_comp(120_716);
         "#STROKE DEF END" (EDITOR) action(EndDescription);
         "#SUPPRESS OFFSETS" (EDITOR) chain(Origin) sharing(WordsBefore);
         "#SURFACE" (EDITOR);

@@ -30,9 +30,9 @@ pub use g::Group;
 pub(crate) use g::{BlockGroup, CoordinateEffect, GAction, GFunction, GroupSet};
 pub use hash::BlockSharing;
 pub(crate) use hash::{
-    ConfigAction, ContouringCommand, Exchange, FileAction, Flushes, FurtherWord, HashAction,
-    HashArguments, HashCommand, HashWords, MembersBy, PathFlow, Plc, SlopeForm, Touches,
-    is_command,
+    ConfigAction, ContouringCommand, Described, Exchange, FileAction, Flushes, FurtherWord,
+    HashAction, HashArguments, HashCommand, HashWords, MembersBy, PathFlow, Plc, SlopeForm,
+    Touches, is_command,
 };
 pub(crate) use motion::Holds;
 pub(crate) use motion::{AxisWords, ChainStep, MotionEffect, Moves, OnOff};

@@ -66,6 +66,8 @@ pub(crate) enum Mode {
     PointToPoint,
     /// `#SPLINE TYPE BSPLINE` (PM/207203723).
     BSpline,
+    /// `#PUNCH ON`, `#NIBBLE ON`: each motion triggers the stroke (PM/207668235).
+    Punching,
     /// G164: the centre of a circle is not corrected (PM/206551563).
     FixedCentre,
     /// G138, G139, G236: the motion after G40 takes the tool radius back (PM/524821515).

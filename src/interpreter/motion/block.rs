@@ -11,7 +11,7 @@ use crate::interpreter::motion::form::{
     Arc, AxisWord, BlockEnd, Centre, Geometry, Motion, MovedAxis, PathFeed, PathForm, Travel, Turn,
     WordValue,
 };
-use crate::interpreter::motion::modal::{CUTTER_RADIUS, Modal};
+use crate::interpreter::motion::modal::{CUTTER_RADIUS, Leaving, Modal};
 use crate::interpreter::motion::pace::{Haste, ProgrammedFeed};
 use crate::language::{AxisWords, Certainty, Group, HashCommand, MotionEffect, MotionKind, Moves};
 use crate::lists::AxisType;
@@ -336,6 +336,11 @@ impl BlockMotion {
         {
             self.leave_to_operator(row, setting);
         }
+        if let Some(row) = self.row
+            && row.moves == Moves::WordsInSpace
+        {
+            self.move_in_space(row, setting);
+        }
         if matches!(words, AxisWords::Motion | AxisWords::Measuring) {
             self.move_in_frame(setting);
         }
@@ -364,6 +369,23 @@ impl BlockMotion {
         }
     }
 
+    /// An arc in space may move every axis of it.
+    fn move_in_space(&mut self, row: MotionEffect, setting: MotionSetting<'_>) {
+        let Some(first) = self.words.first() else {
+            return;
+        };
+        let span = first.span;
+        let named: Vec<_> = self.words.iter().map(|word| word.axis).collect();
+        let others = setting.axes.xyz().into_iter();
+        let others = others.filter(|axis| !named.contains(axis));
+        self.also.extend(others.map(|axis| MovedAxis {
+            axis,
+            span,
+            kind: row.kind,
+            certainty: Certainty::Possible,
+        }));
+    }
+
     /// A motion word in a rotated or transformed frame moves its other axes, too.
     fn move_in_frame(&mut self, setting: MotionSetting<'_>) {
         let of_words = self.words.iter().map(|it| (it.axis, it.span));
@@ -376,7 +398,8 @@ impl BlockMotion {
         let words: Vec<AxisIndex> = of_words.map(|(axis, _)| axis).collect();
         let mut found: BTreeMap<AxisIndex, (Certainty, Span)> = BTreeMap::new();
         // The motion after G40, or in its block, takes the tool radius back.
-        let leaving = setting.modal.leaving_radius.then_some(CUTTER_RADIUS);
+        let is_leaving = setting.modal.leaving != Leaving::Done;
+        let leaving = is_leaving.then_some(CUTTER_RADIUS);
         let names = setting.modal.transformed.iter().map(String::as_str);
         for name in names.chain(leaving) {
             let Some((axes, certainty)) = setting.frame(name) else {

@@ -44,6 +44,18 @@ pub struct AxisPosition {
     pub frame: PositionFrame,
 }
 
+/// The way back from beside the contour after G40.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
+pub(crate) enum Leaving {
+    /// The tool is on it.
+    #[default]
+    Done,
+    /// Only axes beside the plane have moved since.
+    Beside,
+    /// Nothing has moved since.
+    Begun,
+}
+
 /// The G functions in force and the programmed positions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Modal {
@@ -70,12 +82,15 @@ pub struct Modal {
     /// Modes in which the control refuses some words.
     #[serde(default)]
     pub(crate) modes: Modes,
-    /// Whether G40 left the tool radius compensation and no axis has moved since.
+    /// How far the tool is from the programmed contour after G40.
     #[serde(default)]
-    pub(crate) leaving_radius: bool,
+    pub(crate) leaving: Leaving,
     /// Axes that the operator moves along with the program, G201.
     #[serde(default)]
     pub(crate) manual: BTreeSet<AxisIndex>,
+    /// Axes of the stroke, `#STROKE DEF BEGIN`.
+    #[serde(default)]
+    pub(crate) stroke: BTreeSet<AxisIndex>,
     /// Whether coordinates count from an origin other than that at the start of the program.
     origin_moved: bool,
     /// Absolute positions: the programmed coordinate and the offset of G92.
@@ -100,8 +115,9 @@ impl Modal {
             pace: Pace::new(Some(1.0)),
             skewed: false,
             modes: Modes::default(),
-            leaving_radius: false,
+            leaving: Leaving::Done,
             manual: BTreeSet::new(),
+            stroke: BTreeSet::new(),
             origin_moved: false,
             positions: vec![None; axes],
             references: vec![Some(0.0); axes],
@@ -154,7 +170,8 @@ impl Modal {
     /// Whether it describes a number of axes.
     pub(crate) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
-        let are_axes = self.manual.iter().all(|axis| axis.get() < axes);
+        let mut named = self.manual.iter().chain(&self.stroke);
+        let are_axes = named.all(|axis| axis.get() < axes);
         are_axes && [self.positions.len(), self.references.len(), suspended] == [axes; 3]
     }
 
@@ -195,7 +212,11 @@ impl Modal {
             }
             Group::CutterRadius => {
                 let was_on = self.transformed.contains(CUTTER_RADIUS);
-                self.leaving_radius = number == 40 && (was_on || self.leaving_radius);
+                self.leaving = match number {
+                    40 if was_on => Leaving::Begun,
+                    40 => self.leaving,
+                    _ => Leaving::Done,
+                };
                 self.functions.tool_side = number;
                 self.transform(CUTTER_RADIUS, number != 40);
             }
@@ -360,7 +381,7 @@ impl Modal {
         match state {
             ChannelState::CutterRadius => is_any(&[CUTTER_RADIUS]),
             ChannelState::LeavingRadius => {
-                self.leaving_radius && self.modes.has(Mode::LeavesWithMotion)
+                self.leaving == Leaving::Begun && self.modes.has(Mode::LeavesWithMotion)
             }
             ChannelState::ProgrammedSpline => is_any(&["#SPLINE"]),
             ChannelState::FastSpline => is_fast && self.high_speed.is_spline,
@@ -376,10 +397,27 @@ impl Modal {
         }
     }
 
-    /// The block moved axes, or none: G40 is over with the first motion, or at once where it inserts one.
+    /// The axes of the stroke that each motion triggers.
     #[inline]
-    pub(crate) fn end_leaving(&mut self, has_moved: bool) {
-        self.leaving_radius &= !has_moved && self.modes.has(Mode::LeavesWithMotion);
+    pub(crate) fn punched(&self) -> &BTreeSet<AxisIndex> {
+        static NONE: BTreeSet<AxisIndex> = BTreeSet::new();
+        if self.modes.has(Mode::Punching) {
+            &self.stroke
+        } else {
+            &NONE
+        }
+    }
+
+    /// The block moved axes, or none: G40 is over with the first motion in the plane, or at once where it inserts one.
+    #[cold]
+    pub(crate) fn go_on_leaving(&mut self, plane: &[AxisIndex], words: &[AxisWord]) {
+        let is_over = !self.modes.has(Mode::LeavesWithMotion)
+            || words.iter().any(|word| plane.contains(&word.axis));
+        if is_over {
+            self.leaving = Leaving::Done;
+        } else if !words.is_empty() {
+            self.leaving = Leaving::Beside;
+        }
     }
 
     /// Whether offsets may be switched off.
@@ -565,7 +603,9 @@ impl Modal {
             Some(Group::Offset) => self.havoc_positions(),
             Some(Group::CutterRadius) if number != 40 => self.transform(CUTTER_RADIUS, true),
             Some(Group::CutterRadius) => {
-                self.leaving_radius |= self.transformed.contains(CUTTER_RADIUS);
+                if self.transformed.contains(CUTTER_RADIUS) {
+                    self.leaving = Leaving::Begun;
+                }
             }
             _ => {}
         }
@@ -611,8 +651,9 @@ impl Modal {
         }
         self.skewed &= other.skewed;
         self.modes = self.modes.union(other.modes);
-        self.leaving_radius |= other.leaving_radius;
+        self.leaving = self.leaving.max(other.leaving);
         self.manual.extend(&other.manual);
+        self.stroke.extend(&other.stroke);
         self.origin_moved |= other.origin_moved;
         let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {
             if mine != theirs {

@@ -72,7 +72,7 @@ impl Executor {
             HashAction::RetainCycleChanges => self.state.control.retain_cycle_changes(),
             HashAction::EndComment | HashAction::EndDeclarations | HashAction::EndRealTimeLoop => {}
             HashAction::NamePrograms => self.name_programs(hash, at),
-            HashAction::Describe => self.state.control.describe(hash, at),
+            HashAction::Describe(_) => self.state.control.describe(hash, at),
             HashAction::EndDescription if self.state.control.end_description(command.words) => {}
             HashAction::RealTimeLoop => self.real_time_loop(hash.span, at),
             HashAction::ReportError => return self.report_error(hash, at),

@@ -8,11 +8,12 @@ use crate::interpreter::control::ControlState;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::motion::form::BlockEnd;
+use crate::interpreter::motion::modal::Leaving;
 use crate::interpreter::programs::calls::FunctionWord;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::interpreter::words::refusal::{PossibleRefusal, StopScope};
-use crate::language::{AxisWords, GAction, GFunction, Group};
+use crate::language::{AxisWords, Described, GAction, GFunction, Group, HashAction};
 use crate::readings::Question;
 use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, is_program_number, not_known, repeated_word};
@@ -434,18 +435,13 @@ impl Executor {
         if let Feed::Given(feed) = self.scratch.actions.feed {
             self.state.control.modal.set_feed(feed);
         }
-        if self.state.control.described.is_some() {
+        if let Some(described) = &self.state.control.described {
+            if described.opener.action == HashAction::Describe(Described::Stroke) {
+                let axes = self.scratch.moves.words().iter().map(|word| word.axis);
+                self.state.control.modal.stroke.extend(axes);
+            }
             self.scratch.moves.drop_all();
             return;
-        }
-        if self.scratch.moves.has_geometry()
-            || self.state.control.modal.modes.limit_circles()
-            || self.scratch.moves.dwells()
-        {
-            self.check_shape(at);
-        }
-        if let Some(switch) = self.scratch.actions.manual {
-            self.switch_manual(switch, at);
         }
         if matches!(self.scratch.actions.axis_words, AxisWords::Homing)
             && self.state.control.couplings.is_any()
@@ -454,6 +450,9 @@ impl Executor {
             let what = "G74 is called while a coupling group is active";
             self.may_refuse(20137, what, word.span, at);
         }
+        if self.state.control.modal.leaving != Leaving::Done {
+            self.go_on_leaving();
+        }
         // The lint for switches during motion looks at arcs (R1.57).
         let is_arc = self.state.control.modal.functions.is_arc();
         let is_followed = is_arc || self.options.takes_motions();
@@ -461,8 +460,6 @@ impl Executor {
         let modal = &mut self.state.control.modal;
         let moves = &mut self.scratch.moves;
         let before = self.scratch.actions.radius.map(|_| moves.ends(modal));
-        let words = self.scratch.actions.axis_words;
-        modal.end_leaving(!moves.words().is_empty() && words.move_axes());
         match self.scratch.actions.axis_words {
             AxisWords::Motion => modal.move_axes(moves.coordinates()),
             AxisWords::Homing | AxisWords::Measuring => {
@@ -484,14 +481,14 @@ impl Executor {
         }
     }
 
-    /// Looks at the words of a circle or a dwell.
-    #[inline(never)]
-    fn check_shape(&mut self, at: &BlockContext<'_>) {
-        if self.scratch.moves.dwells() {
-            self.check_dwell(at);
-        } else if self.scratch.actions.axis_words == AxisWords::Motion {
-            self.check_circle(at);
-        }
+    /// The motion of the block takes the tool radius back after G40.
+    #[cold]
+    fn go_on_leaving(&mut self) {
+        let plane = self.axes().plane(&self.state.control.modal);
+        let words = self.scratch.moves.words();
+        let moves = self.scratch.actions.axis_words.move_axes();
+        let words = if moves { words } else { &[] };
+        self.state.control.modal.go_on_leaving(&plane, words);
     }
 
     /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).

@@ -11,6 +11,7 @@ use crate::interpreter::coupling::gear_of;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::motion::block::{BlockMotion, MotionSetting};
 use crate::interpreter::motion::form::MovedAxis;
+use crate::interpreter::motion::modal::Leaving;
 use crate::interpreter::motion::pace::{Factors, SlopeSelection};
 use crate::interpreter::options::StopPolicy;
 use crate::interpreter::programs::calls::{Configured, FunctionWord};
@@ -151,7 +152,8 @@ impl Executor {
         let control = &self.state.control;
         let carries = control.couplings.carry()
             || !control.modal.transformed.is_empty()
-            || control.modal.leaving_radius
+            || control.modal.leaving != Leaving::Done
+            || !control.modal.punched().is_empty()
             || self.scratch.moves.row().is_some();
         if carries && control.described.is_none() {
             self.carry(words);
@@ -161,7 +163,12 @@ impl Executor {
     #[inline(never)]
     fn carry(&mut self, words: AxisWords) {
         let (moves, setting) = self.moves();
-        if setting.modal.leaving_radius && !setting.modal.modes.has(Mode::LeavesWithMotion) {
+        if words.move_axes() && !moves.words().is_empty() {
+            let punched = setting.modal.punched().iter();
+            punched.for_each(|axis| moves.perhaps_move(*axis));
+        }
+        let is_leaving = setting.modal.leaving != Leaving::Done;
+        if is_leaving && !setting.modal.modes.has(Mode::LeavesWithMotion) {
             // The control inserts a motion at G40 with G237; what it does with G238 and G239 is not documented.
             let plane = setting.axes.plane(setting.modal);
             plane.into_iter().for_each(|axis| moves.perhaps_move(axis));

@@ -255,7 +255,7 @@ impl EffectReader<'_> {
             HashAction::NamePrograms
             | HashAction::RetainCycleChanges
             | HashAction::ForgetMacros
-            | HashAction::Describe
+            | HashAction::Describe(_)
             | HashAction::EndDescription
             | HashAction::SaveConfig(_)
             | HashAction::ChangeFile(_)

@@ -5,15 +5,42 @@ use crate::comp::AxisIndex;
 use crate::interpreter::block::BlockContext;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::motion::form::MovedAxis;
-use crate::language::{Certainty, ChannelState, GFunction, Group, Mode, MotionKind, OnOff};
+use crate::language::{
+    AxisWords, Certainty, ChannelState, GAction, GFunction, Group, Mode, MotionKind, OnOff,
+};
 use crate::syntax::ast::{Address, Block, Hash, Item, Operand};
 use crate::text::Span;
 
 impl Executor {
+    /// Looks at the words of a block that may not stand together.
+    #[inline]
+    pub(crate) fn check_words(&mut self, at: &BlockContext<'_>) {
+        if self.scratch.moves.has_geometry()
+            || self.state.control.modal.modes.limit_circles()
+            || self.scratch.moves.dwells()
+            || self.scratch.actions.manual.is_some()
+        {
+            self.check_shape(at);
+        }
+    }
+
+    #[inline(never)]
+    fn check_shape(&mut self, at: &BlockContext<'_>) {
+        if self.state.control.described.is_some() || self.is_halted() {
+            return;
+        }
+        if let Some(switch) = self.scratch.actions.manual {
+            self.switch_manual(switch, at);
+        } else if self.scratch.moves.dwells() {
+            self.check_dwell(at);
+        } else if self.scratch.actions.axis_words == AxisWords::Motion {
+            self.check_circle(at);
+        }
+    }
+
     /// A circle with a centre and a radius, without either where the centre is not corrected, or under a B spline (TF5200
     /// Diagnosis, pages 253243787, 250610827, 264515467).
-    #[cold]
-    pub(crate) fn check_circle(&mut self, at: &BlockContext<'_>) {
+    fn check_circle(&mut self, at: &BlockContext<'_>) {
         let modal = &self.state.control.modal;
         let is_circle = modal.functions.is_arc() && modal.is_known(Group::Motion);
         let first = self.scratch.moves.words().first().map(|word| word.span);
@@ -48,10 +75,9 @@ impl Executor {
 
     /// G04 with a time and a coordinate, or with the coordinate of another axis than the first one (TF5200 Diagnosis, pages
     /// 250532491, 250536843).
-    #[cold]
-    pub(crate) fn check_dwell(&mut self, at: &BlockContext<'_>) {
+    fn check_dwell(&mut self, at: &BlockContext<'_>) {
         let words = self.scratch.moves.words();
-        let Some(first) = words.first() else {
+        let Some(first) = words.first().filter(|_| has_function(at.block, DWELL)) else {
             return;
         };
         let has_time = self
@@ -90,7 +116,7 @@ impl Executor {
             let what = "`#ACHSE` names an axis twice";
             self.may_refuse_alike(20478, what, hash.span, at);
         }
-        if !is_manual(at.block) {
+        if !has_function(at.block, GFunction::is_for_operator) {
             let what = "`#ACHSE` stands without G200, G201 or G202";
             self.may_refuse_alike(20037, what, hash.span, at);
             return;
@@ -111,8 +137,7 @@ impl Executor {
 
     /// G201 and G202: the operator moves these axes from here on, or does not any more; G202 without axes is about all
     /// (tccncprogramming/15556788363; TF5200 Diagnosis, page 250619531).
-    #[cold]
-    pub(crate) fn switch_manual(&mut self, switch: OnOff, at: &BlockContext<'_>) {
+    fn switch_manual(&mut self, switch: OnOff, at: &BlockContext<'_>) {
         let mut axes = std::mem::take(&mut self.scratch.actions.manual_axes);
         axes.extend(self.scratch.moves.words().iter().map(|word| word.axis));
         let has_names = at
@@ -135,13 +160,14 @@ impl Executor {
     }
 }
 
-/// Whether a block has G200 to G202, or a G function whose number is not known.
-fn is_manual(block: &Block) -> bool {
+/// G04.
+const DWELL: fn(&GFunction) -> bool = |row| row.action == GAction::Dwell;
+
+/// Whether a block has a G function of some kind, or may.
+fn has_function(block: &Block, is_it: impl Fn(&GFunction) -> bool) -> bool {
     block.all_words().any(|word| {
         let is_one = match word.value {
-            Some(Operand::Number(number)) => {
-                GFunction::of_value(number).is_some_and(GFunction::is_for_operator)
-            }
+            Some(Operand::Number(number)) => GFunction::of_value(number).is_some_and(&is_it),
             _ => true,
         };
         word.address == Address::Letter(b'G') && is_one

@@ -93,8 +93,8 @@ const INDEPENDENT: RefusedIn = &[
     (ChannelState::Coupling, 21481),
 ];
 
-/// The G functions of an axis that moves by itself (PM/208612235).
-const ALONE: &[u32] = &[0, 1, 90, 91, 100];
+/// The G functions of an axis that moves by itself (PM/208612235), and G60, which no page refuses there.
+const ALONE: &[u32] = &[0, 1, 60, 90, 91, 100];
 
 /// The commands; the first row that fits applies.
 static BRACKETS: &[BracketRow] = {

@@ -46,7 +46,7 @@ impl ChannelState {
             Self::CutterRadius => "under G41 or G42",
             Self::LeavingRadius => "after G40, before the next motion",
             Self::ProgrammedSpline | Self::Spline => "under a spline",
-            Self::FastSpline => "under `#HSC ON [OPMODE 2]`",
+            Self::FastSpline => "in the spline mode of `#HSC`",
             Self::BSpline => "under a B spline",
             Self::HighSpeed => "while `#HSC` is active",
             Self::Contouring => "while contours are rounded",

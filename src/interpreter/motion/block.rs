@@ -369,6 +369,19 @@ impl BlockMotion {
         }
     }
 
+    /// A motion of the block triggers a stroke, which may move these axes.
+    pub(crate) fn punch(&mut self, stroke: &BTreeSet<AxisIndex>) {
+        let Some(span) = self.words.first().map(|word| word.span) else {
+            return;
+        };
+        self.also.extend(stroke.iter().map(|axis| MovedAxis {
+            axis: *axis,
+            span,
+            kind: MotionKind::Feed,
+            certainty: Certainty::Possible,
+        }));
+    }
+
     /// An arc in space may move every axis of it.
     fn move_in_space(&mut self, row: MotionEffect, setting: MotionSetting<'_>) {
         let Some(first) = self.words.first() else {

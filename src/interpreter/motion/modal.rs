@@ -602,10 +602,8 @@ impl Modal {
         match function.group {
             Some(Group::Offset) => self.havoc_positions(),
             Some(Group::CutterRadius) if number != 40 => self.transform(CUTTER_RADIUS, true),
-            Some(Group::CutterRadius) => {
-                if self.transformed.contains(CUTTER_RADIUS) {
-                    self.leaving = Leaving::Begun;
-                }
+            Some(Group::CutterRadius) if self.transformed.contains(CUTTER_RADIUS) => {
+                self.leaving = Leaving::Begun;
             }
             _ => {}
         }

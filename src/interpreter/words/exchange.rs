@@ -264,11 +264,11 @@ impl Executor {
         if !couplings.is_any() {
             return;
         }
-        let axes = self.axes();
+        let lookup = self.axes();
         let released = if hash.command.has(FurtherWord::All) {
-            axes.path()
+            lookup.path()
         } else {
-            names.iter().filter_map(|name| axes.named(name)).collect()
+            names.iter().filter_map(|name| lookup.named(name)).collect()
         };
         let mut coupled = released.into_iter();
         let Some(axis) = coupled.find(|axis| couplings.of(*axis) != Coupling::None) else {

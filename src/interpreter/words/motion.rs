@@ -163,15 +163,16 @@ impl Executor {
     #[inline(never)]
     fn carry(&mut self, words: AxisWords) {
         let (moves, setting) = self.moves();
-        if words.move_axes() && !moves.words().is_empty() {
-            let punched = setting.modal.punched().iter();
-            punched.for_each(|axis| moves.perhaps_move(*axis));
+        if words.move_axes() {
+            moves.punch(setting.modal.punched());
         }
         let is_leaving = setting.modal.leaving != Leaving::Done;
         if is_leaving && !setting.modal.modes.has(Mode::LeavesWithMotion) {
             // The control inserts a motion at G40 with G237; what it does with G238 and G239 is not documented.
             let plane = setting.axes.plane(setting.modal);
-            plane.into_iter().for_each(|axis| moves.perhaps_move(axis));
+            for axis in plane {
+                moves.perhaps_move(axis);
+            }
         }
         moves.move_others(words, setting);
         let couplings = &self.state.control.couplings;

@@ -436,6 +436,11 @@ impl GFunction {
         )
     }
 
+    /// Whether the control refuses it in some states.
+    pub(crate) fn is_refused_somewhere(&self) -> bool {
+        !self.refused.is_empty() || self.flushes != Flushes::Never
+    }
+
     /// Whether it is an implicit call.
     pub(crate) fn is_call(&self) -> bool {
         self.action == GAction::Call

@@ -62,7 +62,7 @@ static REFUSALS: &[ControlError] = {
             "write only one of them";
         20014 "250536843" Possible, "G04 with the coordinate of another axis than the first main axis",
             "write `G04 X2`, or `#TIME 2`";
-        20034 "250602123" Said("FC316"), "a full circle by its radius; both ways are followed",
+        20034 "250602123" Said("FC316"), "a full circle by its radius",
             "give the centre of a full circle with `I`, `J`, `K`";
         20036 "250610827" Possible, "a circle with neither a centre nor a radius under G164",
             "give the centre with `I`, `J`, `K`";

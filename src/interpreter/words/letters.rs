@@ -350,8 +350,10 @@ impl Executor {
             self.further_g(number, span, at);
             return Ok(());
         };
-        let states = (function.refused, function.flushes);
-        self.check_states(states, &format!("G{number}"), span, at);
+        if function.is_refused_somewhere() {
+            let states = (function.refused, function.flushes);
+            self.check_states(states, &format!("G{number}"), span, at);
+        }
         if let Some(group) = function.group {
             self.state.control.modal.set(group, number);
             return Ok(());
@@ -504,7 +506,9 @@ impl Executor {
             )
             .with_help("give the centre of a full circle with `I`, `J`, `K`");
             self.say_before_parting(at.diagnostic(fault));
-            let asked = (Unknown::Refused(Some(20034)), StopScope::Block);
+            // The control has one answer for all of them.
+            let scope = StopScope::Alike("a full circle by its radius".into());
+            let asked = (Unknown::Refused(Some(20034)), scope);
             self.perhaps_stop(asked, span, at);
         }
     }
@@ -521,7 +525,7 @@ impl ControlState {
             return false;
         };
         if self.modal.limits_words()
-            && GFunction::of(number).is_some_and(|it| !it.refused.is_empty())
+            && GFunction::of(number).is_some_and(GFunction::is_refused_somewhere)
         {
             return false;
         }

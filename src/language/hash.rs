@@ -54,6 +54,8 @@ pub(crate) struct HashCommand {
     pub(crate) flushes: Flushes,
     /// States in which the control refuses it for another reason (R2.111).
     pub(crate) refused: RefusedIn,
+    /// State that it brings until it is switched off.
+    pub(crate) brings: Option<ChannelState>,
     /// Mode that it switches, unless it has a word that switches off.
     pub(crate) mode: Option<(Mode, OnOff)>,
     /// Name in the state and in messages, where that is another command's.
@@ -317,6 +319,7 @@ impl HashCommand {
             refuses_comp: None,
             flushes: Flushes::Never,
             refused: &[],
+            brings: None,
             mode: None,
             known_as: None,
         }
@@ -338,6 +341,7 @@ impl HashCommand {
         refuses_comp(number: u32) = Some(number);
         flushes(under: Flushes) = under;
         refused(states: RefusedIn) = states;
+        brings(state: ChannelState) = Some(state);
         mode(mode: Mode, switch: OnOff) = Some((mode, switch));
         known_as(name: &'static str) = Some(name);
     }
@@ -414,7 +418,7 @@ static COMMANDS: &[HashCommand] = {
     commands! {
         "#ACHSE" ("tccncprogramming/15557317259") action(NameManualAxes) sharing(WordsBefore);
         "#ACHSTAUSCH" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Undescribed));
-        "#ACS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible) refused(SYSTEM);
+        "#ACS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible) refused(SYSTEM) brings(ChannelState::Frame);
         "#ADD" (APPENDIX) sharing(WordsBefore);
         "#AKIMA ENDVECTOR" (APPENDIX);
         "#AKIMA STARTVECTOR" (APPENDIX);
@@ -459,7 +463,7 @@ static COMMANDS: &[HashCommand] = {
         "#CONTROL AREA BEGIN" ("tccncprogramming/15557317259") action(Describe(Described::Area)) until("#CONTROL AREA END");
         "#CONTROL AREA END" ("tccncprogramming/15557317259") action(EndDescription);
         "#CORNER PARAM" (EDITOR);
-        "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Both) refused(SYSTEM);
+        "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Both) refused(SYSTEM) brings(ChannelState::Frame);
         "#CYL" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Radius);
         "#DB INFO" (EDITOR);
         "#DCC" (EDITOR);
@@ -560,7 +564,7 @@ static COMMANDS: &[HashCommand] = {
         "#RT CYCLE END" (EDITOR);
         "#RT ENDWHILE" (EDITOR) action(EndRealTimeLoop);
         "#RT WHILE" (EDITOR) action(RealTimeLoop) refused(&[(CutterRadius, 22158)]);
-        "#RTCP" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#RTCP" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) brings(ChannelState::Kinematics);
         "#SAVE CONFIG" ("PM/207535499") action(SaveConfig(ConfigAction::Save));
         "#SCALE" (EDITOR) chain(Coordinates);
         "#SCENE" (EDITOR);
@@ -621,8 +625,8 @@ static COMMANDS: &[HashCommand] = {
         "#TOOL REFRESH" (EDITOR);
         "#TRACK CHAN" (EDITOR);
         "#TRACK CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Radius);
-        "#TRAFO" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both);
-        "#TRAFO ON" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both) known_as("#TRAFO") refused(&[(ChannelState::PointToPoint, 21552)]);
+        "#TRAFO" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both) brings(ChannelState::Kinematics);
+        "#TRAFO ON" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both) known_as("#TRAFO") refused(&[(ChannelState::PointToPoint, 21552)]) brings(ChannelState::Kinematics);
         "#TRANSFORM" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
         "#TRANSVELMIN" (EDITOR);
         "#TRC" (EDITOR);

@@ -377,22 +377,25 @@ impl Modal {
     /// Whether a state may be in force in which the control refuses some words. Couplings are not known here.
     pub(crate) fn is_in(&self, state: ChannelState) -> bool {
         let is_fast = self.simplified.contains(Simplification::HighSpeed);
-        let is_any = |names: &[&str]| names.iter().any(|name| self.transformed.contains(*name));
+        let holds = |name: &str| self.transformed.contains(name);
         match state {
-            ChannelState::CutterRadius => is_any(&[CUTTER_RADIUS]),
+            ChannelState::CutterRadius => holds(CUTTER_RADIUS),
             ChannelState::LeavingRadius => {
                 self.leaving == Leaving::Begun && self.modes.has(Mode::LeavesWithMotion)
             }
-            ChannelState::ProgrammedSpline => is_any(&["#SPLINE"]),
+            ChannelState::ProgrammedSpline => holds("#SPLINE"),
             ChannelState::FastSpline => is_fast && self.high_speed.is_spline,
             ChannelState::Spline => self.is_spline(),
-            ChannelState::BSpline => is_any(&["#SPLINE"]) && self.modes.has(Mode::BSpline),
+            ChannelState::BSpline => holds("#SPLINE") && self.modes.has(Mode::BSpline),
             ChannelState::HighSpeed => is_fast,
             ChannelState::Contouring => self.simplified.contains(Simplification::Contouring),
-            ChannelState::Frame => is_any(&["#CS", "#ACS"]),
-            ChannelState::Kinematics => is_any(&["#TRAFO", "#RTCP"]),
+            ChannelState::Frame | ChannelState::Kinematics => {
+                let mut names = self.transformed.iter();
+                let row = |name: &String| HashCommand::named(name);
+                names.any(|name| row(name).is_some_and(|row| row.brings == Some(state)))
+            }
             ChannelState::PointToPoint => self.modes.has(Mode::PointToPoint),
-            ChannelState::Mirror => is_any(&["G21"]),
+            ChannelState::Mirror => holds("G21"),
             ChannelState::Coupling => false,
         }
     }

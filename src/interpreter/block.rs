@@ -19,7 +19,7 @@ use crate::interpreter::values::location::{MissingProgram, Unknown};
 use crate::interpreter::values::value::Slot;
 use crate::interpreter::ways::path::{EarlierStates, Path};
 use crate::interpreter::ways::words::seen_from;
-use crate::language::{AxisWords, BlockGroup, GFunction, Group};
+use crate::language::{AxisWords, BlockGroup, GFunction, Group, OnOff};
 use crate::machine::HarmlessWords;
 use crate::syntax::ast::{Block, BlockSharing, Declaration, Item};
 use crate::syntax::{Comments, Fault, RawBlock, Remark, VariableName, code_of};
@@ -519,6 +519,9 @@ pub(crate) struct BlockActions {
     pub(crate) condition: Option<bool>,
     /// Whether a probe decides where the block leads (R2.91).
     pub(crate) probes: bool,
+    /// G201 or G202, and the axes that `#ACHSE` names.
+    pub(crate) manual: Option<OnOff>,
+    pub(crate) manual_axes: Vec<AxisIndex>,
 }
 
 impl BlockActions {
@@ -542,6 +545,8 @@ impl BlockActions {
         self.radius = None;
         self.condition = None;
         self.probes = false;
+        self.manual = None;
+        self.manual_axes.clear();
     }
 
     /// Takes a G function; returns whether the control refuses it, because the block has one of its group.

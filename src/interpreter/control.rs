@@ -19,7 +19,7 @@ use crate::interpreter::values::value::Value;
 use crate::interpreter::ways::history::{History, HistorySide};
 use crate::interpreter::ways::path::EarlierStates;
 use crate::interpreter::ways::set::WaySet;
-use crate::language::{HashCommand, Holds, Simplification};
+use crate::language::{ChannelState, HashCommand, Holds, Simplification};
 use crate::syntax::ast::{Call, Repetition};
 use crate::text::Place;
 
@@ -70,7 +70,15 @@ impl OptionalSection {
 }
 
 impl ControlState {
-    /// Returns the states at this block, for where the machine does not execute what follows.
+    /// Whether a state may be in force in which the control refuses some words.
+    pub(crate) fn is_in(&self, state: ChannelState) -> bool {
+        match state {
+            ChannelState::Coupling => self.couplings.is_any(),
+            _ => self.modal.is_in(state),
+        }
+    }
+
+    /// The states at this block, for where the machine does not execute what follows.
     pub(crate) fn earlier_states(&self) -> EarlierStates {
         EarlierStates {
             compensation: self.compensation.clone(),

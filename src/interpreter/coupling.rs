@@ -223,6 +223,12 @@ impl Couplings {
         })
     }
 
+    /// The slaves of a group that is known.
+    pub(crate) fn slaves(&self, group: &str) -> impl Iterator<Item = AxisIndex> {
+        let known = self.groups.get(group).into_iter();
+        known.flat_map(|group| group.pairs().map(|[slave, _]| slave))
+    }
+
     /// Counts the axes of a group that comes into force, or is released.
     fn count(&mut self, pairs: &[[AxisIndex; 2]], change: impl Fn(u32) -> u32) {
         for pair in pairs {

@@ -6,6 +6,7 @@
 
 use super::hash::Plc;
 use super::motion::{Certainty, MotionEffect, MotionKind, Moves, Simplification};
+use super::state::{ChannelState, RefusedIn};
 
 /// A command by its keyword; one that begins with `MC_` by the start of its keyword.
 struct BracketRow {
@@ -20,6 +21,8 @@ struct BracketRow {
     /// Simplification of the commanded trace, where it is another one than that of a motion.
     simplifies: Option<Simplification>,
     action: AxisAction,
+    refused: RefusedIn,
+    functions: &'static [u32],
 }
 
 /// A command in the bracket of an axis or a spindle.
@@ -33,6 +36,10 @@ pub struct AxisCommand {
     pub(crate) action: AxisAction,
     /// Part of the PLC in it: it acknowledges M and H functions, `S[M3 REV1000]`.
     pub(crate) plc: Plc,
+    /// States in which the control refuses it, if the axis takes part in them.
+    pub(crate) refused: RefusedIn,
+    /// The G functions that it admits in its bracket, where it has any.
+    pub(crate) functions: &'static [u32],
 }
 
 /// Effect of a command in the bracket of an axis that is not in the other columns.
@@ -54,6 +61,8 @@ impl BracketRow {
             only_with: &[],
             simplifies: None,
             action: AxisAction::None,
+            refused: &[],
+            functions: &[],
         }
     }
 
@@ -62,6 +71,8 @@ impl BracketRow {
         only_with(words: &'static [&'static str]) = words;
         simplifies(what: Simplification) = Some(what);
         action(action: AxisAction) = action;
+        refused(states: RefusedIn) = states;
+        functions(numbers: &'static [u32]) = numbers;
     }
 }
 
@@ -74,6 +85,17 @@ macro_rules! brackets {
 /// The blocks of motion control for axes (PM/5252363631026771979).
 const MC: &str = "PM/5252363631026771979";
 
+/// Where the control does not move an axis by itself (TF5200 Diagnosis, pages 265468555, 253361291, 254854027).
+const INDEPENDENT: RefusedIn = &[
+    (ChannelState::Spline, 120_697),
+    (ChannelState::Kinematics, 21071),
+    (ChannelState::Frame, 21071),
+    (ChannelState::Coupling, 21481),
+];
+
+/// The G functions of an axis that moves by itself (PM/208612235), and G60, which no page refuses there.
+const ALONE: &[u32] = &[0, 1, 60, 90, 91, 100];
+
 /// The commands; the first row that fits applies.
 static BRACKETS: &[BracketRow] = {
     use AxisAction::{EndFollowing, Override};
@@ -82,8 +104,8 @@ static BRACKETS: &[BracketRow] = {
     use Moves::{Follower, Own};
     use Simplification::AxisDynamics;
     brackets! {
-        "INDP_SYN" ("PM/208612235") motion(Independent, Own, Certain);
-        "INDP_ASYN" ("PM/502430091") motion(Independent, Own, Certain);
+        "INDP_SYN" ("PM/208612235") motion(Independent, Own, Certain) refused(INDEPENDENT) functions(ALONE);
+        "INDP_ASYN" ("PM/502430091") motion(Independent, Own, Certain) refused(INDEPENDENT) functions(ALONE);
         "OSC" ("PM/222108427") motion(Independent, Own, Certain) only_with(&["ON"]);
         "DIST_CTRL" ("PM/290203275, 290209035") motion(Independent, Own, Certain) only_with(&["ON"]);
         "OVERRIDE" ("PM/208662411") action(Override);
@@ -156,6 +178,8 @@ impl AxisCommand {
             } else {
                 Plc::Absent
             },
+            refused: motion.and(row).map_or(&[], |row| row.refused),
+            functions: row.map_or(&[], |row| row.functions),
         }
     }
 

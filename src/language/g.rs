@@ -11,6 +11,7 @@ use super::hash::Flushes;
 use super::motion::{
     AxisWords, Certainty, ChainStep, Holds, MotionEffect, MotionKind, Moves, OnOff, Simplification,
 };
+use super::state::{ChannelState, Mode, RefusedIn};
 
 /// A G function of the language, or neighbours that have everything in common.
 #[derive(Debug)]
@@ -40,6 +41,10 @@ pub(crate) struct GFunction {
     pub(crate) coordinates: CoordinateEffect,
     /// Conditions under which it flushes the channel and the control refuses that (R2.111).
     pub(crate) flushes: Flushes,
+    /// States in which the control refuses it for another reason (R2.111).
+    pub(crate) refused: RefusedIn,
+    /// Mode that it switches.
+    pub(crate) mode: Option<(Mode, OnOff)>,
     /// Number of the group of a channel list in which it may be the default at program start (P-CHAN-00063).
     default_of: Option<u32>,
 }
@@ -73,6 +78,10 @@ pub(crate) enum GAction {
     SetRadius,
     /// G166: overrides do not count.
     RunAtFullSpeed,
+    /// G200: the operator moves axes before the program goes on (PM/206639371).
+    WaitForOperator,
+    /// G201, G202: the operator moves axes along with the program, or does not any more (PM/206633483).
+    SwitchManual(OnOff),
 }
 
 /// A group of G functions of which a block takes one, and of which more than one may be in force (TF5200 Diagnosis).
@@ -94,6 +103,10 @@ pub(crate) enum BlockGroup {
     CentreCorrection,
     /// Look-ahead, with which N is a number of blocks, `G115 N5` (error 20124).
     LookAhead,
+    /// Mirroring (error 20112).
+    Mirror,
+    /// The meaning of S (error 20122).
+    SpindleSpeed,
 }
 
 /// Effect of a G function on coordinates.
@@ -133,6 +146,8 @@ impl GFunction {
             simplifies: None,
             coordinates: CoordinateEffect::None,
             flushes: Flushes::Never,
+            refused: &[],
+            mode: None,
             default_of: None,
         }
     }
@@ -148,6 +163,8 @@ impl GFunction {
         simplifies(what: Simplification, holds: Holds) = Some((what, holds));
         coordinates(coordinates: CoordinateEffect) = coordinates;
         flushes(under: Flushes) = under;
+        refused(states: RefusedIn) = states;
+        mode(mode: Mode, switch: OnOff) = Some((mode, switch));
         default_of(group: u32) = Some(group);
     }
 }
@@ -169,20 +186,37 @@ const EDITOR: &str = "vscode-isg-cnc";
 
 const PROBED: &str = "a measuring motion ends where the probe triggers";
 
+/// What `#HSC ON [OPMODE 2]` does not have (TF5200 Diagnosis, page 264715659).
+const IN_FAST_SPLINE: RefusedIn = &[(ChannelState::FastSpline, 120_433)];
+
+/// Rounding by polynomials (TF5200 Diagnosis, pages 264715659, 264519819).
+const ROUNDING: RefusedIn = &[
+    (ChannelState::FastSpline, 120_433),
+    (ChannelState::ProgrammedSpline, 120_255),
+];
+
+/// Measuring (TF5200 Diagnosis, pages 250645643, 264715659).
+const MEASURING: RefusedIn = &[
+    (ChannelState::CutterRadius, 20049),
+    (ChannelState::FastSpline, 120_433),
+];
+
 /// The functions, in the order of their numbers.
 static FUNCTIONS: &[GFunction] = {
     use AxisWords::{Measuring, Other, Reference};
     use BlockGroup as One;
     use Certainty::{Certain, Possible};
     use ChainStep::{Coordinates, Path};
+    use ChannelState::{CutterRadius, FastSpline, LeavingRadius};
     use CoordinateEffect::{NotKnown, Unfollowed};
     use Flushes::{Both, Radius};
     use GAction::{
         Call, Dwell, Mirror, RestAtEnd, Rotate, RunAtFullSpeed, SetCuttingSpeed, SetRadius,
-        SetReference, SetSpindleSpeed, SwitchSpline, WeighRapid,
+        SetReference, SetSpindleSpeed, SwitchManual, SwitchSpline, WaitForOperator, WeighRapid,
     };
+    use Mode::{FixedCentre, LeavesWithMotion};
     use MotionKind::{Feed, Homing, Unknown};
-    use Moves::{Words, WordsOrAll};
+    use Moves::{Words, WordsInSpace, WordsOrAll};
     use OnOff::{Off, On};
     use Simplification::{
         AccelerationWeight, Contouring, CornerDeceleration, FeedRamp, LateDeceleration, RampWeight,
@@ -190,7 +224,7 @@ static FUNCTIONS: &[GFunction] = {
     };
     functions! {
         0..=3 ("R2.45") group(Group::Motion) default_of(0);
-        4 (MANUAL) action(Dwell) axis_words(Other) default_of(0);
+        4 (MANUAL) action(Dwell) axis_words(Other) default_of(0) refused(&[(FastSpline, 120_435)]);
         5 (MANUAL);
         8 (MANUAL);
         9 (MANUAL) one_of(One::Deceleration);
@@ -198,18 +232,18 @@ static FUNCTIONS: &[GFunction] = {
         11 ("PM/206473227") simplifies(ToolFeed, Holds::On);
         12 (MANUAL) simplifies(CornerDeceleration, Holds::Off);
         13 (MANUAL) simplifies(CornerDeceleration, Holds::On);
-        17..=19 ("R2.45") group(Group::Plane) default_of(4);
-        20 ("PM/206266379") action(Mirror) chain(Coordinates, "G21", Off);
-        21..=23 ("PM/206266379") action(Mirror) chain(Coordinates, "G21", On);
+        17..=19 ("R2.45") group(Group::Plane) default_of(4) refused(&[(CutterRadius, 20133)]);
+        20 ("PM/206266379") action(Mirror) one_of(One::Mirror) chain(Coordinates, "G21", Off);
+        21..=23 ("PM/206266379") action(Mirror) one_of(One::Mirror) chain(Coordinates, "G21", On);
         25..=26 (MANUAL) one_of(One::Transition) default_of(6);
         28 (MANUAL);
-        33 (MANUAL) motion(Feed, Words, Certain) unmodelled("G33 follows a spindle");
+        33 (MANUAL) motion(Feed, Words, Certain) unmodelled("G33 follows a spindle") refused(IN_FAST_SPLINE);
         40..=42 ("R2.45") group(Group::CutterRadius);
         43..=44 (EDITOR) coordinates(Unfollowed);
         51..=52 (EDITOR) one_of(One::Diameter) coordinates(Unfollowed) default_of(8);
         53..=59 ("R2.45") group(Group::Offset);
         60 (MANUAL) action(RestAtEnd) one_of(One::ExactStop);
-        61 ("PM/206307595") simplifies(Contouring, Holds::Once) one_of(One::ExactStop);
+        61 ("PM/206307595") simplifies(Contouring, Holds::Once) one_of(One::ExactStop) refused(ROUNDING);
         63 (MANUAL) motion(Feed, Words, Certain) unmodelled("G63 follows a spindle");
         66 (EDITOR) coordinates(Unfollowed);
         68 ("PM/969743115") action(Rotate) chain(Coordinates, "#ROTATION", On) axis_words(Other);
@@ -219,15 +253,16 @@ static FUNCTIONS: &[GFunction] = {
         80..=89 ("PM/206278923") action(Call);
         90..=91 ("R2.45") group(Group::Distance) default_of(14);
         92 ("PM/206145291") action(SetReference) axis_words(Reference);
-        93..=95 ("R2.45") group(Group::Feed);
-        96 (MANUAL) action(SetCuttingSpeed);
-        97 (MANUAL) action(SetSpindleSpeed);
-        98..=99 (MANUAL) axis_words(Other);
-        100..=102 ("PM/206177803") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring);
+        93..=94 ("R2.45") group(Group::Feed);
+        95 ("R2.45") group(Group::Feed) refused(IN_FAST_SPLINE);
+        96 (MANUAL) action(SetCuttingSpeed) one_of(One::SpindleSpeed) refused(IN_FAST_SPLINE);
+        97 (MANUAL) action(SetSpindleSpeed) one_of(One::SpindleSpeed);
+        98..=99 (MANUAL) axis_words(Other) refused(&[(ChannelState::Frame, 20663)]);
+        100..=102 ("PM/206177803") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring) refused(MEASURING);
         103..=105 (EDITOR) one_of(One::Measuring) coordinates(NotKnown);
-        106 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring);
+        106 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring) refused(MEASURING);
         107 (MANUAL) one_of(One::Measuring);
-        108 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring);
+        108 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) one_of(One::Measuring) refused(MEASURING);
         109 (MANUAL);
         112 (MANUAL) axis_words(Other);
         115..=117 (MANUAL) one_of(One::LookAhead);
@@ -240,43 +275,46 @@ static FUNCTIONS: &[GFunction] = {
         135 (MANUAL) axis_words(Other) default_of(21);
         136 (MANUAL) axis_words(Other);
         137 (MANUAL) axis_words(Other) default_of(21);
-        138..=139 (MANUAL) one_of(One::RadiusSelection) default_of(22);
+        138..=139 (MANUAL) one_of(One::RadiusSelection) default_of(22) mode(LeavesWithMotion, On);
         140..=141 (MANUAL) default_of(32);
-        150 ("PM/207263627") action(SwitchSpline) chain(Path, "#SPLINE", Off);
-        151 ("PM/207256971") action(SwitchSpline) chain(Path, "#SPLINE", On);
+        150 ("PM/207263627") action(SwitchSpline) chain(Path, "#SPLINE", Off) refused(&[(ChannelState::HighSpeed, 120_370)]);
+        151 ("PM/207256971") action(SwitchSpline) chain(Path, "#SPLINE", On) refused(&[(ChannelState::HighSpeed, 120_370)]);
         159 ("R2.45") group(Group::Offset);
         160 (MANUAL);
         161..=162 ("R2.45") group(Group::CircleCentre) default_of(23);
         163 (MANUAL) action(SetRadius);
-        164..=165 (MANUAL) one_of(One::CentreCorrection) default_of(25);
+        164 (MANUAL) one_of(One::CentreCorrection) default_of(25) mode(FixedCentre, On);
+        165 (MANUAL) one_of(One::CentreCorrection) default_of(25) mode(FixedCentre, Off);
         166 ("PM/206744331") action(RunAtFullSpeed);
         167 (MANUAL);
         180 (MANUAL);
         193 ("PM/206245643") simplifies(FeedRamp, Holds::Once);
         194 ("R2.45") group(Group::Feed);
-        196..=197 (MANUAL);
-        200 ("PM/206639371") motion(Unknown, WordsOrAll, Possible) axis_words(Other) coordinates(Unfollowed) flushes(Both);
-        201 ("PM/206633483") motion(Unknown, Words, Possible) axis_words(Other) coordinates(Unfollowed) flushes(Radius);
-        202 (EDITOR) axis_words(Other) coordinates(Unfollowed);
+        196 (MANUAL) one_of(One::SpindleSpeed);
+        197 (MANUAL);
+        200 ("PM/206639371") action(WaitForOperator) motion(Unknown, WordsOrAll, Possible) axis_words(Other) coordinates(Unfollowed) flushes(Both);
+        201 ("PM/206633483") action(SwitchManual(On)) motion(Unknown, Words, Possible) axis_words(Other) coordinates(Unfollowed) flushes(Radius);
+        202 (EDITOR) action(SwitchManual(Off)) axis_words(Other) coordinates(Unfollowed);
         230..=231 ("PM/206590731") axis_words(Other) simplifies(AccelerationWeight, Holds::On);
         233 ("PM/206596619") axis_words(Other) simplifies(RampWeight, Holds::On);
         234 (EDITOR) coordinates(Unfollowed);
-        236..=239 (MANUAL) default_of(22);
+        236 (MANUAL) default_of(22) mode(LeavesWithMotion, On);
+        237..=239 (MANUAL) default_of(22) mode(LeavesWithMotion, Off);
         260 ("PM/206307595") simplifies(Contouring, Holds::Off) one_of(One::ExactStop);
-        261 ("PM/206307595") simplifies(Contouring, Holds::On) one_of(One::ExactStop);
+        261 ("PM/206307595") simplifies(Contouring, Holds::On) one_of(One::ExactStop) refused(ROUNDING);
         270..=271 (EDITOR) coordinates(Unfollowed);
         280 (EDITOR) coordinates(Unfollowed);
         293 ("PM/206245643") simplifies(FeedRamp, Holds::Once);
         294 (EDITOR) coordinates(Unfollowed);
         296 (MANUAL);
         301..=302 (MANUAL) motion(Feed, Words, Certain) unmodelled("G301 and G302 insert a contour");
-        303 (MANUAL) motion(Feed, Words, Certain) unmodelled("G303 is an arc in space");
-        310 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED);
+        303 (MANUAL) motion(Feed, WordsInSpace, Certain) unmodelled("G303 is an arc in space") refused(&[(CutterRadius, 22081), (LeavingRadius, 90193)]);
+        310 ("PM/206197003") motion(Feed, Words, Certain) axis_words(Measuring) unmodelled(PROBED) refused(MEASURING);
         331..=332 (MANUAL) motion(Feed, Words, Certain);
         333..=334 (MANUAL) axis_words(Other);
         338..=339 (MANUAL) axis_words(Other);
         350 (EDITOR) coordinates(Unfollowed);
-        351 (EDITOR) axis_words(Other) coordinates(Unfollowed);
+        351 (EDITOR) one_of(One::Mirror) axis_words(Other) coordinates(Unfollowed);
         359..=360 ("R2.45") group(Group::ExactStop);
         393 (EDITOR) coordinates(Unfollowed);
         800..=899 ("PM/206278923") action(Call);
@@ -390,7 +428,20 @@ impl GFunction {
         self.axis_words == AxisWords::Measuring
     }
 
-    /// Returns whether it is an implicit call.
+    /// Whether it is about axes that the operator moves: G200, G201, G202.
+    pub(crate) fn is_for_operator(&self) -> bool {
+        matches!(
+            self.action,
+            GAction::WaitForOperator | GAction::SwitchManual(_)
+        )
+    }
+
+    /// Whether the control refuses it in some states.
+    pub(crate) fn is_refused_somewhere(&self) -> bool {
+        !self.refused.is_empty() || self.flushes != Flushes::Never
+    }
+
+    /// Whether it is an implicit call.
     pub(crate) fn is_call(&self) -> bool {
         self.action == GAction::Call
     }

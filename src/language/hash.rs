@@ -10,7 +10,10 @@ use std::ops::Deref;
 
 use serde::{Deserialize, Deserializer, Serializer};
 
-use super::motion::{Certainty, ChainStep, Holds, MotionEffect, MotionKind, Moves, Simplification};
+use super::motion::{
+    Certainty, ChainStep, Holds, MotionEffect, MotionKind, Moves, OnOff, Simplification,
+};
+use super::state::{ChannelState, Mode, RefusedIn};
 use crate::readings::Question;
 
 /// A `#` command of the language.
@@ -49,6 +52,12 @@ pub(crate) struct HashCommand {
     pub(crate) refuses_comp: Option<u32>,
     /// Conditions under which it flushes the channel and the control refuses that (R2.111).
     pub(crate) flushes: Flushes,
+    /// States in which the control refuses it for another reason (R2.111).
+    pub(crate) refused: RefusedIn,
+    /// State that it brings until it is switched off.
+    pub(crate) brings: Option<ChannelState>,
+    /// Mode that it switches, unless it has a word that switches off.
+    pub(crate) mode: Option<(Mode, OnOff)>,
     /// Name in the state and in messages, where that is another command's.
     known_as: Option<&'static str>,
 }
@@ -106,10 +115,10 @@ pub(crate) enum HashAction {
     RetainCycleChanges,
     /// Deletion of the macros of the program.
     ForgetMacros,
-    /// Start of a description: the blocks up to its end describe geometry and do not move (R2.81): the contour for a
-    /// cycle (tf5293, 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
-    Describe,
-    /// End of a description.
+    /// The blocks up to its end describe geometry and do not move (R2.81): the contour for a cycle (tf5293,
+    /// 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
+    Describe(Described),
+    /// A description ends.
     EndDescription,
     /// Definition of a coupling group (PM/207120267).
     DefineCoupling(MembersBy),
@@ -127,7 +136,9 @@ pub(crate) enum HashAction {
     ChangeFile(FileAction),
     /// Arrival or departure of axes of the channel (PM/206977419 and its neighbours).
     ExchangeAxes(Exchange),
-    /// Rotation of coordinates in the plane (PM/207442315).
+    /// The axes that G200 to G202 of its block are about (PM/206633483).
+    NameManualAxes,
+    /// Coordinates are rotated in the plane (PM/207442315).
     Rotate,
     /// Programming of overrides (PM/207625099).
     Override,
@@ -139,6 +150,17 @@ pub(crate) enum HashAction {
     SelectSlope(SlopeForm),
     /// Write of an axis parameter while the program runs (R2.92; PM/207492747).
     WriteMachineData,
+}
+
+/// What blocks describe that do not move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Described {
+    /// The contour for a cycle.
+    Contour,
+    /// What each motion triggers while strokes are on.
+    Stroke,
+    /// The limits of an area.
+    Area,
 }
 
 /// Kind of an axis exchange.
@@ -248,10 +270,24 @@ pub(crate) enum Flushes {
     Never,
     /// Under cutter radius compensation.
     Radius,
-    /// Under a spline.
-    Spline,
     /// Under either.
     Both,
+}
+
+impl Flushes {
+    /// The states, each with the number of the error.
+    pub(crate) fn refused(self) -> RefusedIn {
+        const BOTH: RefusedIn = &[
+            (ChannelState::CutterRadius, 20651),
+            (ChannelState::LeavingRadius, 90050),
+            (ChannelState::Spline, 120_434),
+        ];
+        match self {
+            Self::Never => &[],
+            Self::Radius => BOTH.split_at(2).0,
+            Self::Both => BOTH,
+        }
+    }
 }
 
 /// Effect of a `#` command on a motion in progress.
@@ -282,6 +318,9 @@ impl HashCommand {
             basis: None,
             refuses_comp: None,
             flushes: Flushes::Never,
+            refused: &[],
+            brings: None,
+            mode: None,
             known_as: None,
         }
     }
@@ -301,6 +340,9 @@ impl HashCommand {
         basis(question: Question) = Some(question);
         refuses_comp(number: u32) = Some(number);
         flushes(under: Flushes) = under;
+        refused(states: RefusedIn) = states;
+        brings(state: ChannelState) = Some(state);
+        mode(mode: Mode, switch: OnOff) = Some((mode, switch));
         known_as(name: &'static str) = Some(name);
     }
 }
@@ -321,22 +363,52 @@ const EDITOR: &str = "vscode-isg-cnc";
 /// The texts of the kernel's messages.
 const KERNEL: &str = "kernel messages";
 
+/// Coordinate systems are selected or left (TF5200 Diagnosis, page 252599691).
+const SYSTEM: RefusedIn = &[(ChannelState::CutterRadius, 20802)];
+
+/// Axes come or go (TF5200 Diagnosis, page 264528523).
+const EXCHANGE: RefusedIn = &[(ChannelState::Spline, 120_265)];
+
+/// Positions get other values (TF5200 Diagnosis, pages 251973003, 251981707).
+const SET_VALUE: RefusedIn = &[
+    (ChannelState::CutterRadius, 20608),
+    (ChannelState::Mirror, 20612),
+];
+
+/// A coupling group is released (TF5200 Diagnosis, pages 251659659, 264598155, 264602507).
+const UNCOUPLE: RefusedIn = &[
+    (ChannelState::CutterRadius, 20457),
+    (ChannelState::Spline, 120_332),
+    (ChannelState::Contouring, 120_333),
+];
+
+/// A coupling group comes into force (those, and page 252621451).
+const COUPLE: RefusedIn = &[
+    (ChannelState::CutterRadius, 20457),
+    (ChannelState::Spline, 120_332),
+    (ChannelState::Contouring, 120_333),
+    (ChannelState::Kinematics, 20809),
+];
+
 /// The commands, in the order of their words.
 static COMMANDS: &[HashCommand] = {
     use BlockSharing::WordsBefore;
     use Certainty::{Certain, Possible};
     use ChainStep::{Coordinates, Kinematics, Machine, Origin, Path};
-    use Flushes::{Both, Radius, Spline};
+    use ChannelState::{CutterRadius, ProgrammedSpline};
+    use Flushes::{Both, Radius};
     use HashAction::{
         ChangeFile, Comment, Declare, DefineCoupling, Delete, Describe, Dwell, EnableCoupling,
         EndComment, EndDeclarations, EndDescription, EndModalCycles, EndRealTimeLoop, ExchangeAxes,
-        ForgetMacros, Initialise, NamePrograms, Override, RealTimeLoop, ReleaseCoupling,
-        ReleaseCouplings, ReportError, RetainCycleChanges, Rotate, Round, SaveConfig, SelectSlope,
-        SelectSpindle, SkipBackward, Wait, WriteMachineData,
+        ForgetMacros, Initialise, NameManualAxes, NamePrograms, Override, RealTimeLoop,
+        ReleaseCoupling, ReleaseCouplings, ReportError, RetainCycleChanges, Rotate, Round,
+        SaveConfig, SelectSlope, SelectSpindle, SkipBackward, Wait, WriteMachineData,
     };
     use HashArguments::{Declarations, Expressions, Lines, RemedyClass};
+    use Mode::{BSpline, PointToPoint, Punching};
     use MotionKind::{Coupled, Frame, Independent};
     use Moves::{Channel, Follower, Main, NamedOrAll};
+    use OnOff::{Off, On};
     use PathFlow::GoesOn;
     use Question::{AxisExchange, MachineData};
     use Simplification::{
@@ -344,24 +416,24 @@ static COMMANDS: &[HashCommand] = {
     };
     use Touches::{Axes, Friction, Motion, Plane, Values};
     commands! {
-        "#ACHSE" ("tccncprogramming/15557317259") sharing(WordsBefore);
+        "#ACHSE" ("tccncprogramming/15557317259") action(NameManualAxes) sharing(WordsBefore);
         "#ACHSTAUSCH" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Undescribed));
-        "#ACS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible);
+        "#ACS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible) refused(SYSTEM) brings(ChannelState::Frame);
         "#ADD" (APPENDIX) sharing(WordsBefore);
         "#AKIMA ENDVECTOR" (APPENDIX);
         "#AKIMA STARTVECTOR" (APPENDIX);
         "#AKIMA TRANS" (APPENDIX);
         "#ANG" ("PM/206123787") touches(Plane) unmodelled("`#ANG` computes a coordinate from an angle");
         "#ASPLINE" (EDITOR);
-        "#AX DEF" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange) flushes(Radius);
+        "#AX DEF" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange) flushes(Radius) refused(EXCHANGE);
         "#AX LINK" (APPENDIX) action(DefineCoupling(MembersBy::Name));
         "#AX LINK NBR" (APPENDIX) action(DefineCoupling(MembersBy::Number));
-        "#AX LINK OFF" (APPENDIX) action(ReleaseCoupling);
-        "#AX LINK OFF ALL" (APPENDIX) action(ReleaseCouplings);
-        "#AX LINK ON" (APPENDIX) action(EnableCoupling);
+        "#AX LINK OFF" (APPENDIX) action(ReleaseCoupling) refused(UNCOUPLE);
+        "#AX LINK OFF ALL" (APPENDIX) action(ReleaseCouplings) refused(UNCOUPLE);
+        "#AX LINK ON" (APPENDIX) action(EnableCoupling) refused(COUPLE);
         "#AX LOCK" (APPENDIX);
-        "#AX RELEASE" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange) flushes(Radius);
-        "#AX REQUEST" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange) flushes(Radius);
+        "#AX RELEASE" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange) flushes(Radius) refused(EXCHANGE);
+        "#AX REQUEST" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange) flushes(Radius) refused(EXCHANGE);
         "#AX UNLOCK" (APPENDIX);
         "#BACKWARD STORAGE CLEAR" (APPENDIX);
         "#BCS" (APPENDIX) chain(Coordinates) motion(Frame, Main, Possible);
@@ -369,8 +441,8 @@ static COMMANDS: &[HashCommand] = {
         "#BLOCKSEARCH RELEASED" (APPENDIX);
         "#BSPLINE" (EDITOR);
         "#CACHE" (APPENDIX);
-        "#CALL AX" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange);
-        "#CAX" (APPENDIX);
+        "#CALL AX" (APPENDIX) touches(Axes) action(ExchangeAxes(Exchange::Request)) chain(Origin) basis(AxisExchange) flushes(Radius) refused(EXCHANGE);
+        "#CAX" (APPENDIX) flushes(Radius);
         "#CAXTRACK" (APPENDIX) motion(Coupled, Follower, Possible);
         "#CHANNEL INIT" (APPENDIX) flushes(Both);
         "#CHANNEL INTERFACE" (APPENDIX);
@@ -378,27 +450,27 @@ static COMMANDS: &[HashCommand] = {
         "#CHF" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
         "#CHR" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
         "#CLAMP" (EDITOR);
-        "#CLEAR CONFIG" ("PM/207551115") action(SaveConfig(ConfigAction::Clear));
+        "#CLEAR CONFIG" ("PM/207551115") action(SaveConfig(ConfigAction::Clear)) flushes(Radius);
         "#COMMAND WAIT" (EDITOR);
         "#COMMAND WR" (EDITOR);
         "#COMMENT" ("PM/205979659") path(GoesOn);
         "#COMMENT BEGIN" ("PM/205979659") action(Comment) until("#COMMENT END") path(GoesOn);
         "#COMMENT END" ("PM/205979659") action(EndComment) path(GoesOn);
-        "#CONTOUR BEGIN" (EDITOR) action(Describe) until("#CONTOUR END") refuses_comp(22101);
+        "#CONTOUR BEGIN" (EDITOR) action(Describe(Described::Contour)) until("#CONTOUR END") refuses_comp(22101);
         "#CONTOUR END" (EDITOR) action(EndDescription);
         "#CONTOUR MODE" ("tccncprogramming/15557317259") action(Round(ContouringCommand::Contour)) simplifies(Contouring);
         "#CONTROL AREA" ("tccncprogramming/15557317259");
-        "#CONTROL AREA BEGIN" ("tccncprogramming/15557317259") action(Describe) until("#CONTROL AREA END");
+        "#CONTROL AREA BEGIN" ("tccncprogramming/15557317259") action(Describe(Described::Area)) until("#CONTROL AREA END");
         "#CONTROL AREA END" ("tccncprogramming/15557317259") action(EndDescription);
         "#CORNER PARAM" (EDITOR);
-        "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Both);
-        "#CYL" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Both) refused(SYSTEM) brings(ChannelState::Frame);
+        "#CYL" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Radius);
         "#DB INFO" (EDITOR);
         "#DCC" (EDITOR);
         "#DEL DIST2GO" (EDITOR);
         "#DELETE" ("PM/207960587") action(Delete) arguments(Expressions);
-        "#DISABLE AX LINK" ("PM/207133579") action(ReleaseCoupling);
-        "#DISABLE AX LINK ALL" ("PM/207133579") action(ReleaseCouplings);
+        "#DISABLE AX LINK" ("PM/207133579") action(ReleaseCoupling) refused(UNCOUPLE);
+        "#DISABLE AX LINK ALL" ("PM/207133579") action(ReleaseCouplings) refused(UNCOUPLE);
         "#DISABLE MODAL CYCLE" ("PM/206859019") action(EndModalCycles);
         "#DIST CTRL" (EDITOR);
         "#DIST CTRL ON" (EDITOR) motion(Independent, NamedOrAll, Possible);
@@ -413,13 +485,13 @@ static COMMANDS: &[HashCommand] = {
         "#ECS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible);
         "#EDGE MACHINING" (EDITOR);
         "#EDM" (EDITOR);
-        "#ENABLE AX LINK" ("PM/207133579") action(EnableCoupling);
+        "#ENABLE AX LINK" ("PM/207133579") action(EnableCoupling) refused(COUPLE);
         "#ENDVAR" ("PM/207960587") action(EndDeclarations) path(GoesOn);
         "#ERROR" (EDITOR) action(ReportError) arguments(RemedyClass);
         "#EXPL SYN" (EDITOR) plc(Plc::Acts);
         "#EXPORT VE" (EDITOR);
         "#EXTCOMP" (EDITOR);
-        "#FACE" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#FACE" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Radius);
         "#FF" (EDITOR) simplifies(ForeignFeed);
         "#FGROUP" (EDITOR) simplifies(FeedGroup);
         "#FILE DELETE" ("PM/207518603") action(ChangeFile(FileAction::Delete));
@@ -436,13 +508,14 @@ static COMMANDS: &[HashCommand] = {
         "#GANTRY" (EDITOR) motion(Coupled, Moves::Gantry, Certain);
         "#GEAR LINK" ("PM/546229387") motion(Coupled, Follower, Certain);
         "#GEO" (EDITOR) simplifies(ForeignFeed);
-        "#GET ACTPOS" (EDITOR) touches(Values);
-        "#GET CMDPOS" (EDITOR) touches(Values);
+        "#GET ACTPOS" (EDITOR) touches(Values) flushes(Radius);
+        "#GET CMDPOS" (EDITOR) touches(Values) flushes(Radius);
         "#GET IPO OFFSET" (EDITOR) touches(Values);
-        "#GET MANUAL OFFSETS" (EDITOR) touches(Values);
+        "#GET MANUAL OFFSETS" (EDITOR) touches(Values) flushes(Radius);
         "#GET WCS POSLIMIT" (EDITOR) touches(Values);
         "#HANDWHEEL" (EDITOR);
         "#HSC" (EDITOR) action(Round(ContouringCommand::HighSpeed)) simplifies(HighSpeed);
+        "#HSC ON" ("PM/207278475") action(Round(ContouringCommand::HighSpeed)) simplifies(HighSpeed) refused(&[(ProgrammedSpline, 120_255)]) known_as("#HSC");
         "#IDENT RD" (EDITOR) touches(Values);
         "#IDENT WR" (EDITOR);
         "#INFO" (EDITOR);
@@ -452,36 +525,37 @@ static COMMANDS: &[HashCommand] = {
         "#JOG CONT" (EDITOR);
         "#JOG INCR" (EDITOR);
         "#KIN DATA" (EDITOR) chain(Kinematics) known_as("#KIN") motion(Frame, Channel, Possible);
-        "#KIN ID" (EDITOR) chain(Kinematics) known_as("#KIN") motion(Frame, Channel, Possible);
+        "#KIN ID" (EDITOR) chain(Kinematics) known_as("#KIN") motion(Frame, Channel, Possible) refused(&[(ChannelState::Kinematics, 20687)]);
         "#KIN TCP" (EDITOR);
         "#LAH" (EDITOR);
         "#LASER" (EDITOR);
         "#LIMIT LOAD" (EDITOR);
         "#LIMIT REFRESH" (EDITOR);
-        "#LOAD CONFIG" ("PM/207542155") touches(Axes) action(SaveConfig(ConfigAction::Load)) flushes(Radius);
+        "#LOAD CONFIG" ("PM/207542155") touches(Axes) action(SaveConfig(ConfigAction::Load)) flushes(Radius) refused(&[(ChannelState::Coupling, 21277)]);
         "#LOCK" (EDITOR);
         "#MACHINE DATA" (EDITOR) action(WriteMachineData) basis(MachineData);
         "#MAIN SPINDLE" (EDITOR) action(SelectSpindle);
         "#MANUAL LIMITS" (EDITOR);
         "#MARK" (EDITOR);
-        "#MCS" (EDITOR) chain(Machine);
-        "#MCS TO WCS" ("PM/208525707") touches(Values);
+        "#MCS" (EDITOR) chain(Machine) flushes(Radius) refused(SYSTEM);
+        "#MCS TO WCS" ("PM/208525707") touches(Values) flushes(Radius);
         "#MC_MOVEPATH" (EDITOR) touches(Motion);
         "#MEAS" (EDITOR);
         "#MICROJOINT" (EDITOR);
         "#MSG" (EDITOR) plc(Plc::ActsAfterAcknowledgement) path(GoesOn);
         "#MSG SAVE" ("PM/207518603") action(ChangeFile(FileAction::Message)) plc(Plc::ActsAfterAcknowledgement) path(GoesOn);
-        "#NIBBLE" (EDITOR);
+        "#NIBBLE" (EDITOR) mode(Punching, On);
         "#OPTIONAL EXECUTION" (EDITOR) action(SkipBackward);
         "#ORI MODE" (EDITOR);
         "#ORIMODE" (EDITOR);
         "#OTC" (EDITOR);
+        "#OTC OFF" ("PM/524821515") flushes(Radius);
         "#OVERRIDE" (EDITOR) action(Override);
-        "#PRESET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates);
-        "#PSET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates);
-        "#PTP" (EDITOR);
-        "#PUNCH" (EDITOR);
-        "#PUT AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange);
+        "#PRESET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates) flushes(Radius) refused(SET_VALUE);
+        "#PSET" (EDITOR) chain(Origin) sharing(WordsBefore) arguments(HashArguments::Coordinates) refused(SET_VALUE);
+        "#PTP" (EDITOR) mode(PointToPoint, On) flushes(Radius) refused(&[(CutterRadius, 21525)]);
+        "#PUNCH" (EDITOR) mode(Punching, On);
+        "#PUT AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Release)) basis(AxisExchange) flushes(Radius) refused(EXCHANGE);
         "#RETAIN CYCLE CHANGES" ("PM/206859019") action(RetainCycleChanges);
         "#RND" (EDITOR) unmodelled("`#CHF`, `#CHR` and `#RND` insert a contour");
         "#ROTATION" (EDITOR) action(Rotate) chain(Coordinates) motion(Frame, Moves::Plane, Certain);
@@ -489,26 +563,26 @@ static COMMANDS: &[HashCommand] = {
         "#RT CYCLE DEF" (EDITOR) arguments(Lines) until("#RT CYCLE END");
         "#RT CYCLE END" (EDITOR);
         "#RT ENDWHILE" (EDITOR) action(EndRealTimeLoop);
-        "#RT WHILE" (EDITOR) action(RealTimeLoop);
-        "#RTCP" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
+        "#RT WHILE" (EDITOR) action(RealTimeLoop) refused(&[(CutterRadius, 22158)]);
+        "#RTCP" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) brings(ChannelState::Kinematics);
         "#SAVE CONFIG" ("PM/207535499") action(SaveConfig(ConfigAction::Save));
         "#SCALE" (EDITOR) chain(Coordinates);
         "#SCENE" (EDITOR);
         "#SEGMENTATION" (EDITOR);
         "#SET ASPLINE" (EDITOR);
-        "#SET AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange) flushes(Radius);
-        "#SET AX LINK" (EDITOR) action(DefineCoupling(MembersBy::Name));
-        "#SET AX LINK NBR" (EDITOR) action(DefineCoupling(MembersBy::Number));
+        "#SET AX" (EDITOR) touches(Axes) action(ExchangeAxes(Exchange::Define)) chain(Origin) basis(AxisExchange) flushes(Radius) refused(EXCHANGE);
+        "#SET AX LINK" (EDITOR) action(DefineCoupling(MembersBy::Name)) flushes(Radius);
+        "#SET AX LINK NBR" (EDITOR) action(DefineCoupling(MembersBy::Number)) flushes(Radius);
         "#SET CORNER PARAM" (EDITOR);
-        "#SET DEC LR SOLL" (EDITOR) flushes(Spline);
+        "#SET DEC LR SOLL" (EDITOR) flushes(Both);
         "#SET HR" (EDITOR);
-        "#SET IPO SOLLPOS" (EDITOR) chain(Origin) flushes(Spline);
+        "#SET IPO SOLLPOS" (EDITOR) chain(Origin) flushes(Both);
         "#SET JOG" (EDITOR);
         "#SET OFFSET" (EDITOR) chain(Origin);
         "#SET PATH SMOOTH" (EDITOR);
         "#SET SLOPE" (EDITOR) simplifies(Slope);
         "#SET SLOPE PROFIL" (EDITOR) action(SelectSlope(SlopeForm::Numbered)) simplifies(Slope);
-        "#SET SPLINE" (EDITOR) chain(Path) known_as("#SPLINE");
+        "#SET SPLINE" (EDITOR) chain(Path) known_as("#SPLINE") refused(&[(ChannelState::HighSpeed, 120_370)]);
         "#SET SPLINETYPE" (EDITOR);
         "#SET TANGFEED RMIN" (EDITOR);
         "#SET TIP" (EDITOR);
@@ -519,11 +593,14 @@ static COMMANDS: &[HashCommand] = {
         "#SINGLE STEP" (EDITOR);
         "#SLOPE" (EDITOR) action(SelectSlope(SlopeForm::Named)) simplifies(Slope);
         "#SLOPE DEFAULT" ("PM/207190411") action(SelectSlope(SlopeForm::Channel)) simplifies(Slope);
-        "#SPLINE" (EDITOR) chain(Path);
+        "#SPLINE" (EDITOR) chain(Path) refused(&[(ChannelState::HighSpeed, 120_370)]);
+        "#SPLINE TYPE" ("PM/207203723");
+        "#SPLINE TYPE AKIMA" ("PM/207203723") mode(BSpline, Off);
+        "#SPLINE TYPE BSPLINE" ("PM/207203723") mode(BSpline, On);
         "#START" (EDITOR);
         "#STOP REVERSIBLE" (EDITOR);
         "#STROKE DEF" (EDITOR);
-        "#STROKE DEF BEGIN" (EDITOR) action(Describe) until("#STROKE DEF END") refuses_comp(120_716);
+        "#STROKE DEF BEGIN" (EDITOR) action(Describe(Described::Stroke)) until("#STROKE DEF END") refuses_comp(120_716);
         "#STROKE DEF END" (EDITOR) action(EndDescription);
         "#SUPPRESS OFFSETS" (EDITOR) chain(Origin) sharing(WordsBefore);
         "#SURFACE" (EDITOR);
@@ -536,6 +613,7 @@ static COMMANDS: &[HashCommand] = {
         "#TIMER" (EDITOR) touches(Values);
         "#TLAX" (EDITOR);
         "#TLC" (EDITOR) chain(Coordinates);
+        "#TLC ON" (EDITOR) chain(Coordinates) known_as("#TLC") refused(&[(CutterRadius, 20671)]);
         "#TOOL AX" (EDITOR);
         "#TOOL DATA" (EDITOR);
         "#TOOL DEF" (EDITOR);
@@ -546,8 +624,9 @@ static COMMANDS: &[HashCommand] = {
         "#TOOL PREP" (EDITOR);
         "#TOOL REFRESH" (EDITOR);
         "#TRACK CHAN" (EDITOR);
-        "#TRACK CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible);
-        "#TRAFO" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both);
+        "#TRACK CS" (EDITOR) chain(Coordinates) motion(Frame, Main, Possible) flushes(Radius);
+        "#TRAFO" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both) brings(ChannelState::Kinematics);
+        "#TRAFO ON" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible) flushes(Both) known_as("#TRAFO") refused(&[(ChannelState::PointToPoint, 21552)]) brings(ChannelState::Kinematics);
         "#TRANSFORM" (EDITOR) chain(Coordinates) motion(Frame, Channel, Possible);
         "#TRANSVELMIN" (EDITOR);
         "#TRC" (EDITOR);
@@ -566,7 +645,7 @@ static COMMANDS: &[HashCommand] = {
         "#WAIT FOR" (EDITOR) action(Wait) plc(Plc::Acts) arguments(Expressions);
         "#WAIT INDP" (EDITOR) plc(Plc::Acts);
         "#WAIT MC_STATUS" ("ISG/1139940235") plc(Plc::Acts);
-        "#WCS TO MCS" ("PM/208525707") touches(Values);
+        "#WCS TO MCS" ("PM/208525707") touches(Values) flushes(Radius);
     }
 };
 

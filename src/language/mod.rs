@@ -21,6 +21,7 @@ mod g;
 mod hash;
 mod motion;
 mod refusal;
+mod state;
 mod system_variable;
 
 pub(crate) use bracket::AxisAction;
@@ -29,13 +30,14 @@ pub use g::Group;
 pub(crate) use g::{BlockGroup, CoordinateEffect, GAction, GFunction, GroupSet};
 pub use hash::BlockSharing;
 pub(crate) use hash::{
-    ConfigAction, ContouringCommand, Exchange, FileAction, Flushes, FurtherWord, HashAction,
-    HashArguments, HashCommand, HashWords, MembersBy, PathFlow, Plc, SlopeForm, Touches,
-    is_command,
+    ConfigAction, ContouringCommand, Described, Exchange, FileAction, Flushes, FurtherWord,
+    HashAction, HashArguments, HashCommand, HashWords, MembersBy, PathFlow, Plc, SlopeForm,
+    Touches, is_command,
 };
 pub(crate) use motion::Holds;
 pub(crate) use motion::{AxisWords, ChainStep, MotionEffect, Moves, OnOff};
 pub use motion::{Certainty, MotionKind};
 pub use motion::{Simplification, Simplifications};
 pub use refusal::{ControlError, ControlErrorCheck};
+pub(crate) use state::{ChannelState, Mode, Modes, RefusedIn};
 pub(crate) use system_variable::is_read_only;

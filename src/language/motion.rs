@@ -241,6 +241,8 @@ pub(crate) enum Moves {
     Words,
     /// Axes with a word in the block, or every axis where none has one.
     WordsOrAll,
+    /// Those with a word in the block, and perhaps the others of X, Y and Z.
+    WordsInSpace,
     /// The axis before the bracket, now.
     Own,
     /// The axis before the bracket or named in it, whenever its master moves.

@@ -58,14 +58,36 @@ static REFUSALS: &[ControlError] = {
     refusals! {
         20008 "250515083" Error, "the first feed move of a program for which neither the program nor the channel list gives a feed",
             "write a feed before the first feed move";
+        20013 "250532491" Possible, "G04 with a time and the coordinate of an axis",
+            "write only one of them";
+        20014 "250536843" Possible, "G04 with the coordinate of another axis than the first main axis",
+            "write `G04 X2`, or `#TIME 2`";
+        20034 "250602123" Said("FC316"), "a full circle by its radius",
+            "give the centre of a full circle with `I`, `J`, `K`";
+        20036 "250610827" Possible, "a circle with neither a centre nor a radius under G164",
+            "give the centre with `I`, `J`, `K`";
+        20037 "250615179" Possible, "`#ACHSE` without G200, G201 or G202",
+            "write `G201 #ACHSE [X]`";
+        20038 "250619531" Possible, "G201 without an axis",
+            "name the axis, `G201 X1`";
+        20049 "250645643" Possible, "a measuring motion under G41 or G42",
+            "write G40 before it";
         20097 "250750091" Open("lists of external variables are not read"), "reading a `V.E.` variable that may only be written",
             "allow it in the list of external variables";
         20100 "250758795" Error, "writing a variable of the control that can only be read, such as `V.G.BLOCK_NR`",
             "write a variable of your own";
+        20112 "250806667" Said("FC313"), "two of G20 to G23 and G351 in one block",
+            "write one of them";
+        20122 "250850187" Said("FC313"), "two of G96, G97 and G196 in one block",
+            "write one of them";
         20131 "206278923" Error, "G80 to G89 and G800 on without a program, and a G function that the control does not know",
             "name the program, `g80_prog_file` or `g800_prog_file[0]` in the channel list";
+        20133 "250893707" Possible, "G17, G18 or G19 under G41 or G42",
+            "write G40 before it";
         20137 "250902411" Possible, "G74 while a coupling group is active",
             "release all coupling groups first, with `#AX LINK OFF ALL`";
+        20155 "250928523" Possible, "two of M3, M4, M5 and M19 in the bracket of a spindle; P-CHAN-00098 may free them",
+            "write one of them";
         20160 "diagnosis" Error, "an M function above 1000; how many P-CHAN-00041 allows is a limit of the build and in no list",
             "use a number up to 1000";
         20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
@@ -130,6 +152,14 @@ static REFUSALS: &[ControlError] = {
             "write `$ENDIF`";
         20392 "PM/1225681547" Possible, "a `V.I.` variable that no program declares",
             "declare it with `#VAR`";
+        20457 "251659659" Possible, "a coupling that is switched under G41 or G42",
+            "switch it before G41 or G42, or after G40";
+        20461 "251664011" Possible, "the definition of coupling group 0, which is that of the channel list",
+            "define a group from 1 on";
+        20467 "251681419" Possible, "a slave that is a main axis, with the index 0, 1 or 2 in the channel list",
+            "couple an axis with a higher index";
+        20470 "251694475" Possible, "a slave that is in manual mode by G201",
+            "write G202 before it";
         20472 "251698827" Error, "`#SET AX LINK` of a coupling group that is active",
             "release the group first, with `#DISABLE AX LINK`";
         20475 "251703179" Possible, "an axis that a coupling group couples to itself",
@@ -138,18 +168,36 @@ static REFUSALS: &[ControlError] = {
             "give each slave one master";
         20477 "251711883" Possible, "an axis that is master and slave in one coupling group",
             "couple both slaves to the common master";
+        20478 "251716235" Possible, "an axis that `#ACHSE` names twice",
+            "name it once";
+        20545 "251820683" Possible, "the release of an axis in an active coupling",
+            "release the coupling group first, with `#DISABLE AX LINK`";
         20590 "251916427" Said("FC912"), "`#IF` that is nested too deep",
             "nest fewer of them";
         20592 "251925131" Said("FC208"), "`#ENDIF` without `#IF`",
             "write `#IF` before it";
         20593 "251929483" Said("FC208"), "something before `#IF`, `#ELSE` or `#ENDIF` in its block",
             "write it first, without a block number";
+        20608 "251973003" Possible, "`#PSET` or `#PRESET` under G41 or G42",
+            "write G40 before it";
+        20612 "251981707" Possible, "`#PSET` or `#PRESET` while coordinates are mirrored",
+            "write G20 before it";
         20651 "PM/524821515" Said("FC328"), "a command that flushes the channel under G41 or G42",
             "write it before G41 or G42";
+        20663 "252155787" Possible, "some G functions while `#CS` is active, G98 among them",
+            "write `#CS OFF` before it";
+        20671 "252181899" Possible, "`#TLC ON` under G41 or G42",
+            "write it before G41 or G42";
+        20687 "252225419" Possible, "`#KIN ID` while a kinematic transformation is active",
+            "write `#TRAFO OFF` before it";
         20734 "252355979" Said("FC914"), "macros that are nested too deep",
             "let no macro use itself";
         20747 "252403851" Open("only in manual mode, and the limit is that of the control"), "a call from a manual block with too many open files",
             "nest fewer calls";
+        20802 "252599691" Possible, "`#CS`, `#ACS` or `#MCS` under G41 or G42",
+            "write it before G41 or G42, or after G40";
+        20809 "252621451" Possible, "a slave that takes part in an active kinematic transformation",
+            "write `#TRAFO OFF` before it";
         20839 "252734603" Error, "`$GOTO` that neither `[`, nor `N`, nor `V.E.` follows",
             "write `$GOTO N100` or `$GOTO [NAME]`";
         20847 "252765067" Error, "a value outside the type of its variable",
@@ -168,6 +216,12 @@ static REFUSALS: &[ControlError] = {
             "declare at least one element";
         20974 "253143691" Said("FC312"), "more indices than an array has dimensions",
             "write one index for each dimension";
+        21024 "253243787" Possible, "a circle with a centre and a radius",
+            "give the centre with `I`, `J`, `K`, or the radius with `R`";
+        21068 "253356939" Possible, "a G function that the bracket of an independent axis does not have",
+            "write G00 or G01 with G90 or G91";
+        21071 "253361291" Possible, "an independent motion of an axis of an active transformation",
+            "switch the transformation off before it";
         21216 "253831307" Error, "an array without an index",
             "write one index for each dimension";
         21256 "diagnosis" Possible, "an axis that one command of axis exchange asks for twice",
@@ -180,6 +234,8 @@ static REFUSALS: &[ControlError] = {
             "save them first, with `#SAVE CONFIG [AX]`";
         21275 "254009739" Error, "`#LOAD CONFIG [AXLINK]` with no saved couplings",
             "save them first, with `#SAVE CONFIG [AXLINK]`";
+        21277 "254018443" Possible, "`#LOAD CONFIG` while a coupling group is active",
+            "release all coupling groups first, with `#AX LINK OFF ALL`";
         21283 "254044555" Possible, "a slave that is a slave in another active coupling group",
             "release the other group first, with `#DISABLE AX LINK`";
         21284 "254048907" Possible, "a slave that is a master in another active coupling group",
@@ -188,6 +244,8 @@ static REFUSALS: &[ControlError] = {
             "release the other group first, with `#DISABLE AX LINK`";
         21381 "254436235" Error, "a cycle call while a modal cycle is active",
             "write `#DISABLE MODAL CYCLE` before it";
+        21382 "254440587" Open("a cycle that is run by itself looks like a main program"), "an `@P` parameter in a main program",
+            "write a variable, and give its value to the cycle in the call";
         21387 "254462347" Error, "`#IF` without `#ENDIF`",
             "write `#ENDIF` in a block of its own";
         21403 "diagnosis" Error, "COMP on an axis in an active coupling",
@@ -196,12 +254,20 @@ static REFUSALS: &[ControlError] = {
             "write `SYN`, too";
         21480 "254849675" Error, "`$GOTO` to a label within the same loop",
             "leave the loop, or use `$IF` and `$CONTINUE` within it";
+        21481 "254854027" Possible, "an independent motion of an axis in an active coupling",
+            "release the coupling group first, with `#DISABLE AX LINK`";
         21500 "diagnosis" Error, "a false `$IF` without `$ENDIF` at the end of a local subprogram",
             "write `$ENDIF`";
         21501 "diagnosis" Error, "a false `$IF` without `$ENDIF` at the end of a main program",
             "write `$ENDIF`";
         21502 "diagnosis" Error, "a false `$IF` without `$ENDIF` at the end of a global subprogram",
             "write `$ENDIF`";
+        21525 "255049867" Possible, "`#PTP` under G41 or G42",
+            "write G40 before it";
+        21544 "255132555" Open("a cycle that is run by itself looks like a main program; the value is unknown there"), "`V.G.@P[i].VALID` outside a cycle",
+            "ask for it within the cycle";
+        21552 "255167371" Possible, "`#TRAFO ON` while `#PTP` is active",
+            "write it before `#PTP ON`";
         21768 "" Said("FC312"), "an index on a variable that is no array",
             "declare it as an array";
         21772 "255959435" Error, "a `V.I.` array that exists with other dimensions",
@@ -210,24 +276,48 @@ static REFUSALS: &[ControlError] = {
             "write each in a block of its own";
         22073 "782961163" Open("the page that allows commands has no complete list"), "commands within `#RT WHILE`",
             "write COMP commands outside";
+        22081 "560182283" Possible, "G303 under G41 or G42",
+            "write G40 and a motion before it";
         22101 "777094283" Possible, "commands within `#CONTOUR BEGIN`",
             "write COMP commands outside";
         22132 "diagnosis" Error, "`#OPTIONAL EXECUTION ON [APPROACH SIMULATE]`",
             "leave out `APPROACH SIMULATE`";
+        22158 "964625803" Possible, "`#RT WHILE` under G41 or G42",
+            "write G40 before it";
         22254 "1097005579" Open("`MACRO_LENGTH` is not followed: FC210"), "`MACRO_LENGTH` of something else than the name of a macro",
             "write the name in quotation marks";
         22276 "1147344395" Open("`MACRO_CONTENT` is not followed: FC210"), "`MACRO_CONTENT` of a macro that does not exist",
             "define the macro before";
         51081 "diagnosis" Error, "`#FLUSH WAIT` within `#OPTIONAL EXECUTION`",
             "write it outside";
-        90050 "PM/524821515" Said("FC328"), "a command that flushes the channel under G41 or G42",
-            "write it before G41 or G42";
+        90050 "261738891" Said("FC328"), "a command that flushes the channel after G40, before the next motion",
+            "move between G40 and the command";
+        90193 "560155915" Possible, "G303 after G40, before the next motion",
+            "move between G40 and G303";
         120_102 "264720011" Said("FC328"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
             "write it before the spline, or after it";
         120_104 "" Open("no page describes it; 120102 and 120434 do"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
             "write it before the spline, or after it";
+        120_254 "264515467" Possible, "a circle under a B spline",
+            "write `#SPLINE TYPE AKIMA`, or no circles";
+        120_255 "264519819" Possible, "G61, G261 or `#HSC ON` under a spline",
+            "write G150 or `#SPLINE OFF` before it";
+        120_265 "264528523" Possible, "axis exchange under a spline",
+            "write G150 or `#SPLINE OFF` before it";
+        120_332 "264598155" Possible, "a coupling that is switched under a spline",
+            "write G150 or `#SPLINE OFF` before it";
+        120_333 "264602507" Possible, "a coupling that is switched while contours are rounded",
+            "write G260 before it";
+        120_370 "264619915" Possible, "G150, G151 or `#SPLINE` while `#HSC` is active",
+            "write `#HSC OFF` before it";
+        120_433 "264715659" Possible, "measuring, G33, G61, G261, G95 or G96 under `#HSC ON [OPMODE 2]`",
+            "write `#HSC OFF` before it";
         120_434 "264284811" Said("FC328"), "a command that flushes the channel in the spline mode 2 of HSC, or under G151",
             "write it before the spline, or after it";
+        120_435 "264724363" Possible, "G04 under `#HSC ON [OPMODE 2]`",
+            "write `#HSC OFF` before it";
+        120_697 "265468555" Possible, "an independent motion under a spline",
+            "switch the spline off before it";
         120_716 "265538187" Possible, "commands within `#STROKE DEF`",
             "write COMP commands outside";
     }

@@ -247,9 +247,14 @@ impl ChannelList {
     /// Returns the axes in the order of their indices, as many as the group has. An axis with the
     /// number 0 is an empty slot.
     pub fn axes(&self) -> impl Iterator<Item = &ChannelAxis> {
+        self.indexed_axes().map(|(_, axis)| axis)
+    }
+
+    /// Returns the same with their indices.
+    pub(crate) fn indexed_axes(&self) -> impl Iterator<Item = (u32, &ChannelAxis)> {
         let count = self.count.unwrap_or(u32::MAX);
-        let axes = self.axes.range(..count).map(|(_, axis)| axis);
-        axes.filter(|axis| axis.is_there())
+        let axes = self.axes.range(..count).map(|(index, axis)| (*index, axis));
+        axes.filter(|(_, axis)| axis.is_there())
     }
 
     /// Puts an axis in its place (R3.42); its own number and name stay where the item of the project gives no name.

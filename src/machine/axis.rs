@@ -83,6 +83,8 @@ pub struct Axis {
     pub listed: ListedDynamics,
     /// The factor for the torque to the drive, P-AXIS-00325 and P-AXIS-00326.
     pub torque_scale: TorqueScale,
+    /// Whether the lists of the control give it the index 0, 1 or 2 in its channel: a main axis.
+    pub(crate) is_main: bool,
 }
 
 impl Axis {
@@ -108,6 +110,7 @@ impl Axis {
             motor_lead_mm: None,
             listed: ListedDynamics::default(),
             torque_scale: TorqueScale::default(),
+            is_main: false,
         }
     }
 
@@ -359,6 +362,8 @@ pub(super) struct AxisDraft {
     /// Whether a start-up list leads to the axis, and every axis list that it names was read, so that no other list
     /// adds anything.
     pub(super) is_covered: bool,
+    /// Whether a channel list gives it the index of a main axis.
+    pub(super) is_main: bool,
     /// The list with the defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
     /// The path of its axis list.
@@ -378,6 +383,7 @@ impl AxisDraft {
             enabled: None,
             is_listed: false,
             is_covered: false,
+            is_main: false,
             shared: None,
             list: None,
         }
@@ -473,6 +479,7 @@ impl AxisDraft {
             motor_lead_mm: self.dynamics.lead,
             listed: self.values.dynamics.dynamics(),
             torque_scale: TorqueScale::default(),
+            is_main: self.is_main,
         };
         if let Some(given) = &self.enabled {
             let (file, line) = (given.file().to_owned(), given.line());

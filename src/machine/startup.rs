@@ -127,11 +127,12 @@ impl Loader<'_> {
                 }
             });
             let mut taken = Vec::new();
-            for axis in channel.axes() {
+            for (index, axis) in channel.indexed_axes() {
                 let found = find_listed(axis, listed).map(|at| listed.remove(at).1);
-                let Some(draft) = channel_axis(axis, found, default) else {
+                let Some(mut draft) = channel_axis(axis, found, default) else {
                     continue;
                 };
+                draft.is_main = index < MAIN_AXES;
                 if axes.iter().any(|other| other.name == draft.name) {
                     taken.push(draft.name);
                 } else if axes.len() < MAX_AXES {
@@ -342,6 +343,9 @@ fn find_listed(axis: &ChannelAxis, listed: &[(Given<String>, AxisDraft)]) -> Opt
     };
     by_number.or_else(by_name)
 }
+
+/// Number of main axes in a channel, which have the indices from 0 on (TF5200 Diagnosis, page 251681419).
+const MAIN_AXES: u32 = 3;
 
 /// Returns an axis of a channel, with its list if there is one. `None` if the axis has no name.
 fn channel_axis(

@@ -493,6 +493,7 @@ impl Executor {
         if self.scratch.moves.lacks_axes() {
             self.say_lacking(words, at);
         }
+        self.check_words(at);
         self.move_around(words);
         self.check_feed(at);
         self.carry_along(words);

@@ -11,7 +11,7 @@ use crate::interpreter::motion::form::{
     Arc, AxisWord, BlockEnd, Centre, Geometry, Motion, MovedAxis, PathFeed, PathForm, Travel, Turn,
     WordValue,
 };
-use crate::interpreter::motion::modal::{CUTTER_RADIUS, Modal};
+use crate::interpreter::motion::modal::{CUTTER_RADIUS, Leaving, Modal};
 use crate::interpreter::motion::pace::{Haste, ProgrammedFeed};
 use crate::language::{AxisWords, Certainty, Group, HashCommand, MotionEffect, MotionKind, Moves};
 use crate::lists::AxisType;
@@ -150,6 +150,11 @@ impl BlockMotion {
     /// Returns the geometry words of the block.
     pub(crate) fn geometry(&mut self) -> &mut Geometry {
         self.geometry.get_or_insert_default()
+    }
+
+    /// Those that it has so far.
+    pub(crate) fn geometry_words(&self) -> Option<&Geometry> {
+        self.geometry.as_ref()
     }
 
     pub(crate) fn has_geometry(&self) -> bool {
@@ -332,6 +337,11 @@ impl BlockMotion {
         {
             self.leave_to_operator(row, setting);
         }
+        if let Some(row) = self.row
+            && row.moves == Moves::WordsInSpace
+        {
+            self.move_in_space(row, setting);
+        }
         if matches!(words, AxisWords::Motion | AxisWords::Measuring) {
             self.move_in_frame(setting);
         }
@@ -360,7 +370,37 @@ impl BlockMotion {
         }
     }
 
-    /// Moves the other axes, too, in a rotated or transformed frame.
+    /// A motion of the block triggers a stroke, which may move these axes.
+    pub(crate) fn punch(&mut self, stroke: &BTreeSet<AxisIndex>) {
+        let Some(span) = self.words.first().map(|word| word.span) else {
+            return;
+        };
+        self.also.extend(stroke.iter().map(|axis| MovedAxis {
+            axis: *axis,
+            span,
+            kind: MotionKind::Feed,
+            certainty: Certainty::Possible,
+        }));
+    }
+
+    /// An arc in space may move every axis of it.
+    fn move_in_space(&mut self, row: MotionEffect, setting: MotionSetting<'_>) {
+        let Some(first) = self.words.first() else {
+            return;
+        };
+        let span = first.span;
+        let named: Vec<_> = self.words.iter().map(|word| word.axis).collect();
+        let others = setting.axes.xyz().into_iter();
+        let others = others.filter(|axis| !named.contains(axis));
+        self.also.extend(others.map(|axis| MovedAxis {
+            axis,
+            span,
+            kind: row.kind,
+            certainty: Certainty::Possible,
+        }));
+    }
+
+    /// A motion word in a rotated or transformed frame moves its other axes, too.
     fn move_in_frame(&mut self, setting: MotionSetting<'_>) {
         let of_words = self.words.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;
@@ -371,7 +411,11 @@ impl BlockMotion {
             .collect();
         let words: Vec<AxisIndex> = of_words.map(|(axis, _)| axis).collect();
         let mut found: BTreeMap<AxisIndex, (Certainty, Span)> = BTreeMap::new();
-        for name in &setting.modal.transformed {
+        // The motion after G40, or in its block, takes the tool radius back.
+        let is_leaving = setting.modal.leaving != Leaving::Done;
+        let leaving = is_leaving.then_some(CUTTER_RADIUS);
+        let names = setting.modal.transformed.iter().map(String::as_str);
+        for name in names.chain(leaving) {
             let Some((axes, certainty)) = setting.frame(name) else {
                 continue;
             };

@@ -11,8 +11,8 @@ use crate::interpreter::motion::pace::{
     Contouring, LackingFeeds, Pace, ProgrammedFeed, SlopeSelection,
 };
 use crate::language::{
-    ChainStep, ContouringCommand, GAction, GFunction, Group, GroupSet, HashCommand, HashWords,
-    Holds, OnOff, Simplification, Simplifications,
+    ChainStep, ChannelState, ContouringCommand, GAction, GFunction, Group, GroupSet, HashCommand,
+    HashWords, Holds, Mode, Modes, OnOff, Simplification, Simplifications,
 };
 use crate::lists::{ChannelSettings, ChannelSwitch, SlopeProfile};
 
@@ -43,6 +43,18 @@ pub struct AxisPosition {
     pub frame: PositionFrame,
 }
 
+/// The way back from beside the contour after G40.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
+pub(crate) enum Leaving {
+    /// The tool is on it.
+    #[default]
+    Done,
+    /// Only axes beside the plane have moved since.
+    Beside,
+    /// Nothing has moved since.
+    Begun,
+}
+
 /// The G functions in force and the programmed positions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Modal {
@@ -66,6 +78,18 @@ pub struct Modal {
     /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
     #[serde(default)]
     pub(crate) skewed: bool,
+    /// Modes in which the control refuses some words.
+    #[serde(default)]
+    pub(crate) modes: Modes,
+    /// How far the tool is from the programmed contour after G40.
+    #[serde(default)]
+    pub(crate) leaving: Leaving,
+    /// Axes that the operator moves along with the program, G201.
+    #[serde(default)]
+    pub(crate) manual: BTreeSet<AxisIndex>,
+    /// Axes of the stroke, `#STROKE DEF BEGIN`.
+    #[serde(default)]
+    pub(crate) stroke: BTreeSet<AxisIndex>,
     /// Whether coordinates count from an origin other than that at the start of the program.
     origin_moved: bool,
     /// Absolute positions: the programmed coordinate and the offset of G92.
@@ -89,6 +113,10 @@ impl Modal {
             slope: None,
             pace: Pace::new(Some(1.0)),
             skewed: false,
+            modes: Modes::default(),
+            leaving: Leaving::Done,
+            manual: BTreeSet::new(),
+            stroke: BTreeSet::new(),
             origin_moved: false,
             positions: vec![None; axes],
             references: vec![Some(0.0); axes],
@@ -107,7 +135,7 @@ impl Modal {
                 Some(group) => modal.set(group, number),
                 // G51: diameters are programmed.
                 None if number == 51 => modal.note_transformed("G51"),
-                None => {}
+                None => modal.switch_mode(GFunction::of(number).and_then(|row| row.mode)),
             }
         }
         let chosen = |number: &u32| Group::of(*number) == Some(Group::Unit);
@@ -141,7 +169,9 @@ impl Modal {
     /// Returns whether it describes a number of axes.
     pub(crate) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
-        [self.positions.len(), self.references.len(), suspended] == [axes; 3]
+        let mut named = self.manual.iter().chain(&self.stroke);
+        let are_axes = named.all(|axis| axis.get() < axes);
+        are_axes && [self.positions.len(), self.references.len(), suspended] == [axes; 3]
     }
 
     /// Returns whether it is known which G function of a group is in force.
@@ -179,6 +209,12 @@ impl Modal {
                 self.functions.offset = number;
             }
             Group::CutterRadius => {
+                let was_on = self.transformed.contains(CUTTER_RADIUS);
+                self.leaving = match number {
+                    40 if was_on => Leaving::Begun,
+                    40 => self.leaving,
+                    _ => Leaving::Done,
+                };
                 self.functions.tool_side = number;
                 self.transform(CUTTER_RADIUS, number != 40);
             }
@@ -268,6 +304,10 @@ impl Modal {
         } else {
             OnOff::On
         };
+        self.switch_mode(command.mode.map(|(mode, on)| match switch {
+            OnOff::On => (mode, on),
+            OnOff::Off => (mode, OnOff::Off),
+        }));
         if let Some(step) = command.chain {
             self.chain((step, command.name(), switch));
         }
@@ -319,7 +359,69 @@ impl Modal {
         self.transformed.contains("#SPLINE") || fast && self.high_speed.is_spline
     }
 
-    /// Returns whether offsets may be switched off.
+    /// Switches the mode of a word or command, if it has one.
+    pub(crate) fn switch_mode(&mut self, mode: Option<(Mode, OnOff)>) {
+        if let Some((mode, switch)) = mode {
+            self.modes.switch(mode, switch);
+        }
+    }
+
+    /// Whether some words that are plain elsewhere may be refused.
+    #[inline]
+    pub(crate) fn limits_words(&self) -> bool {
+        !self.transformed.is_empty() || !self.simplified.is_empty()
+    }
+
+    /// Whether a state may be in force in which the control refuses some words. Couplings are not known here.
+    pub(crate) fn is_in(&self, state: ChannelState) -> bool {
+        let is_fast = self.simplified.contains(Simplification::HighSpeed);
+        let holds = |name: &str| self.transformed.contains(name);
+        match state {
+            ChannelState::CutterRadius => holds(CUTTER_RADIUS),
+            ChannelState::LeavingRadius => {
+                self.leaving == Leaving::Begun && self.modes.has(Mode::LeavesWithMotion)
+            }
+            ChannelState::ProgrammedSpline => holds("#SPLINE"),
+            ChannelState::FastSpline => is_fast && self.high_speed.is_spline,
+            ChannelState::Spline => self.is_spline(),
+            ChannelState::BSpline => holds("#SPLINE") && self.modes.has(Mode::BSpline),
+            ChannelState::HighSpeed => is_fast,
+            ChannelState::Contouring => self.simplified.contains(Simplification::Contouring),
+            ChannelState::Frame | ChannelState::Kinematics => {
+                let mut names = self.transformed.iter();
+                let row = |name: &String| HashCommand::named(name);
+                names.any(|name| row(name).is_some_and(|row| row.brings == Some(state)))
+            }
+            ChannelState::PointToPoint => self.modes.has(Mode::PointToPoint),
+            ChannelState::Mirror => holds("G21"),
+            ChannelState::Coupling => false,
+        }
+    }
+
+    /// The axes of the stroke that each motion triggers.
+    #[inline]
+    pub(crate) fn punched(&self) -> &BTreeSet<AxisIndex> {
+        static NONE: BTreeSet<AxisIndex> = BTreeSet::new();
+        if self.modes.has(Mode::Punching) {
+            &self.stroke
+        } else {
+            &NONE
+        }
+    }
+
+    /// The block moved axes, or none: G40 is over with the first motion in the plane, or at once where it inserts one.
+    #[cold]
+    pub(crate) fn go_on_leaving(&mut self, plane: &[AxisIndex], words: &[AxisWord]) {
+        let is_over = !self.modes.has(Mode::LeavesWithMotion)
+            || words.iter().any(|word| plane.contains(&word.axis));
+        if is_over {
+            self.leaving = Leaving::Done;
+        } else if !words.is_empty() {
+            self.leaving = Leaving::Beside;
+        }
+    }
+
+    /// Whether offsets may be switched off.
     pub(crate) fn are_offsets_suspended(&self) -> bool {
         let mut rows = self
             .transformed
@@ -501,6 +603,9 @@ impl Modal {
         match function.group {
             Some(Group::Offset) => self.havoc_positions(),
             Some(Group::CutterRadius) if number != 40 => self.transform(CUTTER_RADIUS, true),
+            Some(Group::CutterRadius) if self.transformed.contains(CUTTER_RADIUS) => {
+                self.leaving = Leaving::Begun;
+            }
             _ => {}
         }
         match function.action {
@@ -508,6 +613,9 @@ impl Modal {
             GAction::WeighRapid => self.pace.havoc_overrides(),
             GAction::Rotate => self.skewed = false,
             _ => {}
+        }
+        if let Some((mode, OnOff::On)) = function.mode {
+            self.modes.switch(mode, OnOff::On);
         }
         if let Some(step) = function.chain {
             let mut after = self.clone();
@@ -541,6 +649,10 @@ impl Modal {
             self.perhaps_simplify(Simplification::Slope);
         }
         self.skewed &= other.skewed;
+        self.modes = self.modes.union(other.modes);
+        self.leaving = self.leaving.max(other.leaving);
+        self.manual.extend(&other.manual);
+        self.stroke.extend(&other.stroke);
         self.origin_moved |= other.origin_moved;
         let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {
             if mine != theirs {
@@ -801,6 +913,8 @@ const TRANSFORMING: [&str; 2] = [CUTTER_RADIUS, "G21"];
 pub(crate) struct Saved {
     functions: GFunctions,
     transformed: [bool; 2],
+    #[serde(default)]
+    modes: Modes,
 }
 
 impl Saved {
@@ -819,6 +933,7 @@ impl Saved {
         for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
             *mine |= theirs;
         }
+        self.modes = self.modes.union(other.modes);
     }
 }
 
@@ -828,6 +943,7 @@ impl Modal {
         Saved {
             functions: self.functions.clone(),
             transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
+            modes: self.modes,
         }
     }
 
@@ -837,6 +953,7 @@ impl Modal {
             self.havoc_positions();
         }
         self.functions = saved.functions.clone();
+        self.modes.restore(saved.modes);
         for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
             self.transform(name, on);
         }

@@ -8,7 +8,7 @@ use crate::interpreter::block::{BlockContext, declared_name};
 use crate::interpreter::control::ControlState;
 use crate::interpreter::events::{Note, NoteKind, Notes};
 use crate::interpreter::executor::{Executor, RunState};
-use crate::interpreter::motion::modal::{CUTTER_RADIUS, PositionFrame};
+use crate::interpreter::motion::modal::PositionFrame;
 use crate::interpreter::values::expression::{
     Evaluator, ExpressionScope, Macros, ParameterSource, misused,
 };
@@ -16,7 +16,7 @@ use crate::interpreter::values::location::{Denoted, Location, Unknown};
 use crate::interpreter::values::names::Sure;
 use crate::interpreter::values::value::{Slot, TypedValue, Value, ValueType, exact, numeric};
 use crate::interpreter::words::refusal::StopScope;
-use crate::language::{Flushes, is_read_only};
+use crate::language::{ChannelState, Flushes, is_read_only};
 use crate::lists::AxisType;
 use crate::readings::{Alternative, Question};
 use crate::syntax::ast::{
@@ -721,17 +721,23 @@ impl Executor {
         if name.family() == VariableFamily::External {
             return self.check_flush(Flushes::Both, &written, span, at);
         }
-        if !self.state.control.modal.transformed.contains(CUTTER_RADIUS) {
+        let modal = &self.state.control.modal;
+        let mut states = Flushes::Radius.refused().iter().copied();
+        let Some((state, number)) = states.find(|(state, _)| modal.is_in(*state)) else {
             return;
-        }
+        };
+        let when = match state {
+            ChannelState::CutterRadius => "while G41 or G42 is active",
+            _ => state.words(),
+        };
         let message = format!(
-            "reading `{written}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
+            "reading `{written}` flushes the channel, which the control may refuse {when} (error {number})"
         );
         let fault = Fault::new(Code::Fc412, span, message)
             .with_help("read it before G41 or G42, for example into a parameter");
         self.say_before_parting(at.diagnostic(fault));
-        let scope = StopScope::Alike("V.A.FRICT_COMP under G41".into());
-        self.perhaps_stop((Unknown::Refused(Some(20651)), scope), span, at);
+        let scope = StopScope::Alike(format!("V.A.FRICT_COMP {when}").into());
+        self.perhaps_stop((Unknown::Refused(Some(number)), scope), span, at);
     }
 }
 

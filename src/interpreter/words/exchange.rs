@@ -40,6 +40,10 @@ impl Executor {
             }
             Coupling::None => {}
         }
+        if group == LISTED {
+            let what = "coupling group 0 is that of the channel list, and a program defines it";
+            self.may_refuse(20461, what, hash.span, at);
+        }
         if let Some((number, what)) = impossible_pair(&hash.brackets, at.text) {
             self.may_refuse(number, &what, hash.span, at);
         }
@@ -67,10 +71,41 @@ impl Executor {
             let what = format!("axis `{name}` is in another active coupling group");
             self.may_refuse(number, &what, hash.span, at);
         }
+        self.check_slaves(&group, hash.span, at);
         self.state.control.enable_coupling(&group, &self.machine);
     }
 
-    /// Releases a coupling group: the named one, or without a name the last one enabled.
+    /// FC328: a slave that the operator moves, or that is a main axis by the lists of the machine (TF5200 Diagnosis, pages
+    /// 251694475, 251681419).
+    fn check_slaves(&mut self, group: &str, span: Span, at: &BlockContext<'_>) {
+        let manual = &self.state.control.modal.manual;
+        let slaves = self.state.control.couplings.slaves(group);
+        let (mut by_hand, mut main) = (None, None);
+        for axis in slaves {
+            by_hand = by_hand.or(manual.contains(&axis).then_some(axis));
+            main = main.or(self.is_main(axis).then_some(axis));
+        }
+        let name = |axis: AxisIndex| self.machine.axis(axis).name.clone();
+        let by_hand = by_hand.map(|axis| {
+            let what = format!("slave `{}` is in manual mode, by G201", name(axis));
+            (20470, what)
+        });
+        let main = main.map(|axis| {
+            let what = format!("slave `{}` is a main axis of the channel", name(axis));
+            (20467, what)
+        });
+        for (number, what) in by_hand.into_iter().chain(main) {
+            self.may_refuse(number, &what, span, at);
+        }
+    }
+
+    /// Whether an axis has the index 0, 1 or 2 in its channel, by the lists of the machine, and the program has exchanged none.
+    fn is_main(&self, axis: AxisIndex) -> bool {
+        let are_own = self.state.control.channel_axes.are_own();
+        are_own && self.machine.axis(axis).is_main
+    }
+
+    /// Without a group the last one that was enabled is released.
     pub(crate) fn disable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let group = self.group_of(hash, at);
         self.state.control.disable_coupling(&group);
@@ -179,6 +214,10 @@ impl Executor {
             text: at.text,
         };
         let names = exchanged.names(exchange);
+        if exchange == Exchange::Release {
+            self.check_coupled(&names, hash, at);
+        }
+        let control = &mut self.state.control;
         if let Some(name) = names.iter().find(|name| !name.bytes().all(is_name_byte)) {
             control.channel_axes.havoc();
             let message = format!(
@@ -217,6 +256,27 @@ impl Executor {
                 self.request_axes(exchanged, at);
             }
         }
+    }
+
+    /// FC328: an axis is released that takes part in an active coupling (TF5200 Diagnosis, page 251820683).
+    fn check_coupled(&mut self, names: &[&str], hash: &Hash, at: &BlockContext<'_>) {
+        let couplings = &self.state.control.couplings;
+        if !couplings.is_any() {
+            return;
+        }
+        let lookup = self.axes();
+        let released = if hash.command.has(FurtherWord::All) {
+            lookup.path()
+        } else {
+            names.iter().filter_map(|name| lookup.named(name)).collect()
+        };
+        let mut coupled = released.into_iter();
+        let Some(axis) = coupled.find(|axis| couplings.of(*axis) != Coupling::None) else {
+            return;
+        };
+        let name = &self.machine.axis(axis).name;
+        let what = format!("axis `{name}` is released while it is in an active coupling");
+        self.may_refuse_alike(20545, &what, hash.span, at);
     }
 
     /// Releases every axis but those of these names.

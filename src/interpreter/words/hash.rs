@@ -20,7 +20,8 @@ use crate::interpreter::values::plain::{Truth, conclusions, is_written_by_machin
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::language::{
-    AxisWords, ConfigAction, FileAction, FurtherWord, HashAction, PathFlow, Plc, Touches,
+    AxisWords, ChannelState, ConfigAction, Exchange, FileAction, FurtherWord, HashAction, PathFlow,
+    Plc, Touches,
 };
 use crate::machine::Machine;
 use crate::readings::{Alternative, Question};
@@ -71,11 +72,12 @@ impl Executor {
             HashAction::RetainCycleChanges => self.state.control.retain_cycle_changes(),
             HashAction::EndComment | HashAction::EndDeclarations | HashAction::EndRealTimeLoop => {}
             HashAction::NamePrograms => self.name_programs(hash, at),
-            HashAction::Describe => self.state.control.describe(hash, at),
+            HashAction::Describe(_) => self.state.control.describe(hash, at),
             HashAction::EndDescription if self.state.control.end_description(command.words) => {}
             HashAction::RealTimeLoop => self.real_time_loop(hash.span, at),
             HashAction::ReportError => return self.report_error(hash, at),
             HashAction::ExchangeAxes(exchange) => self.exchange_axes(exchange, hash, at),
+            HashAction::NameManualAxes => self.name_manual_axes(hash, at),
             HashAction::SaveConfig(action) => return self.saved_config(action, hash, at),
             HashAction::ChangeFile(action) => self.file_command(action, hash, at),
             HashAction::SkipBackward => return self.skip_backward(hash, at),
@@ -107,11 +109,27 @@ impl Executor {
             let what = "`#FLUSH WAIT` stands between `#OPTIONAL EXECUTION ON` and `OFF`";
             return Err(Fault::refused(Code::PErr51081, hash.span, what));
         }
-        self.check_flush(command.flushes, &hash.name, hash.span, at);
+        if command.has(FurtherWord::Def) || self.releases_others(hash, at) {
+            return Ok(());
+        }
+        let row = command.row();
+        self.check_states((row.refused, row.flushes), &hash.name, hash.span, at);
         Ok(())
     }
 
-    /// Executes `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
+    /// Whether a command releases only axes beside the active plane, which the control admits under G41 (PM/524821515).
+    fn releases_others(&self, hash: &Hash, at: &BlockContext<'_>) -> bool {
+        if hash.command.action != HashAction::ExchangeAxes(Exchange::Release)
+            || !self.state.control.is_in(ChannelState::CutterRadius)
+        {
+            return false;
+        }
+        let named = self.axes().given(&hash.brackets, at.text);
+        let plane = self.axes().plane(&self.state.control.modal);
+        !named.is_empty() && !named.iter().any(|axis| plane.contains(axis))
+    }
+
+    /// `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
     fn skip_backward(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if hash.command.has(FurtherWord::On) && hash.brackets.has("SIMULATE", at.text) {
             let what = "`#OPTIONAL EXECUTION ON` has `APPROACH SIMULATE`";

@@ -8,11 +8,12 @@ use crate::interpreter::control::ControlState;
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::motion::form::BlockEnd;
+use crate::interpreter::motion::modal::Leaving;
 use crate::interpreter::programs::calls::FunctionWord;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::value::{exact, rounded};
-use crate::interpreter::words::refusal::PossibleRefusal;
-use crate::language::{AxisWords, GAction, GFunction, Group};
+use crate::interpreter::words::refusal::{PossibleRefusal, StopScope};
+use crate::language::{AxisWords, Described, GAction, GFunction, Group, HashAction};
 use crate::readings::Question;
 use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, is_program_number, not_known, repeated_word};
@@ -349,6 +350,10 @@ impl Executor {
             self.further_g(number, span, at);
             return Ok(());
         };
+        if function.is_refused_somewhere() {
+            let states = (function.refused, function.flushes);
+            self.check_states(states, &format!("G{number}"), span, at);
+        }
         if let Some(group) = function.group {
             self.state.control.modal.set(group, number);
             return Ok(());
@@ -356,6 +361,7 @@ impl Executor {
         if let Some(step) = function.chain {
             self.state.control.modal.chain(step);
         }
+        self.state.control.modal.switch_mode(function.mode);
         match function.action {
             GAction::Mirror | GAction::SwitchSpline => return Ok(()),
             GAction::Dwell => {
@@ -389,7 +395,12 @@ impl Executor {
             GAction::WeighRapid => self.weigh_rapid(span, at),
             GAction::SetCuttingSpeed => self.state.control.modal.pace.cut(true),
             GAction::SetSpindleSpeed => self.state.control.modal.pace.cut(false),
-            GAction::PassOver | GAction::Call | GAction::SetRadius => {
+            GAction::SwitchManual(switch) => {
+                self.scratch.actions.manual = Some(switch);
+                self.further_g(number, span, at);
+                return Ok(());
+            }
+            GAction::PassOver | GAction::Call | GAction::SetRadius | GAction::WaitForOperator => {
                 self.further_g(number, span, at);
                 return Ok(());
             }
@@ -404,7 +415,6 @@ impl Executor {
             return;
         }
         if let Some(function) = GFunction::of(number) {
-            self.check_flush(function.flushes, &format!("G{number}"), span, at);
             if let Some(motion) = function.motion {
                 self.scratch.moves.move_as(motion);
             }
@@ -427,7 +437,11 @@ impl Executor {
         if let Feed::Given(feed) = self.scratch.actions.feed {
             self.state.control.modal.set_feed(feed);
         }
-        if self.state.control.described.is_some() {
+        if let Some(described) = &self.state.control.described {
+            if described.opener.action == HashAction::Describe(Described::Stroke) {
+                let axes = self.scratch.moves.words().iter().map(|word| word.axis);
+                self.state.control.modal.stroke.extend(axes);
+            }
             self.scratch.moves.drop_all();
             return;
         }
@@ -437,6 +451,9 @@ impl Executor {
         {
             let what = "G74 is called while a coupling group is active";
             self.may_refuse(20137, what, word.span, at);
+        }
+        if self.state.control.modal.leaving != Leaving::Done {
+            self.go_on_leaving();
         }
         // The lint for switches during motion looks at arcs (R1.57).
         let is_arc = self.state.control.modal.functions.is_arc();
@@ -466,7 +483,17 @@ impl Executor {
         }
     }
 
-    /// Reports FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
+    /// The motion of the block takes the tool radius back after G40.
+    #[cold]
+    fn go_on_leaving(&mut self) {
+        let plane = self.axes().plane(&self.state.control.modal);
+        let words = self.scratch.moves.words();
+        let moves = self.scratch.actions.axis_words.move_axes();
+        let words = if moves { words } else { &[] };
+        self.state.control.modal.go_on_leaving(&plane, words);
+    }
+
+    /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
         let circular = self.state.control.modal.functions.is_arc();
         let ends = self.scratch.moves.ends(&self.state.control.modal);
@@ -478,7 +505,11 @@ impl Executor {
                 "a circle by its radius ends where it starts; `R` cannot describe a full circle",
             )
             .with_help("give the centre of a full circle with `I`, `J`, `K`");
-            self.scratch.messages.diagnostics.push(at.diagnostic(fault));
+            self.say_before_parting(at.diagnostic(fault));
+            // The control has one answer for all of them.
+            let scope = StopScope::Alike("a full circle by its radius".into());
+            let asked = (Unknown::Refused(Some(20034)), scope);
+            self.perhaps_stop(asked, span, at);
         }
     }
 }
@@ -493,6 +524,11 @@ impl ControlState {
         let Some(group) = Group::of(number) else {
             return false;
         };
+        if self.modal.limits_words()
+            && GFunction::of(number).is_some_and(GFunction::is_refused_somewhere)
+        {
+            return false;
+        }
         if !actions.take_group(group) {
             return false;
         }

@@ -15,3 +15,4 @@ pub(super) mod parting;
 pub(super) mod passing;
 pub(super) mod questions;
 pub(super) mod refusal;
+pub(super) mod refused_words;

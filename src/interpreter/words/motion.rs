@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Kind, State};
+use crate::comp::{AxisIndex, Coupling, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::axes::AxisLookup;
 use crate::interpreter::block::{AfterError, BlockContext, Feed};
@@ -11,6 +11,7 @@ use crate::interpreter::coupling::gear_of;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::motion::block::{BlockMotion, MotionSetting};
 use crate::interpreter::motion::form::MovedAxis;
+use crate::interpreter::motion::modal::Leaving;
 use crate::interpreter::motion::pace::{Factors, SlopeSelection};
 use crate::interpreter::options::StopPolicy;
 use crate::interpreter::programs::calls::{Configured, FunctionWord};
@@ -22,7 +23,8 @@ use crate::interpreter::ways::possible_state::ways_of;
 use crate::interpreter::ways::words::limit_to;
 use crate::interpreter::words::refusal::StopScope;
 use crate::language::{
-    AxisAction, AxisCommand, AxisWords, GFunction, Group, HashAction, Holds, Moves, Simplification,
+    AxisAction, AxisCommand, AxisWords, ChannelState, GFunction, Group, HashAction, Holds, Mode,
+    Moves, Simplification,
 };
 use crate::readings::Question;
 use crate::syntax::Fault;
@@ -44,6 +46,7 @@ impl Executor {
         let Some(row) = bracket.command.motion else {
             return;
         };
+        self.check_alone(axis, bracket, at);
         self.see(axis);
         self.state.control.modal.havoc_position(axis);
         if row.moves == Moves::Follower {
@@ -58,7 +61,50 @@ impl Executor {
         });
     }
 
-    /// Executes a `#` command that moves axes at once.
+    /// FC328: an axis moves by itself where the control does not admit it, or with a G function that it does not have
+    /// there (TF5200 Diagnosis, page 253356939).
+    fn check_alone(&mut self, axis: AxisIndex, bracket: AxisBracket<'_>, at: &BlockContext<'_>) {
+        let AxisBracket { command, span, .. } = bracket;
+        let takes_part = |state| match state {
+            ChannelState::Coupling => self.state.control.couplings.of(axis) != Coupling::None,
+            ChannelState::Frame => self.axes().xyz().contains(&axis),
+            _ => true,
+        };
+        let mut states = command.refused.iter();
+        let found = states
+            .find(|(state, _)| self.state.control.is_in(*state) && takes_part(*state))
+            .copied();
+        if let Some((state, number)) = found {
+            let what = format!("`{}` moves by itself {}", bracket.name, state.words());
+            self.may_refuse_alike(number, &what, span, at);
+        }
+        let mut words = bracket.arguments.words(at.text);
+        let other = words.find(|word| {
+            let number = word.strip_prefix(['G', 'g']).and_then(|it| it.parse().ok());
+            number.is_some_and(|number| !command.functions.contains(&number))
+        });
+        if let Some(function) = other
+            && !command.functions.is_empty()
+        {
+            let what = format!("`{function}` is no function of an axis that moves by itself");
+            self.may_refuse_alike(21068, &what, span, at);
+        }
+    }
+
+    /// FC328: two of M3, M4, M5, M19 in the bracket of a spindle (TF5200 Diagnosis, page 250928523); others may be free
+    /// (P-CHAN-00098).
+    fn check_spindle(&mut self, bracket: AxisBracket<'_>, at: &BlockContext<'_>) {
+        let is_of_spindle = |word: &&SpindleWord| matches!(word, SpindleWord::M(3 | 4 | 5 | 19));
+        if bracket.spindle.iter().filter(is_of_spindle).count() > 1 {
+            let what = format!(
+                "the bracket of `{}` has two functions of a spindle",
+                bracket.name
+            );
+            self.may_refuse_alike(20155, &what, bracket.span, at);
+        }
+    }
+
+    /// A `#` command that moves axes at once.
     pub(crate) fn command_motion(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let row = hash.command.motion;
         let Some(row) = row.filter(|row| row.moves == Moves::NamedOrAll) else {
@@ -106,6 +152,8 @@ impl Executor {
         let control = &self.state.control;
         let carries = control.couplings.carry()
             || !control.modal.transformed.is_empty()
+            || control.modal.leaving != Leaving::Done
+            || !control.modal.punched().is_empty()
             || self.scratch.moves.row().is_some();
         if carries && control.described.is_none() {
             self.carry(words);
@@ -115,6 +163,17 @@ impl Executor {
     #[inline(never)]
     fn carry(&mut self, words: AxisWords) {
         let (moves, setting) = self.moves();
+        if words.move_axes() {
+            moves.punch(setting.modal.punched());
+        }
+        let is_leaving = setting.modal.leaving != Leaving::Done;
+        if is_leaving && !setting.modal.modes.has(Mode::LeavesWithMotion) {
+            // The control inserts a motion at G40 with G237; what it does with G238 and G239 is not documented.
+            let plane = setting.axes.plane(setting.modal);
+            for axis in plane {
+                moves.perhaps_move(axis);
+            }
+        }
         moves.move_others(words, setting);
         let couplings = &self.state.control.couplings;
         if couplings.carry() && self.scratch.moves.leads(words) {
@@ -255,6 +314,7 @@ impl Executor {
         let AxisBracket { name, command, .. } = bracket;
         let axis = self.axes().named(name);
         if name.starts_with('S') && axis.is_none() {
+            self.check_spindle(bracket, at);
             if self.axes().is_main_spindle(name) {
                 self.spindle_words(bracket.spindle, at);
             } else if self.machine.channel.main_spindle.is_empty() {

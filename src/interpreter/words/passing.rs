@@ -255,7 +255,7 @@ impl EffectReader<'_> {
             HashAction::NamePrograms
             | HashAction::RetainCycleChanges
             | HashAction::ForgetMacros
-            | HashAction::Describe
+            | HashAction::Describe(_)
             | HashAction::EndDescription
             | HashAction::SaveConfig(_)
             | HashAction::ChangeFile(_)
@@ -265,6 +265,7 @@ impl EffectReader<'_> {
             | HashAction::EndComment
             | HashAction::EndDeclarations
             | HashAction::Dwell
+            | HashAction::NameManualAxes
             | HashAction::Wait
             | HashAction::RealTimeLoop
             | HashAction::EndRealTimeLoop

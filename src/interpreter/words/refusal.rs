@@ -9,22 +9,21 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::block::{AfterError, BlockContext, FailedAt, OwnEnd, stops};
 use crate::interpreter::events::EndedBy;
 use crate::interpreter::executor::{Executor, MentionedUnknowns};
-use crate::interpreter::motion::modal::CUTTER_RADIUS;
 use crate::interpreter::options::StopPolicy;
 use crate::interpreter::stack::ControlStep;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::values::plain::{Asking, ConditionSubject, Writer, reads, text_of};
-use crate::interpreter::values::value::numeric;
+use crate::interpreter::values::value::{exact, numeric};
 use crate::interpreter::ways::path::EndedPath;
 use crate::interpreter::ways::possible_state::ways_of;
 use crate::interpreter::ways::question::{Condition, ConditionKind};
 use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::ways::words::limit_to;
 use crate::interpreter::words::questions::{Doubt, MachineQuestion, answers};
-use crate::language::Flushes;
+use crate::language::{ChannelState, Flushes, Group, RefusedIn};
 use crate::readings::{Alternative, Question};
 use crate::syntax::Fault;
-use crate::syntax::ast::{Expression, Hash, Operand};
+use crate::syntax::ast::{Address, Block, Expression, Hash, Operand, Word};
 use crate::text::Span;
 
 /// The remedy class of a system error, after which the control is restarted, or reset (tf5200, 15557035659).
@@ -224,7 +223,20 @@ impl Executor {
     }
 }
 
-/// Returns FC318: the program reports an error of its own, with a remedy class that stops it.
+/// Whether a block has G40, G41 or G42.
+fn selects_radius(block: &Block) -> bool {
+    let is_it = |word: &Word| {
+        let number = match word.value {
+            Some(Operand::Number(number)) => exact(number),
+            _ => None,
+        };
+        let group = number.and_then(Group::of);
+        word.address == Address::Letter(b'G') && group == Some(Group::CutterRadius)
+    };
+    block.all_words().any(is_it)
+}
+
+/// FC318: the program reports an error of its own, with a remedy class that stops it.
 fn error_with(class: &str, span: Span, at: &BlockContext<'_>) -> Diagnostic {
     let message = format!("the control stops here: the program reports an error with {class}");
     let fault = Fault::new(Code::Fc318, span, message)
@@ -281,7 +293,47 @@ impl Executor {
         self.may_refuse_with(refusal, what, asked, span, at);
     }
 
-    /// Reports FC328: something flushes the channel where the control may refuse that (R2.111).
+    /// The same for something about which the control has one answer, wherever it is in the program.
+    #[cold]
+    pub(crate) fn may_refuse_alike(
+        &mut self,
+        number: u32,
+        what: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        let asked = (
+            Unknown::Refused(Some(number)),
+            StopScope::Alike(what.into()),
+        );
+        self.may_refuse_with(number.into(), what, asked, span, at);
+    }
+
+    /// FC328: a word or command in a state in which the control refuses it, or where it must not flush the channel
+    /// (R2.111).
+    pub(crate) fn check_states(
+        &mut self,
+        (refused, flushes): (RefusedIn, Flushes),
+        name: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        if refused.is_empty() && flushes == Flushes::Never {
+            return;
+        }
+        let control = &self.state.control;
+        // Which of two words of a block counts first is not documented: `G17 G40`.
+        let counts = |state| state != ChannelState::CutterRadius || !selects_radius(at.block);
+        let mut states = refused.iter();
+        let found = states.find(|(state, _)| control.is_in(*state) && counts(*state));
+        let Some(&(state, number)) = found else {
+            return self.check_flush(flushes, name, span, at);
+        };
+        let what = format!("`{name}` stands {}", state.words());
+        self.may_refuse_alike(number, &what, span, at);
+    }
+
+    /// FC328: something flushes the channel where the control may refuse that (R2.111).
     pub(crate) fn check_flush(
         &mut self,
         flushes: Flushes,
@@ -290,14 +342,12 @@ impl Executor {
         at: &BlockContext<'_>,
     ) {
         let modal = &self.state.control.modal;
-        let (number, under) = match flushes {
-            Flushes::Radius | Flushes::Both if modal.transformed.contains(CUTTER_RADIUS) => {
-                (20651, "G41 or G42")
-            }
-            Flushes::Spline | Flushes::Both if modal.is_spline() => (120_434, "a spline"),
-            _ => return,
+        let found = flushes.refused().iter();
+        let found = found.copied().find(|(state, _)| modal.is_in(*state));
+        let Some((state, number)) = found else {
+            return;
         };
-        let what = format!("`{name}` flushes the channel under {under}");
+        let what = format!("`{name}` flushes the channel {}", state.words());
         // The control has one answer for each command, and for each variable, which is synchronous or not.
         let scope = StopScope::Alike(what.as_str().into());
         let asked = (Unknown::Refused(Some(number)), scope);

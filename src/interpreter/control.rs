@@ -78,7 +78,7 @@ impl ControlState {
         }
     }
 
-    /// The states at this block, for where the machine does not execute what follows.
+    /// Returns the states at this block, for where the machine does not execute what follows.
     pub(crate) fn earlier_states(&self) -> EarlierStates {
         EarlierStates {
             compensation: self.compensation.clone(),

@@ -441,7 +441,7 @@ impl GFunction {
         !self.refused.is_empty() || self.flushes != Flushes::Never
     }
 
-    /// Whether it is an implicit call.
+    /// Returns whether it is an implicit call.
     pub(crate) fn is_call(&self) -> bool {
         self.action == GAction::Call
     }

@@ -115,10 +115,10 @@ pub(crate) enum HashAction {
     RetainCycleChanges,
     /// Deletion of the macros of the program.
     ForgetMacros,
-    /// The blocks up to its end describe geometry and do not move (R2.81): the contour for a cycle (tf5293,
-    /// 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
+    /// Start of a description: the blocks up to its end describe geometry and do not move (R2.81): the contour for a
+    /// cycle (tf5293, 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
     Describe(Described),
-    /// A description ends.
+    /// End of a description.
     EndDescription,
     /// Definition of a coupling group (PM/207120267).
     DefineCoupling(MembersBy),
@@ -138,7 +138,7 @@ pub(crate) enum HashAction {
     ExchangeAxes(Exchange),
     /// The axes that G200 to G202 of its block are about (PM/206633483).
     NameManualAxes,
-    /// Coordinates are rotated in the plane (PM/207442315).
+    /// Rotation of coordinates in the plane (PM/207442315).
     Rotate,
     /// Programming of overrides (PM/207625099).
     Override,

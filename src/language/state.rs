@@ -102,7 +102,7 @@ impl Modes {
         }
     }
 
-    /// Those of either set.
+    /// Returns the members of either set.
     pub(crate) fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }

@@ -400,7 +400,7 @@ impl BlockMotion {
         }));
     }
 
-    /// A motion word in a rotated or transformed frame moves its other axes, too.
+    /// Moves the other axes, too, in a rotated or transformed frame.
     fn move_in_frame(&mut self, setting: MotionSetting<'_>) {
         let of_words = self.words.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;

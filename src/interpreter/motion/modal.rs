@@ -421,7 +421,7 @@ impl Modal {
         }
     }
 
-    /// Whether offsets may be switched off.
+    /// Returns whether offsets may be switched off.
     pub(crate) fn are_offsets_suspended(&self) -> bool {
         let mut rows = self
             .transformed

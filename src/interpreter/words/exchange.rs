@@ -105,7 +105,7 @@ impl Executor {
         are_own && self.machine.axis(axis).is_main
     }
 
-    /// Without a group the last one that was enabled is released.
+    /// Releases a coupling group: the named one, or without a name the last one enabled.
     pub(crate) fn disable_coupling(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let group = self.group_of(hash, at);
         self.state.control.disable_coupling(&group);

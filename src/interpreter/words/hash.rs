@@ -129,7 +129,7 @@ impl Executor {
         !named.is_empty() && !named.iter().any(|axis| plane.contains(axis))
     }
 
-    /// `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
+    /// Executes `#OPTIONAL EXECUTION ON` and `OFF` (R2.109).
     fn skip_backward(&mut self, hash: &Hash, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if hash.command.has(FurtherWord::On) && hash.brackets.has("SIMULATE", at.text) {
             let what = "`#OPTIONAL EXECUTION ON` has `APPROACH SIMULATE`";

@@ -493,7 +493,7 @@ impl Executor {
         self.state.control.modal.go_on_leaving(&plane, words);
     }
 
-    /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
+    /// Reports FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
         let circular = self.state.control.modal.functions.is_arc();
         let ends = self.scratch.moves.ends(&self.state.control.modal);

@@ -104,7 +104,7 @@ impl Executor {
         }
     }
 
-    /// A `#` command that moves axes at once.
+    /// Executes a `#` command that moves axes at once.
     pub(crate) fn command_motion(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let row = hash.command.motion;
         let Some(row) = row.filter(|row| row.moves == Moves::NamedOrAll) else {

@@ -236,7 +236,7 @@ fn selects_radius(block: &Block) -> bool {
     block.all_words().any(is_it)
 }
 
-/// FC318: the program reports an error of its own, with a remedy class that stops it.
+/// Returns FC318: the program reports an error of its own, with a remedy class that stops it.
 fn error_with(class: &str, span: Span, at: &BlockContext<'_>) -> Diagnostic {
     let message = format!("the control stops here: the program reports an error with {class}");
     let fault = Fault::new(Code::Fc318, span, message)
@@ -333,7 +333,7 @@ impl Executor {
         self.may_refuse_alike(number, &what, span, at);
     }
 
-    /// FC328: something flushes the channel where the control may refuse that (R2.111).
+    /// Reports FC328: something flushes the channel where the control may refuse that (R2.111).
     pub(crate) fn check_flush(
         &mut self,
         flushes: Flushes,

@@ -90,7 +90,7 @@ pub struct AnswersReport<'a> {
     pub unread: Vec<UnreadAnswer>,
     /// The configuration in which what is decided was recorded, if anything was.
     pub recorded_in: Option<String>,
-    /// Whether something is decided that is not confirmed, because the build is not known.
+    /// Whether a decision is not confirmed because the build is not known.
     pub lacks_build: bool,
 }
 

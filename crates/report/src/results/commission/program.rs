@@ -7,7 +7,7 @@ use frictcomp_recordings::commission::{
     Installed, MeasuredAxis, MeasuringProgram, PlanReport, PlanStep, Stage, Turning,
 };
 
-/// A program of a plan, with `\n` at the end of each line and ASCII letters only.
+/// Returns a program of a plan, with `\n` at the end of each line and ASCII letters only.
 pub(super) fn render_program(report: &PlanReport, program: &MeasuringProgram) -> String {
     let plan = &report.plan;
     let mut blocks = NumberedBlocks::default();

@@ -7,7 +7,7 @@ use super::words::told;
 use frictcomp::lists::AxisType;
 use frictcomp_recordings::commission::{Installed, PlanReport, Stage};
 
-/// One page in ASCII letters, at most 78 columns wide: the programs, and how to run and record them.
+/// Returns one page in ASCII letters, at most 78 columns wide: the programs, and how to run and record them.
 pub(super) fn render_readme(report: &PlanReport) -> String {
     let plan = &report.plan;
     let mut out = String::new();

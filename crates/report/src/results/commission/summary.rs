@@ -45,7 +45,7 @@ pub fn plan_texts(report: &PlanReport) -> impl Iterator<Item = (String, String)>
     programs.chain([("README.txt".to_owned(), render_readme(report))])
 }
 
-/// The programs with their times, and their basis.
+/// Returns the programs with their times, and their basis.
 pub fn plan_document(report: &PlanReport) -> Document<'static> {
     let plan = &report.plan;
     let mut out = Document::new("Measuring programs", headline(report));

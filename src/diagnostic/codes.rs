@@ -367,6 +367,13 @@ impl Levels {
         true
     }
 
+    /// Returns the codes of warnings and errors that are off.
+    pub fn unreported(&self) -> impl Iterator<Item = Code> {
+        let off = self.levels.iter().filter(|(_, level)| level.is_none());
+        off.map(|(code, _)| *code)
+            .filter(|code| code.severity() >= Severity::Warning)
+    }
+
     /// Returns the severity of a code; `None` if it is off.
     pub fn severity(&self, code: Code) -> Option<Severity> {
         self.levels

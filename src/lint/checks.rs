@@ -42,8 +42,8 @@ impl Linter<'_> {
                 self.memory.refused(axis, required, executed);
             }
         }
-        // The commands of a block act before its motion (R1.9).
-        for motion in executed.motions() {
+        // The commands of a block act before its motion (R1.9). What a block search passes does not move (R2.96).
+        for motion in executed.motions().filter(|_| !executed.passed) {
             let is_first = self.memory.moved(&motion, executed);
             said.extend(moved_before::lint(self, (&motion, is_first), executed));
         }

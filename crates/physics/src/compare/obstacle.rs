@@ -28,6 +28,8 @@ pub enum Reason {
         /// Message.
         message: String,
     },
+    /// Program that stops with an error whose message is silenced.
+    StoppedSilently,
     /// State that depends on what only the machine knows.
     Unknown {
         /// Name of the axis.
@@ -46,7 +48,7 @@ impl Reason {
     /// Returns the word that stands for the reason in records.
     pub fn as_str(&self) -> &'static str {
         match self {
-            Self::Stopped { .. } => "stopped",
+            Self::Stopped { .. } | Self::StoppedSilently => "stopped",
             Self::Unknown { .. } => "unknown",
             Self::Assumed => "assumed",
             Self::Undescribed => "undescribed",
@@ -97,6 +99,9 @@ impl fmt::Display for Obstacle {
         };
         match &self.reason {
             Reason::Stopped { code, message } => write!(f, "{at} stops with {code}: {message}"),
+            Reason::StoppedSilently => {
+                write!(f, "{at} stops with an error whose message is silenced")
+            }
             Reason::Unknown { axis, kind } => {
                 let kind = kind.as_str();
                 write!(f, "from {at} on, {kind} of {axis} is not known offline")

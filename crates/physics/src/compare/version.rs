@@ -99,6 +99,7 @@ impl Sink for Version {
                 }
                 if matches!(end.by, EndedBy::Error | EndedBy::Budget) {
                     self.obstacle = self.candidate.take().or(self.obstacle.take());
+                    self.hinder(Reason::StoppedSilently);
                 }
             }
             // The user may have silenced the message about it.

@@ -16,14 +16,14 @@ use crate::args::{
 use crate::commands::diff::unseen_remark;
 use crate::output::{Console, DataTarget, Failure, Failures, FileWatch, Outputs, Printed};
 use baseline::BaselineArgs;
-use frictcomp::diagnostic::Diagnostic;
+use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp_host::{
     Baseline, CalledPrograms, ChangedFile, ChangedPrograms, CheckOptions, CheckedPrograms, Disk,
     FileRegistry, HostError, Machines, Naming, ProgramsOnMachines, Revision, find_programs,
     is_source, processors,
 };
 use frictcomp_report::assumptions::rests_on_text;
-use frictcomp_report::{ListingFormat, ProgramResult, command_line, visible_line, wrap};
+use frictcomp_report::{ListingFormat, ProgramResult, command_line, counted, visible_line, wrap};
 
 /// Print all messages of all programs, and mend what is safe
 ///
@@ -149,6 +149,7 @@ fn check(
     }
     let programs = ProgramsOnMachines::new(&inputs, &mut machines);
     outputs.check()?;
+    let undescribed = programs.undescribed().count();
     say_undescribed(args, &programs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
     let (mut baseline, written) = args.baseline.open(&registry, &mut outputs)?;
@@ -156,6 +157,7 @@ fn check(
     let checked = failures.keep(programs.check(&options));
     let in_callers = checked.in_callers;
     let silenced = checked.programs.iter().flat_map(|it| &it.silenced);
+    let hushed = silenced.clone().map(|it| it.code).collect();
     let silenced: BTreeSet<String> = silenced.map(ToString::to_string).collect();
     list_all(checked, &mut listing, &mut baseline);
     found.left_out.forget_read(&registry);
@@ -171,8 +173,8 @@ fn check(
         if known.is_some() {
             headline.text.push_str(" beyond the baseline");
         }
-        let assumed = machines.loaded().filter_map(|it| it.machine.assumption());
-        listing.headline(headline.assuming(assumed));
+        let basis = basis(&machines, &hushed, [undescribed, inputs.len()]);
+        listing.headline(headline.assuming(basis));
     }
     let printed = listing.finish()?;
     if printed == Printed::Unread && failures.is_empty() {
@@ -199,6 +201,47 @@ fn check(
         console.remark(&remark);
     }
     Ok(listing.status())
+}
+
+/// Returns what a verdict rests on: assumed compensation, messages that are not seen, and the number of programs, of all,
+/// whose machine is not described.
+fn basis(
+    machines: &Machines,
+    silenced: &BTreeSet<Code>,
+    [undescribed, all]: [usize; 2],
+) -> impl Iterator<Item = String> {
+    let assumed: Vec<_> = machines
+        .loaded()
+        .filter_map(|it| it.machine.assumption())
+        .collect();
+    let unreported = machines.loaded().flat_map(|it| it.levels.unreported());
+    let unreported = withheld(&unreported.collect(), "not reported");
+    let undescribed = match undescribed {
+        0 => None,
+        some if some == all => Some("no machine is described".to_owned()),
+        some => Some(format!(
+            "no machine is described for {}",
+            counted(some, "program")
+        )),
+    };
+    let silenced = withheld(silenced, "silenced");
+    assumed
+        .into_iter()
+        .chain(silenced)
+        .chain(unreported)
+        .chain(undescribed)
+}
+
+/// Returns the messages that a verdict does without, in words: "FC401 and FC403 are silenced".
+fn withheld(codes: &BTreeSet<Code>, how: &str) -> Option<String> {
+    const MOST: usize = 4;
+    let names: Vec<&str> = codes.iter().map(|code| code.as_str()).collect();
+    match &names[..] {
+        [] => None,
+        [one] => Some(format!("{one} is {how}")),
+        names if names.len() > MOST => Some(format!("{} codes are {how}", names.len())),
+        [names @ .., last] => Some(format!("{} and {last} are {how}", names.join(", "))),
+    }
 }
 
 /// Lists the programs that were not looked at and switch compensation (R18.5).

@@ -20,6 +20,7 @@ fn in_arguments(error: &HostError) -> Option<&'static str> {
         HostError::ReplacesSource { .. } => {
             "name another place for the output, or remove the file if nothing needs it"
         }
+        HostError::Baseline { .. } => "write a new one with `frictcomp check --write-baseline`",
         HostError::SeveralStartupLists(_) => "name that of the machine with `machine=`",
         HostError::Commission(error) => return of_commissioning(error),
         _ => return None,

@@ -1,11 +1,12 @@
 //! `frictcomp.check`: the messages of programs and folders of programs.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use frictcomp::interpreter::{Options, StopPolicy};
 use frictcomp_host::{
-    CalledPrograms, CheckOptions, FileRegistry, FolderOptions, FoundPrograms, IgnoreFiles,
-    MachineOptions, Machines, ProgramsOnMachines, processors,
+    Baseline, CalledPrograms, CheckOptions, FileRegistry, FolderOptions, FoundPrograms,
+    IgnoreFiles, MachineOptions, Machines, ProgramsOnMachines, processors,
 };
 use pyo3::prelude::*;
 
@@ -20,15 +21,17 @@ use crate::work::{Stop, interruptible};
 /// All messages of programs and of the programs below folders.
 ///
 /// Each program runs from the start of the control. Below folders, what the patterns of ``exclude`` name is not
-/// taken, and what ignore files name only with ``no_ignore``. ``Error`` if one of the programs cannot be read.
+/// taken, and what ignore files name only with ``no_ignore``. ``baseline`` is a file of known findings, which
+/// ``frictcomp check --write-baseline`` wrote: they are left out. ``Error`` if one of the programs cannot be read.
 #[pyfunction]
-#[pyo3(signature = (programs, *, machine=None, limits=None, exclude=None, no_ignore=false))]
+#[pyo3(signature = (programs, *, machine=None, limits=None, exclude=None, no_ignore=false, baseline=None))]
 pub(crate) fn check(
     programs: &Bound<'_, PyAny>,
     machine: Option<&Bound<'_, PyAny>>,
     limits: Option<&Bound<'_, PyLimits>>,
     exclude: Option<Several<String>>,
     no_ignore: bool,
+    baseline: Option<PathBuf>,
 ) -> PyResult<PyMessages> {
     let ignore_files = if no_ignore {
         IgnoreFiles::PassedOver
@@ -45,6 +48,7 @@ pub(crate) fn check(
         programs: GivenPrograms::of(programs)?,
         machine,
         run: limits::brief(limits).with_stop(StopPolicy::CheckAll),
+        baseline,
     };
     let said = interruptible(programs.py(), move |stop| job.done(stop))?;
     Ok(PyMessages::new(said))
@@ -55,11 +59,17 @@ struct CheckJob {
     programs: GivenPrograms,
     machine: MachineOptions,
     run: Options,
+    baseline: Option<PathBuf>,
 }
 
 impl CheckJob {
     fn done(self, stop: &Stop) -> Result<GivenMessages, Failure> {
         let registry = FileRegistry::default();
+        let known = self.baseline.as_ref();
+        let known = known
+            .map(|path| Baseline::read(path, &registry))
+            .transpose()?;
+        let mut known = known.unwrap_or_default();
         let machines = Machines::new(self.machine, &registry).on_disk(&self.programs.disk);
         let mut machines = machines.watched_by(Arc::new(stop.clone()));
         let options = CheckOptions {
@@ -84,13 +94,16 @@ impl CheckJob {
         let (checked, unread) = programs.check(&options);
         errors.extend(unread);
         for program in &checked.programs {
-            said.leave_out(&program.unsaid);
+            let unsaid = program.unsaid.iter();
+            let unsaid =
+                unsaid.map(|(severity, more)| (*severity, known.unlisted(*severity, *more)));
+            said.leave_out(&unsaid.collect());
         }
-        let causes = checked.causes.diagnostics().iter();
-        said.messages.extend(causes.map(PyMessage::of));
         left_out.forget_read(&registry);
         let unseen = left_out.diagnostics(&mut machines);
-        said.messages.extend(unseen.iter().map(PyMessage::of));
+        let causes = checked.causes.diagnostics().iter().chain(&unseen);
+        let listed = causes.filter(|said| known.lists(said));
+        said.messages.extend(listed.map(PyMessage::of));
         match Failure::of_several(errors) {
             Some(failure) => Err(failure),
             None => Ok(said),

@@ -122,6 +122,7 @@ impl From<HostError> for Failure {
             | HostError::StateNotRegular(path)
             | HostError::StateInUse(path)
             | HostError::State { path, .. }
+            | HostError::Baseline { path, .. }
             | HostError::ValueList { path, .. }
             | HostError::Plant { path, .. }
             | HostError::NotAProject { path, .. }

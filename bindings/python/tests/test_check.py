@@ -6,7 +6,7 @@ from pathlib import Path
 
 import polars
 import pytest
-from conftest import records
+from conftest import command, records
 from test_run import of_messages, wordless
 
 import frictcomp
@@ -56,3 +56,18 @@ def test_messages_are_a_sequence() -> None:
     with pytest.raises(frictcomp.Error) as caught:
         frictcomp.check("programs/err/FC202-frikt.nc").raise_for_errors()
     assert (caught.value.code, caught.value.line) == ("FC202", caught.value.messages[0].line)
+
+
+def test_known_findings_are_left_out(tmp_path: Path) -> None:
+    # R17.3
+    known = tmp_path / "known.json"
+    program = tmp_path / "a.nc"
+    program.write_text("N10 X[COMP OFF FRIKT]\nN20 M30\n")
+    assert [it.code for it in frictcomp.check(program)] == ["FC202"]
+    command("check", "--isolated", "--write-baseline", str(known), str(program))
+    assert list(frictcomp.check(program, baseline=known)) == []
+    program.write_text("N10 X[COMP OFF FRIKT]\nN15 Y[COMP OFF FRIKT]\nN20 M30\n")
+    assert [it.line for it in frictcomp.check(program, baseline=known)] == [2]
+    known.write_text("{}")
+    with pytest.raises(frictcomp.Error, match="not a baseline"):
+        frictcomp.check(program, baseline=known)

@@ -48,7 +48,7 @@ pub(super) fn option(command: &str, error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else {
         return None;
     };
-    let option = option.split('=').next()?;
+    let option = option.split('=').next().filter(|it| it.starts_with('-'))?;
     answer(&format!("{command} {option}")).or_else(|| {
         let (before, now) = moved().find(|it| it.0 == option)?;
         Some(format!("`{before}` is now `{now}`"))

@@ -179,9 +179,11 @@ impl BlockLowering<'_> {
             .items
             .push(Item::Unread(Effect::Everything, span));
         // A user who says that the command does nothing says so of its own arguments only.
-        if let Some(other) = other_command(&span.of(self.code)[1..]) {
+        let code = span.of(self.code);
+        if let Some(other) = other_command(&code[1..]) {
+            let (own, _) = hash_name(&code[..=other]);
             let behind = Span::new(start + 1 + other, span.end as usize);
-            self.beside(&format!("`{name}`"), behind);
+            self.beside(&format!("`{own}`"), behind);
         }
     }
 
@@ -257,7 +259,12 @@ fn other_command(text: &str) -> Option<usize> {
                 depth += 1;
             }
             ']' => depth = depth.saturating_sub(1),
-            '$' | '#' | '"' if depth == 0 => return Some(at),
+            '$' | '"' if depth == 0 => return Some(at),
+            '#' if depth == 0
+                && text[at + 1..].starts_with(|it: char| it.is_ascii_alphabetic()) =>
+            {
+                return Some(at);
+            }
             _ => {}
         }
     }

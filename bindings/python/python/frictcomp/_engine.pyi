@@ -592,11 +592,13 @@ def check(
     limits: Limits | None = None,
     exclude: Iterable[str] | None = None,
     no_ignore: bool = False,
+    baseline: _Path | None = None,
 ) -> Messages:
     """All messages of programs and of the programs below folders.
 
     Each program runs from the start of the control. Below folders, what the patterns of ``exclude`` name is not
-    taken, and what ignore files name only with ``no_ignore``. ``Error`` if one of the programs cannot be read.
+    taken, and what ignore files name only with ``no_ignore``. ``baseline`` is a file of known findings, which
+    ``frictcomp check --write-baseline`` wrote: they are left out. ``Error`` if one of the programs cannot be read.
     """
 
 def audit(

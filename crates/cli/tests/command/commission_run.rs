@@ -17,9 +17,9 @@ use frictcomp_host::sha256_of;
 use frictcomp_physics::circle::{Circle, CircularTest, Direction, LapRun, Method};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
+use frictcomp_testing::PITCH_MM;
 use frictcomp_testing::planned_circles;
 use frictcomp_testing::recorded_drive::{Bench, Recorded};
-use frictcomp_testing::{PITCH_MM, PresetMachine};
 
 const AXIS: &str = "frict_comp = true\nvalue_list = \"zero.lis\"\nmax_velocity = 20000\nmax_acceleration = 2\nmax_jerk = 50\n";
 

@@ -173,7 +173,11 @@ fn check(
         if known.is_some() {
             headline.text.push_str(" beyond the baseline");
         }
-        let basis = basis(&machines, &hushed, [undescribed, inputs.len()]);
+        let is_any_clean = listing.tally().programs.contains_key(&ProgramResult::Clean);
+        let assumed = machines.loaded().filter_map(|it| it.machine.assumption());
+        let without =
+            is_any_clean.then(|| withheld(&machines, &hushed, [undescribed, inputs.len()]));
+        let basis = assumed.chain(without.into_iter().flatten());
         listing.headline(headline.assuming(basis));
     }
     let printed = listing.finish()?;
@@ -203,19 +207,15 @@ fn check(
     Ok(listing.status())
 }
 
-/// Returns what a verdict rests on: assumed compensation, messages that are not seen, and the number of programs, of all,
-/// whose machine is not described.
-fn basis(
+/// Returns what a clean program is clean without: messages that are not seen, and a machine of the programs, of which
+/// so many of all have none that is described.
+fn withheld(
     machines: &Machines,
     silenced: &BTreeSet<Code>,
     [undescribed, all]: [usize; 2],
 ) -> impl Iterator<Item = String> {
-    let assumed: Vec<_> = machines
-        .loaded()
-        .filter_map(|it| it.machine.assumption())
-        .collect();
     let unreported = machines.loaded().flat_map(|it| it.levels.unreported());
-    let unreported = withheld(&unreported.collect(), "not reported");
+    let unreported = in_words(&unreported.collect(), "not reported");
     let undescribed = match undescribed {
         0 => None,
         some if some == all => Some("no machine is described".to_owned()),
@@ -224,16 +224,12 @@ fn basis(
             counted(some, "program")
         )),
     };
-    let silenced = withheld(silenced, "silenced");
-    assumed
-        .into_iter()
-        .chain(silenced)
-        .chain(unreported)
-        .chain(undescribed)
+    let silenced = in_words(silenced, "silenced");
+    silenced.into_iter().chain(unreported).chain(undescribed)
 }
 
-/// Returns the messages that a verdict does without, in words: "FC401 and FC403 are silenced".
-fn withheld(codes: &BTreeSet<Code>, how: &str) -> Option<String> {
+/// Returns codes in words: "FC401 and FC403 are silenced".
+fn in_words(codes: &BTreeSet<Code>, how: &str) -> Option<String> {
     const MOST: usize = 4;
     let names: Vec<&str> = codes.iter().map(|code| code.as_str()).collect();
     match &names[..] {

@@ -16,14 +16,18 @@ use frictcomp::diagnostic::{Code, did_you_mean};
 use frictcomp::documents::PARAMETER_PAGES;
 use frictcomp::lists::ChannelKey;
 use frictcomp_host::FileRegistry;
-use frictcomp_report::{fitted, to_json};
+use frictcomp_report::{fitted, to_json, wrap};
+
+/// Columns of the page of a command.
+const WIDTH: usize = 80;
 
 /// Explain a code, parameter, rule or word; without one, list all codes
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArgs {
     /// A code, parameter, rule or word, such as `FC201`, `70495`, `P-COMP-00043`,
     /// `frict_comp.mode`, `R1.27`, `C12`, `COMP`, `V.A.FRICT_COMP_ACTIVE`, `60B2` or `MP1511`
-    word: Option<String>,
+    #[arg(value_name = "WORD")]
+    word: Vec<String>,
     #[command(flatten)]
     result: ResultArgs,
 }
@@ -32,7 +36,8 @@ pub(crate) struct ExplainArgs {
 pub(crate) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&FileRegistry::default(), console);
     let mut target = outputs.result(args.result.output.as_deref())?;
-    match (&args.word, args.result.format) {
+    let word = (!args.word.is_empty()).then(|| args.word.join(" "));
+    match (&word, args.result.format) {
         (None, ResultFormat::Text) => {
             let list = fitted(&codes(), target.look.width);
             target.painted(&list, severities)?
@@ -142,12 +147,16 @@ fn command(text: &str) -> Option<String> {
     }
     let about = command.get_long_about().or_else(|| command.get_about())?;
     let name = text.trim_start_matches("frictcomp").trim();
-    (!name.is_empty()).then(|| {
-        format!(
-            "# frictcomp {name}\n\n{}.\n\n`frictcomp {name} --help` shows its options and examples.\n",
-            about.to_string().trim_end_matches('.')
-        )
-    })
+    let about = about.to_string();
+    let paragraphs = about
+        .split("\n\n")
+        .map(|it| format!("{}.", it.trim_end_matches('.')));
+    let further = format!("`frictcomp {name} --help` shows its options and examples.");
+    let paragraphs = paragraphs
+        .chain([further])
+        .map(|it| wrap(&it, WIDTH, 0) + "\n");
+    let page: Vec<String> = paragraphs.collect();
+    (!name.is_empty()).then(|| format!("# frictcomp {name}\n\n{}", page.join("\n")))
 }
 
 /// Returns the page of an error number of the control, with `P-ERR-` or without (R2.114).

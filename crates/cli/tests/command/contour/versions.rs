@@ -52,6 +52,7 @@ fn a_block_that_deviates_more_is_named_with_its_worst_place() {
     assert!(um(&place[0]) < -24.0 && um(&place[1]).abs() < 3.0, "{turn}");
     assert!(more.iter().all(|it| it["n"] != 30), "{found:#}");
     let (_, text) = diff(&bench, &START);
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         text.contains("more by more than 0.5 µm, line 7 of new.nc most"),
         "{text}"

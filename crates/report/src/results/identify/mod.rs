@@ -68,7 +68,7 @@ impl IdentifyReport {
             .map(|_| "it differs by direction, and the list is the mean of both".to_owned());
         let missed = found.missed_error.map(|asked| {
             format!(
-                "{} are up to {} {} off, {} were asked for",
+                "{} are up to {} {} off, where {} was asked for",
                 counted(found.points.len(), "point"),
                 Rounded(found.point_error, 3),
                 self.unit(),

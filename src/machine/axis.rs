@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::channels::AxisChannels;
+use super::channels::ChannelsOfAxis;
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Advice, Code, Diagnostic, Fix};
 use crate::drive_interface::{Evidence, ListedDrive, TorqueScale, check_drive};
@@ -85,7 +85,7 @@ pub struct Axis {
     /// The factor for the torque to the drive, P-AXIS-00325 and P-AXIS-00326.
     pub torque_scale: TorqueScale,
     /// The channels that have the axis.
-    pub channels: AxisChannels,
+    pub channels: ChannelsOfAxis,
 }
 
 impl Axis {
@@ -111,7 +111,7 @@ impl Axis {
             motor_lead_mm: None,
             listed: ListedDynamics::default(),
             torque_scale: TorqueScale::default(),
-            channels: AxisChannels::default(),
+            channels: ChannelsOfAxis::default(),
         }
     }
 
@@ -371,7 +371,7 @@ pub(super) struct AxisDraft {
     /// The path of its axis list.
     pub(super) list: Option<String>,
     /// The channels that have the axis.
-    pub(super) channels: AxisChannels,
+    pub(super) channels: ChannelsOfAxis,
 }
 
 impl AxisDraft {
@@ -390,7 +390,7 @@ impl AxisDraft {
             is_covered: false,
             shared: None,
             list: None,
-            channels: AxisChannels::default(),
+            channels: ChannelsOfAxis::default(),
         }
     }
 

@@ -3,7 +3,7 @@
 /// Channels whose lists name an axis, by their numbers from 1.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum AxisChannels {
+pub enum ChannelsOfAxis {
     /// Nothing says which channels have the axis.
     #[default]
     Unsaid,
@@ -13,7 +13,7 @@ pub enum AxisChannels {
     Assumed(Vec<u32>),
 }
 
-impl AxisChannels {
+impl ChannelsOfAxis {
     /// Returns the channels that have the axis; `None` where nothing says it.
     pub fn numbers(&self) -> Option<&[u32]> {
         match self {

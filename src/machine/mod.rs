@@ -12,7 +12,7 @@ mod startup;
 
 pub use axis::AxisReport;
 pub use axis::{Axis, Parameterisation};
-pub use channels::AxisChannels;
+pub use channels::ChannelsOfAxis;
 pub use check::{AcceptedList, ListsReport, check_configuration, check_list};
 pub use configuration::Configuration;
 pub use description::HarmlessWords;

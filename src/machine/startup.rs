@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::axis::AxisDraft;
-use super::channels::AxisChannels;
+use super::channels::ChannelsOfAxis;
 use super::loader::{FirstChannel, Loader, folder};
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
@@ -354,9 +354,9 @@ impl NamedInChannels {
         for axis in axes.iter_mut().filter(|axis| !axis.is_spindle()) {
             let channels = of(axis);
             axis.channels = if is_project {
-                AxisChannels::Assumed(channels)
+                ChannelsOfAxis::Assumed(channels)
             } else {
-                AxisChannels::Listed(channels)
+                ChannelsOfAxis::Listed(channels)
             };
         }
     }

@@ -5,7 +5,7 @@ use crate::comp::{AxisIndex, CompensationError};
 use crate::diagnostic::Code;
 use crate::interpreter::block::BlockContext;
 use crate::interpreter::executor::{Executor, RunState};
-use crate::machine::{AxisChannels, Machine};
+use crate::machine::{ChannelsOfAxis, Machine};
 use crate::syntax::Fault;
 use crate::text::{Span, in_a_row};
 
@@ -65,7 +65,7 @@ impl Executor {
     /// Returns whether nothing limits an axis to some channels.
     #[inline]
     pub(crate) fn is_in_all_channels(&self, axis: AxisIndex) -> bool {
-        matches!(self.machine.axis(axis).channels, AxisChannels::Unsaid)
+        matches!(self.machine.axis(axis).channels, ChannelsOfAxis::Unsaid)
     }
 
     /// Returns whether the channel has an axis, and notes that the program uses it.
@@ -87,7 +87,7 @@ impl Executor {
         }
         let [absent, perhaps] = [UsedOn::AllWays, UsedOn::SomeWays]
             .map(|used| self.state.other_in_channel(machine, axis, used));
-        let is_listed = matches!(machine.axis(axis).channels, AxisChannels::Listed(_));
+        let is_listed = matches!(machine.axis(axis).channels, ChannelsOfAxis::Listed(_));
         let (used, found) = match (absent, perhaps) {
             (Some(why), _) if is_listed => return InChannel::Absent(why),
             // On the way that goes on, the channel has it.

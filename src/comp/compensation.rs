@@ -509,6 +509,14 @@ pub enum CompensationError {
         /// The name before the bracket.
         axis: String,
     },
+    /// `Y[COMP ON FRICT]` in a program of a channel without the axis Y.
+    #[error("{why}")]
+    NotInChannel {
+        /// The axis of the command.
+        axis: String,
+        /// The reason, in words.
+        why: String,
+    },
     /// `X[COMP ON FRICT]` between `#ENABLE AX LINK` and `#DISABLE AX LINK` of a coupling with X.
     #[error("axis `{axis}` is in an active coupling; COMP is not allowed")]
     Coupled {
@@ -539,6 +547,7 @@ impl CompensationError {
         match self {
             Self::NotConfigured { kind, .. } => kind.facts().refusal,
             Self::UnknownAxis { .. } => Code::PErr21947,
+            Self::NotInChannel { .. } => Code::PErr20200,
             Self::Coupled { .. } => Code::PErr21403,
             Self::ReadAsRefused { .. } => Code::Fc306,
             Self::Spindle { .. } => Code::Fc302,
@@ -550,6 +559,7 @@ impl CompensationError {
         match self {
             Self::NotConfigured { axis, .. }
             | Self::UnknownAxis { axis }
+            | Self::NotInChannel { axis, .. }
             | Self::Coupled { axis }
             | Self::ReadAsRefused { axis, .. }
             | Self::Spindle { axis } => axis,

@@ -55,6 +55,7 @@ codes! {
     PErr20100 "P-ERR-20100" Error "variable that can only be read";
     PErr20131 "P-ERR-20131" Error "G function without a program";
     PErr20160 "P-ERR-20160" Error "M function above 1000";
+    PErr20200 "P-ERR-20200" Error "axis that the channel does not have";
     PErr20375 "P-ERR-20375" Warning "`$IF` without `$ENDIF`";
     PErr20472 "P-ERR-20472" Error "coupling group redefined while it is active";
     PErr20839 "P-ERR-20839" Error "jump target that is not permitted";

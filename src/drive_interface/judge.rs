@@ -134,12 +134,45 @@ pub struct DriveReport {
 }
 
 impl DriveReport {
+    /// Returns whether the additive torque reaches a drive whose type is not given: the control takes simulation, unless
+    /// TwinCAT fills in another type (R7.6).
+    pub fn lacks_type(&self) -> bool {
+        let Presence::Present { evidence } = &self.additive_torque else {
+            return false;
+        };
+        self.drive_type.is_none() && evidence.element.is_none()
+    }
+
     /// Returns whether the torque would reach the drive and the control has none to send: no accepted value list, or a
     /// factor of 0.
     pub fn is_idle(&self) -> bool {
-        let sends = self.largest_torque.is_some_and(|largest| largest > 0.0);
-        self.configured && matches!(self.additive_torque, Presence::Present { .. }) && !sends
+        self.idle_by().is_some()
     }
+
+    /// Returns why the control has no torque to send to a drive that it would reach.
+    pub fn idle_by(&self) -> Option<IdleBy> {
+        if !self.configured || !matches!(self.additive_torque, Presence::Present { .. }) {
+            return None;
+        }
+        match self.largest_torque {
+            None => Some(IdleBy::NoValues),
+            Some(largest) if largest > 0.0 => None,
+            Some(_) if self.scale.factor() > 0.0 => Some(IdleBy::Outputs),
+            Some(_) => Some(IdleBy::TorqueScaling),
+        }
+    }
+}
+
+/// Reason for which the control has no torque to send.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum IdleBy {
+    /// No accepted value list.
+    NoValues,
+    /// Value list whose outputs are 0, all of them or by `frict_comp.scaling_factor`.
+    Outputs,
+    /// Torque scaling of 0, P-AXIS-00325 or P-AXIS-00326.
+    TorqueScaling,
 }
 
 /// Statement of one source about a value.
@@ -183,6 +216,7 @@ pub fn check_drive(listed: &ListedDrive<'_>, evidence: &Evidence) -> DriveReport
         open: Vec::new(),
     };
     let [additive_torque, actual_torque] = judge.presences();
+    judge.ask_type(&additive_torque);
     let own = judge.own_friction();
     judge.diagnostics.extend(own);
     let largest_torque = listed.friction.map(|list| judge.largest(list));
@@ -272,11 +306,45 @@ impl Judge<'_> {
                 Presence::Unknown { reason }
             }
             _ => {
-                let reason = "the axis list has no telegram entry".to_owned();
-                self.ask(signal, &reason, None);
+                let (reason, place) = self.no_entry(signal);
+                self.ask(signal, &reason, place);
                 Presence::Unknown { reason }
             }
         }
+    }
+
+    /// Returns why no source says anything about a value.
+    fn no_entry(&self, signal: Signal) -> (String, Option<Place>) {
+        let drive_type = self.settings.drive_type.as_ref();
+        match (self.settings.unused_entry(signal), drive_type) {
+            (Some(place), Some(given)) => {
+                let reason = format!(
+                    "the drive type is {}, which does not use the telegram entries of the axis list",
+                    given.value.as_str()
+                );
+                (reason, Some(place.clone()))
+            }
+            _ => ("the axis list has no telegram entry".to_owned(), None),
+        }
+    }
+
+    /// Reports FC504 for an axis whose list has the telegram of a drive and no list gives the type: the control takes
+    /// simulation, unless TwinCAT fills in another type (R7.6).
+    fn ask_type(&mut self, additive_torque: &Presence) {
+        let Presence::Present { evidence } = additive_torque else {
+            return;
+        };
+        let place = self.selector.map(Given::place);
+        if self.settings.drive_type.is_some() || evidence.element.is_some() {
+            return;
+        }
+        let said = place.map(|place| {
+            let message = "no list gives the drive type: the control takes simulation, which takes no additive torque, \
+                           unless TwinCAT fills in another type";
+            Diagnostic::new(Code::Fc504, place, message)
+                .with_help("set `kenngr.antr_typ` to `2` for SERCOS or `8` for CANopen")
+        });
+        self.open.extend(said);
     }
 
     fn list_says(&self, signal: Signal) -> SourceStatement {
@@ -307,13 +375,7 @@ impl Judge<'_> {
                 ),
             };
         }
-        let given = self.settings.drive_type.as_ref().map(|given| given.value);
-        let protocol = given.and_then(|drive_type| match drive_type {
-            DriveType::Sercos => Some(Protocol::Sercos),
-            DriveType::CanOpen => Some(Protocol::CanOpen),
-            _ => None,
-        });
-        agreed(network, protocol, signal)
+        agreed(network, self.settings.protocol(), signal)
     }
 
     /// Returns the device of the network that drives the axis, if the user named it.

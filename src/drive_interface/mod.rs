@@ -10,7 +10,7 @@ mod settings;
 mod signal;
 
 pub use judge::{
-    DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, TorqueEvidence, check_drive,
+    DriveReport, Evidence, IdleBy, ListedDrive, Presence, SlaveOfAxis, TorqueEvidence, check_drive,
 };
 pub use settings::{DriveSettings, TorqueScale};
 pub use signal::{Device, Network, NetworkObject, OwnFriction, Protocol, Slave};

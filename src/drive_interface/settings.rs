@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::signal::{DriveType, Signal, is_torque_command};
+use super::signal::{DriveType, Protocol, Signal, is_torque_command};
 use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::lists::{Entry, Given, Number};
 use crate::text::Place;
@@ -61,6 +61,7 @@ pub struct DriveSettings {
     pub simulated: Option<Place>,
     /// P-AXIS-00325 and P-AXIS-00326.
     pub scale: TorqueScale,
+    numerator: Option<Place>,
     denominator: Option<Place>,
     /// P-AXIS-00324 of every gear.
     offsets: Vec<Given<i64>>,
@@ -71,20 +72,25 @@ pub struct DriveSettings {
 #[derive(Debug, Clone)]
 struct TelegramEntry {
     signal: Signal,
+    protocol: Protocol,
     holds: bool,
     is_command: bool,
     place: Place,
 }
 
 /// The patterns of telegram entries, each with the value that is sent in that direction.
-const TELEGRAMS: [(&str, Signal); 6] = [
-    ("antr.sercos.mdt[].nc_ref", Signal::AdditiveTorque),
-    ("antr.sercos.mdt[].ident_nr", Signal::AdditiveTorque),
-    ("antr.canopen.out[].nc_ref", Signal::AdditiveTorque),
-    ("antr.sercos.at[].nc_ref", Signal::ActualTorque),
-    ("antr.sercos.at[].ident_nr", Signal::ActualTorque),
-    ("antr.canopen.in[].nc_ref", Signal::ActualTorque),
-];
+const TELEGRAMS: [(&str, Protocol, Signal); 6] = {
+    use Protocol::{CanOpen, Sercos};
+    use Signal::{ActualTorque, AdditiveTorque};
+    [
+        ("antr.sercos.mdt[].nc_ref", Sercos, AdditiveTorque),
+        ("antr.sercos.mdt[].ident_nr", Sercos, AdditiveTorque),
+        ("antr.canopen.out[].nc_ref", CanOpen, AdditiveTorque),
+        ("antr.sercos.at[].nc_ref", Sercos, ActualTorque),
+        ("antr.sercos.at[].ident_nr", Sercos, ActualTorque),
+        ("antr.canopen.in[].nc_ref", CanOpen, ActualTorque),
+    ]
+};
 
 impl DriveSettings {
     /// Collects the values from the drive entries; a value that cannot be used is FC130.
@@ -103,6 +109,7 @@ impl DriveSettings {
                 "antr.torque_scale_num" => {
                     if let Some(value) = unsigned(entry, diagnostics) {
                         settings.scale.numerator = value;
+                        settings.numerator = Some(entry.word().place());
                     }
                 }
                 "antr.torque_scale_denom" => {
@@ -119,9 +126,29 @@ impl DriveSettings {
         settings
     }
 
+    /// Returns the protocol of the drive; `None` if the type is not given, or has none.
+    pub(super) fn protocol(&self) -> Option<Protocol> {
+        match self.drive_type.as_ref()?.value {
+            DriveType::Sercos => Some(Protocol::Sercos),
+            DriveType::CanOpen => Some(Protocol::CanOpen),
+            _ => None,
+        }
+    }
+
+    /// Returns the place of a telegram entry of another protocol than that of the drive, which does not use it.
+    pub(super) fn unused_entry(&self, signal: Signal) -> Option<&Place> {
+        let protocol = self.protocol()?;
+        let mut entries = self.telegram.iter();
+        let found = entries.find(|it| it.signal == signal && it.protocol != protocol)?;
+        Some(&found.place)
+    }
+
     /// Returns the statement of the list's telegrams about a value.
     pub(super) fn telegram(&self, signal: Signal) -> Telegram {
-        let entries = || self.telegram.iter().filter(|entry| entry.signal == signal);
+        let protocol = self.protocol();
+        let is_used = |it: &&TelegramEntry| protocol.is_none_or(|protocol| it.protocol == protocol);
+        let of_signal = |it: &&TelegramEntry| it.signal == signal && is_used(it);
+        let entries = || self.telegram.iter().filter(of_signal);
         if let Some(entry) = entries().find(|entry| entry.holds) {
             return Telegram::Holds(entry.place.clone());
         }
@@ -142,6 +169,14 @@ impl DriveSettings {
             diagnostics.push(
                 Diagnostic::new(Code::PErr110465, place.clone(), message)
                     .with_help("set `antr.torque_scale_denom` to 1 or more"),
+            );
+        }
+        if let (0, Some(place)) = (self.scale.numerator, &self.numerator) {
+            let message = "`antr.torque_scale_num` is 0, outside the documented range, which begins above 0: every \
+                           torque is sent as 0";
+            diagnostics.push(
+                Diagnostic::new(Code::Fc132, place.clone(), message)
+                    .with_help("set `antr.torque_scale_num` to 1 or more"),
             );
         }
         let drive_type = self.drive_type.as_ref().map(|given| given.value);
@@ -219,7 +254,8 @@ fn offset(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<i64>
 }
 
 fn telegram(pattern: &str, entry: &Entry) -> Option<TelegramEntry> {
-    let (key, signal) = *TELEGRAMS.iter().find(|(key, _)| *key == pattern)?;
+    let mut known = TELEGRAMS.iter();
+    let (key, protocol, signal) = *known.find(|(key, ..)| *key == pattern)?;
     let word = entry.text();
     let reference = word.value.split_whitespace().next()?;
     let idn = match Number::parse(reference) {
@@ -228,6 +264,7 @@ fn telegram(pattern: &str, entry: &Entry) -> Option<TelegramEntry> {
     };
     Some(TelegramEntry {
         signal,
+        protocol,
         holds: signal.is_reference(reference) || idn.is_some_and(|idn| signal.is_idn(idn)),
         is_command: is_torque_command(reference) || idn == Some(80),
         place: word.place(),

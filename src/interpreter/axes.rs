@@ -246,7 +246,10 @@ impl ChannelAxes {
 
     /// Gives the channel an axis under a name; `None` for one that is not known.
     pub(crate) fn request(&mut self, machine: &Machine, name: &str, axis: Option<AxisIndex>) {
-        if axis.is_some() && axis == machine.find(name) {
+        let is_own = |axis: AxisIndex| {
+            Some(axis) == machine.find(name) && machine.axis(axis).channels.numbers().is_none()
+        };
+        if axis.is_some_and(is_own) {
             self.names.remove(name);
         } else {
             let meaning = axis.map_or(AxisNameMeaning::Unknown, AxisNameMeaning::Axis);

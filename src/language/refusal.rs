@@ -92,6 +92,8 @@ static REFUSALS: &[ControlError] = {
             "use a number up to 1000";
         20192 "251050379" Possible, "the program number `O1234`, which is not implemented",
             "write `%1234` for the name of a program";
+        20200 "251080843" Error, "an axis that the channel does not have: one that no channel list names, or one of another channel; an axis that a program has given away is FC902",
+            "use the axes of one channel, or request the axis first, with `#CALL AX` or `#AX REQUEST`";
         20211 "251111307" Said("FC912"), "control blocks that are nested too deep",
             "nest fewer of them";
         20212 "251115659" Said("FC207"), "further commands after the condition of `$IF`",

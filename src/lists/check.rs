@@ -476,11 +476,33 @@ pub(super) fn doubts(
     axis_type: AxisType,
 ) -> Vec<Diagnostic> {
     let checks = [
-        small_scaling(draft, points),
+        nothing_added(draft, points).or_else(|| small_scaling(draft, points)),
         slow(draft, points).filter(|_| axis_type == AxisType::Linear),
         signs(draft, points).or_else(|| jump(draft, points)),
     ];
     checks.into_iter().flatten().collect()
+}
+
+/// Reports a list that adds nothing: a template that was not filled in, or a scaling factor of 0 (R3.31).
+fn nothing_added(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let factor = draft.get(Field::ScalingFactor);
+    let factor = factor.filter(|given| given.value.number == Some(Number::Integer(0)));
+    let is_empty = points.iter().all(|point| point.output == 0.0);
+    let (place, cause) = match factor {
+        Some(given) => (given.place(), "`frict_comp.scaling_factor` is 0"),
+        None if is_empty => {
+            let mut outputs = draft.table.values().filter_map(|it| it.output.as_ref());
+            let first = outputs.next().map(Given::place);
+            let place = first.or_else(|| Some(draft.anchor()?.place()))?;
+            (place, "all outputs of the table are 0")
+        }
+        None => return None,
+    };
+    let message = format!("{cause}: the control adds nothing, although compensation is active");
+    Some(
+        Diagnostic::new(Code::Fc139, place, message)
+            .with_help("fill in the friction of the axis, `frict_comp.mode` 0 is off"),
+    )
 }
 
 /// Reports a scaling factor that reduces the outputs to almost nothing, such as 10 in the manual's sample (C13). It may

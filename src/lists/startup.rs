@@ -64,7 +64,7 @@ pub struct StartupList {
 
 impl StartupList {
     /// Collects the files. The control does not load lists with an index beyond `zahl_mds` or
-    /// `zahl_kw`, which FC124 reports.
+    /// `zahl_kw`, nor any where the number is missing (P-STUP-00014, P-STUP-00016), which FC124 reports.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let axis_lists = counted(list, "achs_mds[]", "zahl_mds", diagnostics);
         let value_lists = counted(list, "achs_kw[]", "zahl_kw", diagnostics);
@@ -118,33 +118,27 @@ fn counted(
     count_key: &str,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> BTreeMap<u32, Given<String>> {
-    let count = list
-        .find(count_key)
-        .and_then(|entry| axis_number(entry, diagnostics));
+    let written = list.find(count_key);
+    let count = written.and_then(|entry| axis_number(entry, diagnostics));
+    let end = match (written, &count) {
+        (_, Some(count)) => count.value,
+        // A number that cannot be read is reported by itself.
+        (Some(_), None) => u32::MAX,
+        (None, None) => 0,
+    };
     let mut files = BTreeMap::new();
-    let mut surplus: Option<&Entry> = None;
+    let mut surplus: Vec<&Entry> = Vec::new();
     for (index, entry) in list.indexed(files_key) {
-        if count.as_ref().is_some_and(|count| index >= count.value) {
-            surplus = surplus.or(Some(entry));
+        if index >= end {
+            surplus.push(entry);
         } else if let Some(path) = text(entry) {
             files.insert(index, path);
         }
     }
-    if let (Some(entry), Some(count)) = (surplus, &count) {
-        diagnostics.push(
-            Diagnostic::new(
-                Code::Fc124,
-                entry.key_place(),
-                format!(
-                    "`{}` is not loaded, `{}` is {}",
-                    entry.key(),
-                    count_key,
-                    count.value
-                ),
-            )
-            .with_label(count.place(), "the number of lists"),
-        );
-    }
+    diagnostics.extend(match &count {
+        Some(count) => beyond(&surplus, count_key, count),
+        None => uncounted(&surplus, count_key),
+    });
     // P-STUP-00015: the control tries to open the missing list and does not start.
     if let Some(count) = count
         && let Some(hole) = (0..count.value).find(|index| !files.contains_key(index))
@@ -160,6 +154,31 @@ fn counted(
         );
     }
     files
+}
+
+/// Returns FC124 for lists beyond their number.
+fn beyond(surplus: &[&Entry], count_key: &str, count: &Given<u32>) -> Option<Diagnostic> {
+    let first = surplus.first()?;
+    let message = format!(
+        "`{}` is not loaded, `{count_key}` is {}",
+        first.key(),
+        count.value
+    );
+    let said = Diagnostic::new(Code::Fc124, first.key_place(), message);
+    Some(said.with_label(count.place(), "the number of lists"))
+}
+
+/// Returns FC124 for lists whose number is missing: its default is 0 (P-STUP-00014, P-STUP-00016).
+fn uncounted(surplus: &[&Entry], count_key: &str) -> Option<Diagnostic> {
+    let first = surplus.first()?;
+    let message = format!(
+        "`{}` is not loaded: `{count_key}` is missing, and the control takes 0",
+        first.key()
+    );
+    let indices = surplus.iter().filter_map(|entry| entry.indices.last());
+    let needed = indices.max().map_or(0, |index| index.saturating_add(1));
+    let said = Diagnostic::new(Code::Fc124, first.key_place(), message);
+    Some(said.with_help(format!("add `{count_key} {needed}`")))
 }
 
 /// One axis or spindle of a channel.
@@ -244,8 +263,8 @@ impl ChannelList {
         self.motion.override_with(other.motion);
     }
 
-    /// Returns the axes in the order of their indices, as many as the group has. An axis with the
-    /// number 0 is an empty slot.
+    /// Returns the axes in the order of their indices, as many as the group has. An axis with the number 0 is an empty
+    /// slot, which does not count (P-CHAN-00003).
     pub fn axes(&self) -> impl Iterator<Item = &ChannelAxis> {
         self.indexed_axes().map(|(_, axis)| axis)
     }
@@ -253,8 +272,11 @@ impl ChannelList {
     /// Returns the same with their indices.
     pub(crate) fn indexed_axes(&self) -> impl Iterator<Item = (u32, &ChannelAxis)> {
         let count = self.count.unwrap_or(u32::MAX);
-        let axes = self.axes.range(..count).map(|(index, axis)| (*index, axis));
-        axes.filter(|(_, axis)| axis.is_there())
+        let count = usize::try_from(count).unwrap_or(usize::MAX);
+        self.axes
+            .values()
+            .filter(|axis| axis.is_there())
+            .take(count)
     }
 
     /// Puts an axis in its place (R3.42); its own number and name stay where the item of the project gives no name.

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::channels::ChannelsOfAxis;
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Advice, Code, Diagnostic, Fix};
 use crate::drive_interface::{Evidence, ListedDrive, TorqueScale, check_drive};
@@ -83,8 +84,8 @@ pub struct Axis {
     pub listed: ListedDynamics,
     /// The factor for the torque to the drive, P-AXIS-00325 and P-AXIS-00326.
     pub torque_scale: TorqueScale,
-    /// Whether the lists of the control give it the index 0, 1 or 2 in its channel: a main axis.
-    pub(crate) is_main: bool,
+    /// The channels that have the axis.
+    pub channels: ChannelsOfAxis,
 }
 
 impl Axis {
@@ -110,7 +111,7 @@ impl Axis {
             motor_lead_mm: None,
             listed: ListedDynamics::default(),
             torque_scale: TorqueScale::default(),
-            is_main: false,
+            channels: ChannelsOfAxis::default(),
         }
     }
 
@@ -354,6 +355,9 @@ pub(super) struct AxisDraft {
     /// The number that the start-up list gives to the value list.
     pub(super) startup_number: Option<Given<u32>>,
     pub(super) value_list: ValueList,
+    /// The path of the value list in the start-up list, if the value list gives no number: the control takes 0
+    /// (P-COMP-00001).
+    pub(super) unnumbered: Option<Given<String>>,
     pub(super) dynamics: ConfiguredDynamics,
     /// The line that assumes compensation, see [`Axis::enable`].
     pub(super) enabled: Option<Given<bool>>,
@@ -368,6 +372,8 @@ pub(super) struct AxisDraft {
     pub(super) shared: Option<Arc<str>>,
     /// The path of its axis list.
     pub(super) list: Option<String>,
+    /// The channels that have the axis.
+    pub(super) channels: ChannelsOfAxis,
 }
 
 impl AxisDraft {
@@ -379,6 +385,7 @@ impl AxisDraft {
             channel_number: None,
             startup_number: None,
             value_list: ValueList::default(),
+            unnumbered: None,
             dynamics: ConfiguredDynamics::default(),
             enabled: None,
             is_listed: false,
@@ -386,6 +393,7 @@ impl AxisDraft {
             is_main: false,
             shared: None,
             list: None,
+            channels: ChannelsOfAxis::default(),
         }
     }
 
@@ -479,7 +487,7 @@ impl AxisDraft {
             motor_lead_mm: self.dynamics.lead,
             listed: self.values.dynamics.dynamics(),
             torque_scale: TorqueScale::default(),
-            is_main: self.is_main,
+            channels: self.channels.clone(),
         };
         if let Some(given) = &self.enabled {
             let (file, line) = (given.file().to_owned(), given.line());
@@ -587,11 +595,17 @@ impl AxisDraft {
         {
             diagnostics.push(differ(list, channel));
         }
+        let others = || {
+            [in_list, self.startup_number.as_ref()]
+                .into_iter()
+                .flatten()
+        };
+        if let Some(path) = &self.unnumbered {
+            diagnostics.push(without_number(path, others().next()?));
+            return Some(code);
+        }
         let value_list = self.value_list.head.number.as_ref()?;
-        let other = [in_list, self.startup_number.as_ref()]
-            .into_iter()
-            .flatten()
-            .find(|other| other.value != value_list.value)?;
+        let other = others().find(|other| other.value != value_list.value)?;
         diagnostics.push(differ(value_list, other));
         Some(code)
     }
@@ -646,6 +660,20 @@ impl AxisDraft {
             ),
         })
     }
+}
+
+/// Returns P-ERR-110229 for a value list without a number: the default of P-COMP-00001 is 0, which no axis has
+/// (TF5200 Axis compensation parameters, 113373067; R3.14).
+fn without_number(path: &Given<String>, other: &Given<u32>) -> Diagnostic {
+    let message = format!(
+        "`{}` has no `kopf.achs_nr`, so that its axis number is 0, but it is {} in `{}`",
+        path.value,
+        other.value,
+        other.file()
+    );
+    Diagnostic::new(Code::PErr110229, path.place(), message)
+        .with_label(other.place(), "the other number")
+        .with_help(format!("add `kopf.achs_nr {}` to the list", other.value))
 }
 
 /// Returns FC138 for a spindle whose lists select friction compensation.

@@ -14,7 +14,7 @@ use crate::lists::{
     AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
     Verdict, is_xml,
 };
-use crate::text::{SourceFile, Span};
+use crate::text::{Place, SourceFile, Span};
 
 /// Messages on a list.
 #[derive(Debug, Clone)]
@@ -248,7 +248,7 @@ impl Configuration {
 }
 
 /// Returns FC503 for an axis with P-AXIS-00522 and a simulated or virtual drive, which takes no additive torque.
-/// Without `kenngr.antr_typ` the drive is a simulation (R3.41).
+/// Without `kenngr.antr_typ` the drive is a simulation, and with `kenngr.drive_simulation` whatever its type (R3.41).
 fn without_torque(report: &AxisReport) -> Option<Diagnostic> {
     let selector = report.selector.as_ref().filter(|given| given.value)?;
     if report.axis_type == AxisType::Spindle {
@@ -258,8 +258,16 @@ fn without_torque(report: &AxisReport) -> Option<Diagnostic> {
     // Telegram entries imply a drive, whose type TwinCAT fills in (R7.5).
     let mut keys = report.drive.keys();
     let is_given = keys.any(|key| key == "kenngr.antr_typ" || key.starts_with("antr."));
-    let (place, message) = match &settings.drive_type {
-        Some(given) if given.value.is_without_drive() => {
+    let (place, message) = match (&settings.simulated, &settings.drive_type) {
+        (Some(place), _) => {
+            let message = "friction compensation is configured, but `kenngr.drive_simulation` \
+                           switches the drive to simulation: no additive torque is sent";
+            return Some(
+                unsent(report, place.clone(), message.to_owned())
+                    .with_help("set `kenngr.drive_simulation` to 0 on the machine itself"),
+            );
+        }
+        (None, Some(given)) if given.value.is_without_drive() => {
             let name = given.value.as_str();
             let message = format!(
                 "friction compensation is configured, but the drive type is {name}: no additive \
@@ -267,19 +275,25 @@ fn without_torque(report: &AxisReport) -> Option<Diagnostic> {
             );
             (given.place(), message)
         }
-        None if !is_given && report.is_listed => {
+        (None, None) if !is_given && report.is_listed => {
             let message = "friction compensation is configured, but no list gives the drive type: \
                            the default is 4, simulation, which takes no additive torque";
             (selector.place(), message.to_owned())
         }
         _ => return None,
     };
-    let mut said = Diagnostic::new(Code::Fc503, place, message)
+    let mut said = unsent(report, place, message)
         .with_help("set `kenngr.antr_typ` to `2` for SERCOS or `8` for CANopen");
     // The default may not apply: TwinCAT fills in the entries of a drive (R7.5).
     if !is_given {
         said.severity = Severity::Warning;
     }
-    said.axis = (!report.axis.is_empty()).then(|| report.axis.clone());
     Some(said)
+}
+
+/// Returns FC503 about an axis.
+fn unsent(report: &AxisReport, place: Place, message: String) -> Diagnostic {
+    let mut said = Diagnostic::new(Code::Fc503, place, message);
+    said.axis = (!report.axis.is_empty()).then(|| report.axis.clone());
+    said
 }

@@ -318,6 +318,7 @@ impl AxisDraft {
         if let Some(list) = list.and_then(|asked| loader.value_list(asked)) {
             self.value_list = list;
             self.startup_number = None;
+            self.unnumbered = None;
         }
         if let Some(inline) = table.inline_list {
             self.value_list.friction.override_with(inline);

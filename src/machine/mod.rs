@@ -1,6 +1,7 @@
 //! The machine: its axes and their parameters, whatever their source.
 
 mod axis;
+mod channels;
 mod check;
 mod configuration;
 mod description;
@@ -11,6 +12,7 @@ mod startup;
 
 pub use axis::AxisReport;
 pub use axis::{Axis, Parameterisation};
+pub use channels::ChannelsOfAxis;
 pub use check::{AcceptedList, ListsReport, check_configuration, check_list};
 pub use configuration::Configuration;
 pub use description::HarmlessWords;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::axis::AxisDraft;
+use super::channels::ChannelsOfAxis;
 use super::loader::{FirstChannel, Loader, folder};
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
@@ -42,7 +43,8 @@ impl Loader<'_> {
             }
         }
         let is_whole = listed.len() == startup.axis_lists.len();
-        let mut axes = self.channels(startup, &mut listed, &default);
+        let mut named = NamedInChannels::default();
+        let mut axes = self.channels(startup, &mut listed, (&default, &mut named));
         for (asked, mut draft) in listed {
             if let Some(name) = &draft.values.name {
                 draft.name.clone_from(&name.value);
@@ -67,6 +69,7 @@ impl Loader<'_> {
         }
         self.drop_nameless(&mut axes);
         self.drop_repeated(&mut axes);
+        named.give(&mut axes, self.project.count() > 0);
         for axis in &mut axes {
             axis.shared.clone_from(&shared);
             axis.is_covered = is_whole;
@@ -79,12 +82,12 @@ impl Loader<'_> {
     }
 
     /// Returns the axes that the channels name, each with its axis list, which is removed from
-    /// `listed`.
+    /// `listed`, and notes the names of each channel.
     fn channels(
         &mut self,
         startup: &StartupList,
         listed: &mut Vec<(Given<String>, AxisDraft)>,
-        default: &AxisValues,
+        (default, named): (&AxisValues, &mut NamedInChannels),
     ) -> Vec<AxisDraft> {
         let mut axes: Vec<AxisDraft> = Vec::new();
         let base = startup.default_channel_list.as_ref();
@@ -92,8 +95,10 @@ impl Loader<'_> {
         let is_base_read = !matches!(read, Some(None));
         let base = read.flatten().unwrap_or_default();
         let mut number = 0;
+        named.is_partial |= !is_base_read || startup.channel_lists.len() > MAX_AXES;
         for asked in startup.channel_lists.iter().take(MAX_AXES) {
             let Some(own) = self.channel_list(asked) else {
+                named.is_partial = true;
                 continue;
             };
             let mut channel = base.clone();
@@ -126,14 +131,17 @@ impl Loader<'_> {
                     },
                 }
             });
-            let mut taken = Vec::new();
-            for (index, axis) in channel.indexed_axes() {
+            let (mut taken, mut repeated) = (Vec::new(), Vec::new());
+            for axis in channel.axes() {
                 let found = find_listed(axis, listed).map(|at| listed.remove(at).1);
-                let Some(mut draft) = channel_axis(axis, found, default) else {
+                let Some(draft) = channel_axis(axis, found, default) else {
+                    named.is_partial = true;
                     continue;
                 };
-                draft.is_main = index < MAIN_AXES;
-                if axes.iter().any(|other| other.name == draft.name) {
+                let is_new = named.note(&draft.name, number);
+                if !is_new {
+                    repeated.push(draft.name);
+                } else if axes.iter().any(|other| other.name == draft.name) {
                     taken.push(draft.name);
                 } else if axes.len() < MAX_AXES {
                     axes.push(draft);
@@ -151,6 +159,9 @@ impl Loader<'_> {
                     });
                     draft.values.name = spindle.name.clone().or(draft.values.name.take());
                 }
+            }
+            if !repeated.is_empty() {
+                self.diagnostics.push(repeated_names(asked, &repeated));
             }
             if !taken.is_empty() {
                 self.diagnostics.push(other_channel(asked, &taken));
@@ -248,6 +259,9 @@ impl Loader<'_> {
             .into_iter()
             .filter_map(Clone::clone)
             .collect();
+        // TwinCAT writes the number into the lists of a project by itself.
+        let is_embedded = self.embedded.contains_key(&named.path.value);
+        let is_unnumbered = list.head.number.is_none() && !is_embedded;
         let known = || axes.iter().chain(&self.slaves);
         let position = if named.owner.is_some() {
             known().position(|axis| axis.list == named.owner)
@@ -281,6 +295,7 @@ impl Loader<'_> {
                 return;
             }
             owner.startup_number.clone_from(&named.axis_number);
+            owner.unnumbered = is_unnumbered.then(|| path.clone());
             owner.value_list = list;
             return;
         }
@@ -307,6 +322,55 @@ fn one_place(first: &AxisPlacement, other: &AxisPlacement) -> Option<Diagnostic>
     );
     let said = Diagnostic::new(Code::Fc124, channel.place(), message);
     Some(said.with_help("give each axis of a channel its own `DefaultIndex`"))
+}
+
+/// The names of axes that channel lists give, each with the channels.
+#[derive(Debug, Default)]
+struct NamedInChannels {
+    channels: BTreeMap<String, Vec<u32>>,
+    /// Whether a list that may name further axes was not read.
+    is_partial: bool,
+}
+
+impl NamedInChannels {
+    /// Notes that a channel names an axis. Returns `false` if it has one of that name already.
+    fn note(&mut self, name: &str, channel: u32) -> bool {
+        let channels = self.channels.entry(name.to_owned()).or_default();
+        let is_new = channels.last() != Some(&channel);
+        if is_new {
+            channels.push(channel);
+        }
+        is_new
+    }
+
+    /// Gives the axes their channels, unless a list is missing, no channel names axes, or all have the same ones.
+    fn give(&self, axes: &mut [AxisDraft], is_project: bool) {
+        let of = |axis: &AxisDraft| self.channels.get(&axis.name).cloned().unwrap_or_default();
+        let path = || axes.iter().filter(|axis| !axis.is_spindle());
+        let are_alike = path().all(|axis| path().next().map(of) == Some(of(axis)));
+        if self.is_partial || self.channels.is_empty() || are_alike {
+            return;
+        }
+        for axis in axes.iter_mut().filter(|axis| !axis.is_spindle()) {
+            let channels = of(axis);
+            axis.channels = if is_project {
+                ChannelsOfAxis::Assumed(channels)
+            } else {
+                ChannelsOfAxis::Listed(channels)
+            };
+        }
+    }
+}
+
+/// Returns FC124 for a channel that gives a name to several axes: names are unique in it (P-CHAN-00006).
+fn repeated_names(asked: &Given<String>, names: &[String]) -> Diagnostic {
+    let message = format!(
+        "`{}` gives a name to several axes, of which the first has it and the others are left out: {}",
+        asked.value,
+        names.join(", ")
+    );
+    Diagnostic::new(Code::Fc124, asked.place(), message)
+        .with_help("give each axis of a channel its own `bezeichnung`")
 }
 
 /// Returns FC124 for a channel whose axes have names of an earlier channel. Programs are assumed to

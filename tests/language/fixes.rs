@@ -100,7 +100,7 @@ fn a_text_without_a_last_line_end_gets_none() {
     }
     let list = "kopf.achs_nr 1\r\nkopf.log_achs_name X\r\na 2";
     let mut lists = Single(list);
-    let startup = SourceFile::new("h.lis", "achs_mds[0] x.lis\nEnde");
+    let startup = SourceFile::new("h.lis", "achs_mds[0] x.lis\nzahl_mds 1\nEnde");
     let machine = Configuration::from_startup(startup, &mut lists).machine;
     let said = run_on(machine, &[("a.nc", "X[COMP ON FRICT]\nM30")]).said;
     let mended = Fixed::new(&SourceFile::new("x.lis", list), &said[0].fixes);

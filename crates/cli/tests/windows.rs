@@ -60,7 +60,7 @@ fn lists_of_the_control_are_found() {
                    achs_mds[0] C:\\TwinCAT\\CNC\\Listen\\Achse_X.lis\r\n\
                    achs_mds[1] \\\\nas.invalid\\cnc\\achse_y.lis\r\n\
                    achs_mds[2] .\\LISTEN\\achse_z.lis\r\n\
-                   achs_kw[0] .\\Listen\\werte_x.lis\r\nEnde\r\n";
+                   achs_kw[0] .\\Listen\\werte_x.lis\r\nzahl_kw 1\r\nEnde\r\n";
     bench.write("mill/listen/hochlauf.lis", startup);
     for (number, name) in [(1, "X"), (2, "Y"), (3, "Z")] {
         let file = format!("mill/listen/achse_{}.lis", name.to_lowercase());

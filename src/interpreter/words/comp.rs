@@ -12,7 +12,7 @@ use crate::interpreter::executor::Executor;
 use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::history::RepeatedSwitch;
 use crate::interpreter::words::refusal::{PossibleRefusal, StopScope};
-use crate::language::{ChainStep, HashCommand};
+use crate::language::{ChainStep, ControlError, HashCommand};
 use crate::lists::Origin;
 use crate::machine::{Axis, AxisSet, Machine, Parameterisation};
 use crate::readings::Question;
@@ -36,6 +36,7 @@ impl Executor {
         };
         let result = axis.and_then(|axis| {
             self.see(axis);
+            self.refuse_other_channel(axis, command.span, at)?;
             if let Some(refused) = self.read_as_refused(command, axis, at) {
                 return Err(refused);
             }
@@ -403,7 +404,7 @@ fn refusal(
         command.span.start as usize + name.len(),
     );
     let span = match error {
-        CompensationError::UnknownAxis { .. } => axis_span,
+        CompensationError::UnknownAxis { .. } | CompensationError::NotInChannel { .. } => axis_span,
         _ => command.span,
     };
     let fault = Fault::new(error.code(), span, error.to_string());
@@ -440,6 +441,10 @@ fn refusal(
         }
         CompensationError::UnknownAxis { .. } => {
             diagnostic = advise_on_axis(machine, diagnostic, name);
+        }
+        CompensationError::NotInChannel { .. } => {
+            let row = ControlError::of(20200);
+            diagnostic.advice.extend(row.map(|row| row.cure.into()));
         }
         CompensationError::Coupled { .. } => {
             diagnostic =

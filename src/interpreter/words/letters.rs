@@ -46,6 +46,7 @@ impl Executor {
                 return Ok(());
             }
             if let Some(axis) = self.names.letter(letter) {
+                self.check_channel(axis, word.span, at)?;
                 self.axis_word(axis, word.span, number);
                 return Ok(());
             }
@@ -56,39 +57,53 @@ impl Executor {
             };
             return self.letter(word, at);
         }
-        self.named_word(word, number, at);
-        Ok(())
+        self.named_word(word, number, at)
     }
 
     /// Executes a word whose address is not one of the letters that all axes and functions have.
-    fn named_word(&mut self, word: &Word, number: Option<f64>, at: &BlockContext<'_>) {
+    fn named_word(
+        &mut self,
+        word: &Word,
+        number: Option<f64>,
+        at: &BlockContext<'_>,
+    ) -> Result<(), Box<Fault>> {
         let name = match word.address {
             Address::Name(name) => {
                 let name = name.of(at.text);
                 let are_own = self.state.control.channel_axes.are_own();
                 if !are_own && self.exchanged_word((name, number), word.span, at) {
-                    return;
+                    return Ok(());
                 }
                 match self.names.get(name) {
-                    Some(axis) => self.axis_word(axis, word.span, number),
+                    Some(axis) => {
+                        self.check_channel(axis, word.span, at)?;
+                        self.axis_word(axis, word.span, number);
+                    }
                     None if self.axes().is_main_spindle(name) => {
                         self.state.control.modal.pace.speed(number);
                     }
                     None if name.starts_with('S') => {}
                     None => self.lack_axis(name, word.span, at),
                 }
-                return;
+                return Ok(());
             }
             Address::Main(letter) => match self.main_axis(letter) {
-                Some(axis) => return self.axis_word(axis, word.span, number),
+                Some(axis) => {
+                    self.axis_word(axis, word.span, number);
+                    return Ok(());
+                }
                 // The plane is not known, or it is `@I`, `@S`.
                 None if letter >= b'X' => format!("@{}", char::from(letter)),
-                None => return,
+                None => return Ok(()),
             },
-            Address::Lower(letter) => return self.lower_axis(letter, word.span, at),
+            Address::Lower(letter) => {
+                self.lower_axis(letter, word.span, at);
+                return Ok(());
+            }
             Address::Letter(letter) => char::from(letter).to_string(),
         };
         self.pass_over(&name, word.span, at);
+        Ok(())
     }
 
     /// Reports an axis name in lower case, `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
@@ -158,15 +173,14 @@ impl Executor {
             if !words.move_axes() || !self.state.is_new_word(&name) {
                 continue;
             }
-            let message = format!(
-                "the lists of the machine name no axis `{name}`; its words are passed over, and what they move is not known"
-            );
-            let known: Vec<&str> = self
-                .machine
-                .axes
-                .iter()
-                .map(|axis| axis.name.as_str())
-                .collect();
+            let cause = match self.machine.find(&name) {
+                Some(_) => format!("`{name}` is a spindle in the lists of the machine"),
+                None => format!("the lists of the machine name no axis `{name}`"),
+            };
+            let message =
+                format!("{cause}; its words are passed over, and what they move is not known");
+            let axes = self.machine.axes.iter().filter(|axis| !axis.is_spindle());
+            let known: Vec<&str> = axes.map(|axis| axis.name.as_str()).collect();
             let fault = Fault::new(Code::Fc210, span, message)
                 .with_help(format!("the lists name {}", known.join(", ")));
             self.scratch.messages.diagnostics.push(at.diagnostic(fault));
@@ -193,11 +207,12 @@ impl Executor {
             return false;
         };
         if let Some(axis) = self.names.letter(letter) {
-            let is_own = self.state.control.channel_axes.are_own();
-            if is_own {
+            let is_plain =
+                self.state.control.channel_axes.are_own() && self.is_in_all_channels(axis);
+            if is_plain {
                 self.axis_word(axis, word.span, Some(number));
             }
-            return is_own;
+            return is_plain;
         }
         match letter {
             b'F' if matches!(self.scratch.actions.feed, Feed::Absent) => {

@@ -2,6 +2,7 @@
 
 pub(super) mod assignment;
 pub(super) mod calls;
+mod channel;
 pub(super) mod comp;
 pub(super) mod exchange;
 pub(super) mod flow;

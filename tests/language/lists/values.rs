@@ -24,7 +24,10 @@ fn axis_with(line: &str) -> Axis {
         ("x.lis", "kopf.achs_nr 1\nkopf.log_achs_name X\nEnde"),
         ("c.lis", &values),
     ];
-    let mut found = started("achs_mds[0] x.lis\nachs_kw[0] c.lis\nEnde", &lists);
+    let mut found = started(
+        "achs_mds[0] x.lis\nachs_kw[0] c.lis\nzahl_mds 1\nzahl_kw 1\nEnde",
+        &lists,
+    );
     found.machine.axes.remove(0)
 }
 

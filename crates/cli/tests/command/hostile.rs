@@ -51,6 +51,7 @@ fn prepare(folder: &Path) {
         folder.join("h.lis"),
         format!(
             "achs_mds[0] {evil}.lis\nachs_kw[0] missing ::error::boom{evil}.lis\nsda_mds[0] k.lis\n\
+             zahl_mds 1\nzahl_kw 1\n\
              Ende\n"
         ),
     )

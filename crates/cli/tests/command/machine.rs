@@ -31,7 +31,7 @@ fn vendor(folder: &Path) {
                 "cnc/listen/hochlauf.lis",
                 "# start\nzahl_mds 2\ndefault_achs_mds .\\Listen\\default.lis\n\
                  achs_mds[0] ./listen/achsmds1.lis\nachs_mds[1] ./listen/AchsMds2.lis\n\
-                 sda_mds[0] ./listen/sda_mds1.lis\nachs_kw[0] ./listen/achskw1.lis\nEnde\n",
+                 sda_mds[0] ./listen/sda_mds1.lis\nachs_kw[0] ./listen/achskw1.lis\nzahl_kw 1\nEnde\n",
             ),
             (
                 "cnc/listen/default.lis",

@@ -45,7 +45,7 @@ fn contents(bench: &Bench) -> Vec<(String, Vec<u8>)> {
 fn no_output_destroys_an_input() {
     // R9.70
     let bench = bench();
-    bench.write("s.lis", "zahl_achsen 1\nachs_mds[0] x.lis\n");
+    bench.write("s.lis", "zahl_mds 1\nachs_mds[0] x.lis\n");
     bench.write("x.lis", "kopf.achs_nr 1\nkopf.log_achs_name X\n");
     bench.write("call.nc", "L part.nc\nM30\n");
     fs::hard_link(bench.folder().join("part.nc"), bench.folder().join("hard")).expect("a link");

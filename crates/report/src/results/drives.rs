@@ -4,37 +4,54 @@ use serde_json::{Value, json};
 
 use crate::document::{Headline, Standing, Table};
 use crate::wording::{listed, visible_line};
-use frictcomp::drive_interface::{DriveReport, Presence, Signal};
+use frictcomp::drive_interface::{DriveReport, IdleBy, Presence, Signal};
 
 /// Returns the verdict on the drives of the axes with friction compensation.
 pub fn drives_headline(reports: &[DriveReport]) -> Headline {
-    let named = |of: fn(&DriveReport) -> bool| {
+    let named = |of: &dyn Fn(&DriveReport) -> bool| {
         let reports = reports.iter().filter(|it| it.configured && of(it));
         let names: Vec<&str> = reports.map(|it| it.axis.as_str()).collect();
         listed(&names)
     };
-    let reached =
-        named(|it| !it.is_idle() && matches!(it.additive_torque, Presence::Present { .. }));
-    let idle = named(DriveReport::is_idle);
-    let missed = named(|it| matches!(it.additive_torque, Presence::Missing { .. }));
-    let open = named(|it| matches!(it.additive_torque, Presence::Unknown { .. }));
-    let standing = match (&missed, &idle, &open) {
-        (Some(_), _, _) | (_, Some(_), _) => Standing::Bad,
-        (None, None, Some(_)) => Standing::Open,
-        (None, None, None) => Standing::Good,
-    };
-    let parts = [
-        (missed, "does not reach the drive of"),
+    let is_present =
+        |it: &DriveReport| !it.is_idle() && matches!(it.additive_torque, Presence::Present { .. });
+    let reached = named(&|it| is_present(it) && !it.lacks_type());
+    let untyped = named(&|it| is_present(it) && it.lacks_type());
+    let idle = [
         (
-            idle,
-            "is 0, without an accepted value list or by a factor of 0, for",
+            IdleBy::NoValues,
+            "is 0, without an accepted value list, for",
         ),
+        (
+            IdleBy::Outputs,
+            "is 0, with outputs that are all 0 after scaling, for",
+        ),
+        (IdleBy::TorqueScaling, "is 0, by a torque scaling of 0, for"),
+    ];
+    let idle = idle.map(|(by, how)| (named(&|it| it.idle_by() == Some(by)), how));
+    let missed = named(&|it| {
+        let presence = &it.additive_torque;
+        matches!(presence, Presence::Missing { .. } | Presence::NotApplicable)
+    });
+    let open = named(&|it| matches!(it.additive_torque, Presence::Unknown { .. }));
+    let standing = if missed.is_some() || idle.iter().any(|(axes, _)| axes.is_some()) {
+        Standing::Bad
+    } else if open.is_some() || untyped.is_some() {
+        Standing::Open
+    } else {
+        Standing::Good
+    };
+    let others = [
         (open, "may not reach the drive of"),
+        (
+            untyped,
+            "goes to a simulated drive, unless TwinCAT fills in the type that no list gives, for",
+        ),
         (reached, "reaches the drive of"),
     ];
-    let parts = parts
-        .into_iter()
-        .filter_map(|(axes, how)| Some(format!("{how} {}", axes?)));
+    let missed = [(missed, "does not reach the drive of")];
+    let parts = missed.into_iter().chain(idle).chain(others);
+    let parts = parts.filter_map(|(axes, how)| Some(format!("{how} {}", axes?)));
     let parts: Vec<String> = parts.collect();
     if parts.is_empty() {
         return Headline::new(

@@ -20,7 +20,7 @@ impl ListFiles for Lists {
 }
 
 fn machine(axis: &str, channel: &str) -> Configuration {
-    let start = "sda_mds[0] ch.lis\r\nachs_mds[0] x.lis\r\nEnde\r\n";
+    let start = "sda_mds[0] ch.lis\r\nachs_mds[0] x.lis\r\nzahl_mds 1\r\nEnde\r\n";
     let channel = format!(
         "gruppe[0].achs_anzahl 1\ngruppe[0].achse[0].bezeichnung X\n\
          gruppe[0].achse[0].log_achs_nr 1\n{channel}\nEnde\n"

@@ -142,7 +142,7 @@ const PACKAGES: [(&str, Option<&str>); 7] = [
 const PURE: [&str; 3] = [".", "crates/physics", "crates/recordings"];
 
 /// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
-const FOLDERS: [(&str, &str, &[&str]); 34] = [
+const FOLDERS: [(&str, &str, &[&str]); 35] = [
     ("interpreter", "", &["motion", "programs", "values", "ways"]),
     (
         "interpreter",
@@ -158,6 +158,11 @@ const FOLDERS: [(&str, &str, &[&str]); 34] = [
         &["motion", "programs", "values", "ways"],
     ),
     ("syntax", "", &["lower"]),
+    (
+        "circle",
+        "",
+        &["evidence", "figures", "geometry", "simulated"],
+    ),
     ("circle", "evidence", &["geometry"]),
     ("circle", "figures", &["evidence", "geometry"]),
     (

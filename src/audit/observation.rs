@@ -10,7 +10,7 @@ use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{
     Certainty, Ended, EndedBy, Event, Executed, FoundStates, KindEffect, MovedAxis, Outcome,
-    PossibleStates, Split, VariableUse, WayAnswer,
+    PossibleStates, RefusedMotion, Split, VariableUse, WayAnswer,
 };
 use crate::readings::QuestionSet;
 use crate::text::Place;
@@ -31,6 +31,14 @@ pub(super) struct Moved {
     pub(super) motion: FirstMotion,
     /// The line of the observed file that was executed or contained the call.
     pub(super) within: Option<u32>,
+}
+
+impl Moved {
+    /// Returns it as a motion in a state that is not known.
+    pub(super) fn possible(mut self) -> Self {
+        self.motion.perhaps = true;
+        self
+    }
 }
 
 /// Effect of a run on one subject.
@@ -166,6 +174,12 @@ impl Observation {
         }
     }
 
+    /// Returns whether something stopped it before its end.
+    pub(super) fn has_failed(&self) -> bool {
+        let at_end = [EndedBy::M30, EndedBy::M02, EndedBy::EndOfFile];
+        self.by.is_none_or(|by| !at_end.contains(&by))
+    }
+
     /// Takes an event of the run.
     pub(super) fn event(&mut self, scope: &Scope, event: &Event<'_>) {
         match event {
@@ -191,6 +205,9 @@ impl Observation {
         }
         for &(axis, kind) in &executed.aside.asked {
             self.ask(scope, executed, AuditedKind { axis, kind });
+        }
+        for refused in &executed.aside.refused {
+            self.refused(scope, executed, refused);
         }
         let quiet = executed.outcomes.is_empty()
             && executed.changes.is_empty()
@@ -224,12 +241,40 @@ impl Observation {
     fn ask(&mut self, scope: &Scope, executed: &Executed<'_>, asked: AuditedKind) {
         for at in scope.of_axis(asked.axis) {
             if scope.subjects()[at] == asked && executed.found.has(asked.axis, asked.kind) {
-                self.is_of_sides = false;
-                self.asked.entry(at).or_insert_with(|| Site {
-                    file: Arc::clone(executed.file),
-                    line: executed.line,
-                });
+                self.depends_on(at, executed);
             }
+        }
+    }
+
+    /// Records that what the program does depends on the state in which it found a subject.
+    fn depends_on(&mut self, at: usize, executed: &Executed<'_>) {
+        self.is_of_sides = false;
+        self.asked.entry(at).or_insert_with(|| site(executed));
+    }
+
+    /// Records a motion that the control refuses in the state that the program found (R1.36).
+    fn refused(&mut self, scope: &Scope, executed: &Executed<'_>, refused: &RefusedMotion) {
+        for at in scope.of_axis(refused.axis) {
+            if scope.subjects()[at].kind != refused.lacks {
+                continue;
+            }
+            self.depends_on(at, executed);
+            let perhaps = !refused.ways.is_empty();
+            let known = self.observed[at].inherited.as_ref();
+            if known.is_some_and(|known| perhaps || !known.motion.perhaps) {
+                continue;
+            }
+            self.observed[at].inherited = Some(Moved {
+                seq: executed.seq,
+                motion: FirstMotion {
+                    site: site(executed),
+                    motion: refused.motion,
+                    is_refused: true,
+                    perhaps,
+                    ways: refused.ways.clone(),
+                },
+                within: self.within.line(),
+            });
         }
     }
 
@@ -323,10 +368,7 @@ impl Observation {
 
     /// Records what is not known, and what stops the program.
     fn heed(&mut self, executed: &Executed<'_>) {
-        let site = Site {
-            file: Arc::clone(executed.file),
-            line: executed.line,
-        };
+        let site = site(executed);
         for said in executed.diagnostics {
             if matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908) {
                 self.is_of_sides &= said.code != Code::Fc908;
@@ -353,10 +395,7 @@ impl Observation {
                 observed.last = Some(SelectionOrigin::Doubt(WhyUnknown {
                     code: Some(Code::Fc408),
                     message: format!("nothing describes axis `{name}`"),
-                    site: Some(Site {
-                        file: Arc::clone(executed.file),
-                        line: executed.line,
-                    }),
+                    site: Some(site(executed)),
                 }));
             }
             return;
@@ -389,10 +428,7 @@ impl Observation {
                 let reason = self.doubt.clone().unwrap_or_else(|| WhyUnknown {
                     code: None,
                     message: "what this block does is not known offline".to_owned(),
-                    site: Some(Site {
-                        file: Arc::clone(executed.file),
-                        line: executed.line,
-                    }),
+                    site: Some(site(executed)),
                 });
                 self.observed[at].last = Some(SelectionOrigin::Doubt(reason));
             }
@@ -520,15 +556,20 @@ fn moved_at(executed: &Executed<'_>, within: Option<u32>, motion: &MovedAxis) ->
     Moved {
         seq: executed.seq,
         motion: FirstMotion {
-            site: Site {
-                file: Arc::clone(executed.file),
-                line: executed.line,
-            },
+            site: site(executed),
             motion: motion.kind,
+            is_refused: false,
             perhaps: motion.certainty == Certainty::Possible,
             ways: executed.branch.unwrap_or_default().to_vec(),
         },
         within,
+    }
+}
+
+fn site(executed: &Executed<'_>) -> Site {
+    Site {
+        file: Arc::clone(executed.file),
+        line: executed.line,
     }
 }
 

@@ -30,6 +30,7 @@ pub use events::{
     BlockMove, Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome,
     ProgramEnd,
 };
+pub(crate) use events::RefusedMotion;
 pub(crate) use motion::block::BlockMotion;
 pub use motion::form::{
     Arc as CircularArc, ArcShape, AxisWord, BlockEnd, Centre, Motion, Motions, MovedAxis, PathFeed,

@@ -147,10 +147,13 @@ impl Archive {
     }
 
     /// Takes the audit of a program that has run again. Its earlier effects count as well, so that the repetition
-    /// terminates.
+    /// terminates, and a state that it certainly leaves after a start of the control stays known.
     pub fn settle(&mut self, position: usize, mut program: ProgramAudit) {
         let before = &mut self.programs[position];
         program.used.add(&before.used);
+        for (axis, earlier) in program.axes.iter_mut().zip(&before.axes) {
+            axis.still_leaves(earlier);
+        }
         *before = program;
     }
 

@@ -122,6 +122,8 @@ pub(super) struct Observation {
     /// The called file of the last block.
     last_called: Option<Arc<str>>,
     doubt: Option<WhyUnknown>,
+    /// The reason for an effect of a block about which nothing is said.
+    unsaid: &'static str,
     /// The error that the program reports itself.
     reported: Option<WhyUnknown>,
 }
@@ -150,12 +152,20 @@ impl Observation {
             main: None,
             last_called: None,
             doubt: None,
+            unsaid: "what this block does is not known offline",
         }
     }
 
     /// Observes a side of a run that finds states open.
     pub(super) fn of_side(mut self, side: FoundSide) -> Self {
         self.side = Some(side);
+        self
+    }
+
+    /// Observes a run in which names of axes may mean others.
+    pub(super) fn of_exchanged_axes(mut self) -> Self {
+        self.unsaid =
+            "which axis this block means is not known: a program before it may have exchanged axes";
         self
     }
 
@@ -427,7 +437,7 @@ impl Observation {
                 self.is_of_sides &= executed.found.history.states(axis, kind).is_some();
                 let reason = self.doubt.clone().unwrap_or_else(|| WhyUnknown {
                     code: None,
-                    message: "what this block does is not known offline".to_owned(),
+                    message: self.unsaid.to_owned(),
                     site: Some(site(executed)),
                 });
                 self.observed[at].last = Some(SelectionOrigin::Doubt(reason));

@@ -170,6 +170,16 @@ fn unknown_programs(machine: &MachineAudit) -> impl Iterator<Item = &ProgramAudi
         .map(|at| &machine.archive.programs()[at])
 }
 
+/// Returns whether the verdict says of a program whose effect on some axis is not known what it does to another one.
+fn names_unknown(machine: &MachineAudit) -> bool {
+    let left = machine.findings.iter();
+    let left = left.filter(|it| !it.leavers.is_empty());
+    let named = left.flat_map(|it| it.leavers.iter().chain(&it.inheritors));
+    let named: BTreeSet<usize> = named.copied().collect();
+    let mut unknown = machine.findings.iter().flat_map(|it| &it.unknown);
+    unknown.any(|at| named.contains(at))
+}
+
 /// Axes that the verdict names; further ones are counted.
 const NAMED: usize = 3;
 
@@ -217,9 +227,7 @@ impl AuditReport {
         } else {
             format!("of {} ", counted(unknown.len(), "program"))
         };
-        let mut axes = unknown.iter().flat_map(|program| &program.axes);
-        let is_known = |axis: &AxisAudit| axis.leaves_away() || axis.inherits.motion().is_some();
-        let what = if axes.any(is_known) {
+        let what = if self.machines.iter().any(names_unknown) {
             "what else"
         } else {
             "what"

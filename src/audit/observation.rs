@@ -190,6 +190,13 @@ impl Observation {
         self.by.is_none_or(|by| !at_end.contains(&by))
     }
 
+    /// Returns whether the control stops it in the state that it has: a motion lacks a compensation, or the program
+    /// reports an error of its own.
+    pub(super) fn is_refused(&self) -> bool {
+        let code = self.stopped.as_ref().and_then(|why| why.code);
+        self.by == Some(EndedBy::Error) && matches!(code, Some(Code::PErr70435 | Code::Fc318))
+    }
+
     /// Takes an event of the run.
     pub(super) fn event(&mut self, scope: &Scope, event: &Event<'_>) {
         match event {

@@ -168,12 +168,14 @@ impl ProgramRuns {
     }
 
     /// Returns whether its ends decide what it leaves. An error leaves away what is away there, or may be (R18.10);
-    /// where a program that is stopped otherwise would have led is not known, unless that is due to what it found.
+    /// where a program that is stopped otherwise would have led is not known, unless it stops for what it found.
     fn is_decided(&self, scope: &Scope, at: usize) -> bool {
-        let start_up = scope.selected_at_start(scope.subjects()[at], false);
         let mut failed = self.all().filter(|run| run.has_failed());
-        failed.all(|run| run.by == Some(EndedBy::Error))
-            && (!self.start_up.has_failed() || self.start_up.left[at] != start_up)
+        if !self.start_up.has_failed() {
+            return failed.all(Observation::is_refused);
+        }
+        let start_up = scope.selected_at_start(scope.subjects()[at], false);
+        self.start_up.left[at] != start_up && failed.all(|run| run.by == Some(EndedBy::Error))
     }
 
     pub(super) fn reason(&self, at: usize, name: &dyn Fn(usize) -> String) -> WhyUnknown {
@@ -228,11 +230,11 @@ impl ProgramRuns {
         if let Some(motion) = inherited.min_by_key(|motion| motion.perhaps) {
             return Inherits::Motion(motion);
         }
-        // An error that only some found states cause is met from all others, too.
+        // A refusal in some found states has been tried without them, too.
         let are_all_tried = !self.start_up.has_failed() && self.asked().len() <= MOST_ASKED;
         let is_cut = |run: &&Observation| {
-            let is_found = are_all_tried && run.by == Some(EndedBy::Error);
-            run.has_failed() && !run.observed[at].commanded && !is_found
+            let is_tried = are_all_tried && run.is_refused();
+            run.has_failed() && !run.observed[at].commanded && !is_tried
         };
         if away.iter().any(is_cut) {
             Inherits::Unknown

@@ -137,7 +137,7 @@ impl Executor {
         let used = self.used.take().map(RefCell::into_inner);
         let mut used = used.unwrap_or_default();
         used.written
-            .leave(self.state.control.lasting(&self.machine));
+            .leave(&self.state.control.lasting(&self.machine));
         used
     }
 

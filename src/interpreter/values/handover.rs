@@ -73,8 +73,8 @@ impl FoundVariables {
     }
 
     /// Adds what a program leaves of the control.
-    pub(crate) fn leave(&mut self, lasting: LastingState) {
-        self.lasting.add(&lasting);
+    pub(crate) fn leave(&mut self, lasting: &LastingState) {
+        self.lasting.add(lasting);
     }
 
     fn write(&mut self, location: &Location, value: Value) {

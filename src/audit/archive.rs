@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 
-use super::effect::{FirstMotion, Selected, Site, WhyUnknown};
+use super::effect::{FirstMotion, Inherits, ProgramEffect, Selected, Site, WhyUnknown};
 use super::mending::{Cure, Mending};
-use super::observation::{Observation, SelectionOrigin};
+use super::observation::{Moved, Observation, SelectionOrigin};
 use super::program::{Auditor, AxisAudit, ProgramAudit};
 use crate::comp::Kind;
 use crate::interpreter::{EndedBy, Event, FoundVariables, Interpreter, Observer, PossibleStates};
@@ -54,8 +54,12 @@ pub struct AxisFinding {
     pub possible_inheritors: Vec<usize>,
     /// The programs in both lists: the second run of each differs from its first (R1.53).
     pub both: Vec<usize>,
-    /// The programs whose effect is not known offline: any of them may leave it away from its start-up state.
+    /// The programs of which it is not known offline what they leave or inherit.
     pub unknown: Vec<usize>,
+    /// The programs among these whose effect is not known: any of them may leave it away from its start-up state.
+    pub unknown_leavers: Vec<usize>,
+    /// The programs among these of which it is not known whether they move it in the state that they find.
+    pub unknown_inheritors: Vec<usize>,
 }
 
 impl AxisFinding {
@@ -81,19 +85,21 @@ impl AxisFinding {
         movers
     }
 
-    /// Returns the side with fewer programs.
+    /// Returns the side with fewer programs; where it is not known which programs inherit it, those that leave it.
     pub fn cure(&self) -> Cure {
         match (self.leavers.len(), self.movers().len()) {
-            (0, _) | (_, 0) => Cure::None,
-            (leavers, inheritors) if leavers <= inheritors => Cure::Leavers,
+            (0, _) => Cure::None,
+            (_, 0) if self.unknown_inheritors.is_empty() => Cure::None,
+            (leavers, inheritors) if inheritors == 0 || leavers <= inheritors => Cure::Leavers,
             _ => Cure::Inheritors,
         }
     }
 
-    /// Returns whether programs leave, or may leave, it away from its start-up state and others inherit that.
+    /// Returns whether a hazard cannot be ruled out: a program leaves it away from its start-up state, or may, and one
+    /// inherits that, or may (R10.2).
     pub fn is_worth_a_warning(&self) -> bool {
-        let movers = self.movers();
-        !(movers.is_empty() || self.leavers.is_empty() && self.unknown.is_empty())
+        let has_leaver = !(self.leavers.is_empty() && self.unknown_leavers.is_empty());
+        has_leaver && !(self.movers().is_empty() && self.unknown_inheritors.is_empty())
     }
 }
 
@@ -141,10 +147,13 @@ impl Archive {
     }
 
     /// Takes the audit of a program that has run again. Its earlier effects count as well, so that the repetition
-    /// terminates.
+    /// terminates, and a state that it certainly leaves after a start of the control stays known.
     pub fn settle(&mut self, position: usize, mut program: ProgramAudit) {
         let before = &mut self.programs[position];
         program.used.add(&before.used);
+        for (axis, earlier) in program.axes.iter_mut().zip(&before.axes) {
+            axis.still_leaves(earlier);
+        }
         *before = program;
     }
 
@@ -191,6 +200,8 @@ impl Archive {
             possible_inheritors: those(AxisAudit::may_inherit),
             both: those(|axis| axis.leaves_away() && axis.is_inheritor()),
             unknown: those(AxisAudit::is_unknown),
+            unknown_leavers: those(|axis| axis.effect == ProgramEffect::Unknown),
+            unknown_inheritors: those(|axis| axis.inherits == Inherits::Unknown),
         }
     }
 
@@ -331,6 +342,7 @@ impl<'a> Sequence<'a> {
             let observed = &observation.observed[at];
             let start_up = Selected::of(scope.start_up(), *subject);
             let is_described = scope.is_described(at);
+            let was_lost = self.lost[at];
             self.lost[at] |= observed.commanded && !is_described;
             if !is_described && !self.lost[at] {
                 continue;
@@ -340,8 +352,12 @@ impl<'a> Sequence<'a> {
             let begin = known(Selected::of(&start, *subject));
             let end = known(observation.left[at]);
             let inherits = observed.inherited.as_ref().map(|moved| moved.seq);
-            let away = observed.astray.as_ref();
-            let is_found = away.is_some_and(|away| Some(away.seq) == inherits);
+            let away = if was_lost {
+                observed.inherited.clone().map(Moved::possible)
+            } else {
+                observed.astray.clone()
+            };
+            let is_found = away.as_ref().is_some_and(|it| Some(it.seq) == inherits);
             axes.push(StepAxis {
                 axis: self.auditor.name(*subject).to_owned(),
                 kind: subject.kind,
@@ -353,7 +369,7 @@ impl<'a> Sequence<'a> {
                     Some(SelectionOrigin::Command(site)) => Some(site.clone()),
                     _ => None,
                 },
-                away: away.map(|moved| moved.motion.clone()),
+                away: away.map(|moved| moved.motion),
                 left_by: self.left_by[at].clone().filter(|_| is_found),
             });
             if end == start_up {

@@ -53,6 +53,10 @@ pub struct FirstMotion {
     pub site: Site,
     /// Kind of motion.
     pub motion: MotionKind,
+    /// Whether the control refuses it in that state, since the axis requires the compensation (R1.36).
+    /// Records contain this field only then.
+    #[serde(rename = "refused", skip_serializing_if = "std::ops::Not::not")]
+    pub is_refused: bool,
     /// Whether it is uncertain offline that the program reaches the motion in the state that is meant: one that it did
     /// not set itself, or one away from the start-up state.
     /// Records contain this field only then.

@@ -10,7 +10,7 @@ use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{
     Certainty, Ended, EndedBy, Event, Executed, FoundStates, KindEffect, MovedAxis, Outcome,
-    PossibleStates, Split, VariableUse, WayAnswer,
+    PossibleStates, RefusedMotion, Split, VariableUse, WayAnswer,
 };
 use crate::readings::QuestionSet;
 use crate::text::Place;
@@ -31,6 +31,14 @@ pub(super) struct Moved {
     pub(super) motion: FirstMotion,
     /// The line of the observed file that was executed or contained the call.
     pub(super) within: Option<u32>,
+}
+
+impl Moved {
+    /// Returns it as a motion in a state that is not known.
+    pub(super) fn possible(mut self) -> Self {
+        self.motion.perhaps = true;
+        self
+    }
 }
 
 /// Effect of a run on one subject.
@@ -114,6 +122,8 @@ pub(super) struct Observation {
     /// The called file of the last block.
     last_called: Option<Arc<str>>,
     doubt: Option<WhyUnknown>,
+    /// The reason for an effect of a block about which nothing is said.
+    unsaid: &'static str,
     /// The error that the program reports itself.
     reported: Option<WhyUnknown>,
 }
@@ -142,12 +152,20 @@ impl Observation {
             main: None,
             last_called: None,
             doubt: None,
+            unsaid: "what this block does is not known offline",
         }
     }
 
     /// Observes a side of a run that finds states open.
     pub(super) fn of_side(mut self, side: FoundSide) -> Self {
         self.side = Some(side);
+        self
+    }
+
+    /// Observes a run in which names of axes may mean others.
+    pub(super) fn of_exchanged_axes(mut self) -> Self {
+        self.unsaid =
+            "which axis this block means is not known: a program before it may have exchanged axes";
         self
     }
 
@@ -164,6 +182,19 @@ impl Observation {
         if self.by == Some(EndedBy::Budget) {
             self.used.write_anything();
         }
+    }
+
+    /// Returns whether something stopped it before its end.
+    pub(super) fn has_failed(&self) -> bool {
+        let at_end = [EndedBy::M30, EndedBy::M02, EndedBy::EndOfFile];
+        self.by.is_none_or(|by| !at_end.contains(&by))
+    }
+
+    /// Returns whether the control stops it in the state that it has: a motion lacks a compensation, or the program
+    /// reports an error of its own.
+    pub(super) fn is_refused(&self) -> bool {
+        let code = self.stopped.as_ref().and_then(|why| why.code);
+        self.by == Some(EndedBy::Error) && matches!(code, Some(Code::PErr70435 | Code::Fc318))
     }
 
     /// Takes an event of the run.
@@ -191,6 +222,9 @@ impl Observation {
         }
         for &(axis, kind) in &executed.aside.asked {
             self.ask(scope, executed, AuditedKind { axis, kind });
+        }
+        for refused in &executed.aside.refused {
+            self.refused(scope, executed, refused);
         }
         let quiet = executed.outcomes.is_empty()
             && executed.changes.is_empty()
@@ -224,12 +258,40 @@ impl Observation {
     fn ask(&mut self, scope: &Scope, executed: &Executed<'_>, asked: AuditedKind) {
         for at in scope.of_axis(asked.axis) {
             if scope.subjects()[at] == asked && executed.found.has(asked.axis, asked.kind) {
-                self.is_of_sides = false;
-                self.asked.entry(at).or_insert_with(|| Site {
-                    file: Arc::clone(executed.file),
-                    line: executed.line,
-                });
+                self.depends_on(at, executed);
             }
+        }
+    }
+
+    /// Records that what the program does depends on the state in which it found a subject.
+    fn depends_on(&mut self, at: usize, executed: &Executed<'_>) {
+        self.is_of_sides = false;
+        self.asked.entry(at).or_insert_with(|| site(executed));
+    }
+
+    /// Records a motion that the control refuses in the state that the program found (R1.36).
+    fn refused(&mut self, scope: &Scope, executed: &Executed<'_>, refused: &RefusedMotion) {
+        for at in scope.of_axis(refused.axis) {
+            if scope.subjects()[at].kind != refused.lacks {
+                continue;
+            }
+            self.depends_on(at, executed);
+            let perhaps = !refused.ways.is_empty();
+            let known = self.observed[at].inherited.as_ref();
+            if known.is_some_and(|known| perhaps || !known.motion.perhaps) {
+                continue;
+            }
+            self.observed[at].inherited = Some(Moved {
+                seq: executed.seq,
+                motion: FirstMotion {
+                    site: site(executed),
+                    motion: refused.motion,
+                    is_refused: true,
+                    perhaps,
+                    ways: refused.ways.clone(),
+                },
+                within: self.within.line(),
+            });
         }
     }
 
@@ -323,10 +385,7 @@ impl Observation {
 
     /// Records what is not known, and what stops the program.
     fn heed(&mut self, executed: &Executed<'_>) {
-        let site = Site {
-            file: Arc::clone(executed.file),
-            line: executed.line,
-        };
+        let site = site(executed);
         for said in executed.diagnostics {
             if matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908) {
                 self.is_of_sides &= said.code != Code::Fc908;
@@ -353,10 +412,7 @@ impl Observation {
                 observed.last = Some(SelectionOrigin::Doubt(WhyUnknown {
                     code: Some(Code::Fc408),
                     message: format!("nothing describes axis `{name}`"),
-                    site: Some(Site {
-                        file: Arc::clone(executed.file),
-                        line: executed.line,
-                    }),
+                    site: Some(site(executed)),
                 }));
             }
             return;
@@ -388,11 +444,8 @@ impl Observation {
                 self.is_of_sides &= executed.found.history.states(axis, kind).is_some();
                 let reason = self.doubt.clone().unwrap_or_else(|| WhyUnknown {
                     code: None,
-                    message: "what this block does is not known offline".to_owned(),
-                    site: Some(Site {
-                        file: Arc::clone(executed.file),
-                        line: executed.line,
-                    }),
+                    message: self.unsaid.to_owned(),
+                    site: Some(site(executed)),
                 });
                 self.observed[at].last = Some(SelectionOrigin::Doubt(reason));
             }
@@ -520,15 +573,20 @@ fn moved_at(executed: &Executed<'_>, within: Option<u32>, motion: &MovedAxis) ->
     Moved {
         seq: executed.seq,
         motion: FirstMotion {
-            site: Site {
-                file: Arc::clone(executed.file),
-                line: executed.line,
-            },
+            site: site(executed),
             motion: motion.kind,
+            is_refused: false,
             perhaps: motion.certainty == Certainty::Possible,
             ways: executed.branch.unwrap_or_default().to_vec(),
         },
         within,
+    }
+}
+
+fn site(executed: &Executed<'_>) -> Site {
+    Site {
+        file: Arc::clone(executed.file),
+        line: executed.line,
     }
 }
 

@@ -76,6 +76,16 @@ impl AxisAudit {
         }
     }
 
+    /// Takes what an earlier run showed it to leave away from the start-up state, if that is not known any more.
+    pub(super) fn still_leaves(&mut self, earlier: &Self) {
+        if self.effect == ProgramEffect::Unknown && earlier.leaves_away() {
+            *self = Self {
+                inherits: self.inherits.clone(),
+                ..earlier.clone()
+            };
+        }
+    }
+
     /// Returns the ways on which it leaves the axis away from its start-up state, in words as seen from a file:
     /// `if skip level 1 is on`; `None` if it does so on all of them.
     pub fn leaves_away_when(&self, file: &str) -> Option<String> {
@@ -270,7 +280,7 @@ impl Auditor {
             .collect();
         let side = |is_away| {
             let side = FoundSide::new(&self.scope, is_away, &conditions);
-            Observation::new(&self.scope).within(called).of_side(side)
+            self.observation(called).of_side(side)
         };
         let mut sides = [false, true].map(side);
         self.watch(&mut interpreter, &mut sides, run)?;
@@ -300,6 +310,16 @@ impl Auditor {
         }
     }
 
+    /// Returns the observation before a run.
+    fn observation(&self, called: Option<&Arc<str>>) -> Observation {
+        let observation = Observation::new(&self.scope).within(called);
+        if self.found.may_exchange_axes() {
+            observation.of_exchanged_axes()
+        } else {
+            observation
+        }
+    }
+
     fn observe_from<E>(
         &self,
         (start, called): (&RunStart, Option<&Arc<str>>),
@@ -307,7 +327,7 @@ impl Auditor {
     ) -> Result<Observation, E> {
         let from = self.scope.found(|at| start.is_away(at));
         let mut interpreter = self.interpreter(from);
-        let mut observation = [Observation::new(&self.scope).within(called)];
+        let mut observation = [self.observation(called)];
         self.watch(&mut interpreter, &mut observation, run)?;
         let [observation] = observation;
         Ok(observation)

@@ -134,13 +134,7 @@ impl ProgramRuns {
     }
 
     pub(super) fn stopped(&self) -> Option<&Observation> {
-        let has_failed = |run: &&Observation| {
-            !matches!(
-                run.by,
-                Some(EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
-            )
-        };
-        self.all().find(has_failed)
+        self.all().find(|run| run.has_failed())
     }
 
     /// Returns whether a command is about a subject.
@@ -150,15 +144,12 @@ impl ProgramRuns {
 
     pub(super) fn effect(&self, scope: &Scope, at: usize) -> ProgramEffect {
         let subject = scope.subjects()[at];
-        if self.stopped().is_some() {
-            return self.left_at_error(scope, at);
-        }
         if self.asked().len() > MOST_ASKED {
             return ProgramEffect::Unknown;
         }
         let is_lost =
             |run: &Observation| run.left[at] == Selected::Unknown && run.possible[at].is_none();
-        if self.all().any(is_lost) {
+        if self.all().any(is_lost) || !self.is_decided(scope, at) {
             return ProgramEffect::Unknown;
         }
         let keeps = |(start, run): (&RunStart, &Observation)| {
@@ -176,18 +167,15 @@ impl ProgramRuns {
         }
     }
 
-    /// Returns the effect of a program that is stopped on all ways: an error leaves away what is away there (R18.10);
-    /// where it would have led otherwise is not known.
-    fn left_at_error(&self, scope: &Scope, at: usize) -> ProgramEffect {
-        let is_on = scope.is_on_at_start_up(scope.subjects()[at]);
-        let away = if is_on { Selected::Off } else { Selected::On };
-        let leaves_away =
-            |run: &Observation| run.by == Some(EndedBy::Error) && run.left[at] == away;
-        match is_on {
-            _ if !self.all().all(leaves_away) => ProgramEffect::Unknown,
-            true => ProgramEffect::LeavesOff,
-            false => ProgramEffect::LeavesOn,
+    /// Returns whether its ends decide what it leaves. An error leaves away what is away there, or may be (R18.10);
+    /// where a program that is stopped otherwise would have led is not known, unless it stops for what it found.
+    fn is_decided(&self, scope: &Scope, at: usize) -> bool {
+        let mut failed = self.all().filter(|run| run.has_failed());
+        if !self.start_up.has_failed() {
+            return failed.all(Observation::is_refused);
         }
+        let start_up = scope.selected_at_start(scope.subjects()[at], false);
+        self.start_up.left[at] != start_up && failed.all(|run| run.by == Some(EndedBy::Error))
     }
 
     pub(super) fn reason(&self, at: usize, name: &dyn Fn(usize) -> String) -> WhyUnknown {
@@ -234,16 +222,24 @@ impl ProgramRuns {
 
     pub(super) fn inherits(&self, at: usize) -> Inherits {
         let away = self.starts().filter(|(start, _)| start.is_away(at));
-        let motions = away.filter_map(|(_, run)| {
+        let away: Vec<&Observation> = away.map(|(_, run)| run).collect();
+        let inherited = away.iter().filter_map(|run| {
             let moved = run.observed[at].inherited.as_ref()?;
             Some(moved.motion.clone())
         });
-        if let Some(motion) = motions.min_by_key(|motion| motion.perhaps) {
+        if let Some(motion) = inherited.min_by_key(|motion| motion.perhaps) {
             return Inherits::Motion(motion);
         }
-        match self.stopped() {
-            Some(run) if !run.observed[at].commanded => Inherits::Unknown,
-            _ => Inherits::No,
+        // A refusal in some found states has been tried without them, too.
+        let are_all_tried = !self.start_up.has_failed() && self.asked().len() <= MOST_ASKED;
+        let is_cut = |run: &&Observation| {
+            let is_tried = are_all_tried && run.is_refused();
+            run.has_failed() && !run.observed[at].commanded && !is_tried
+        };
+        if away.iter().any(is_cut) {
+            Inherits::Unknown
+        } else {
+            Inherits::No
         }
     }
 }

@@ -403,6 +403,7 @@ impl BlockScratch {
         self.doubted.clear();
         self.messages.diagnostics.clear();
         self.aside.withheld.clear();
+        self.aside.refused.clear();
         if !std::mem::replace(&mut self.has_plain_words, true) {
             self.clear_rest();
         }

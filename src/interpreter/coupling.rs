@@ -167,6 +167,22 @@ impl Couplings {
         groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
     }
 
+    /// Returns the axes that groups in force couple, or may.
+    pub(crate) fn perhaps_in_force(&self) -> BTreeSet<AxisIndex> {
+        if self.is_doubted() {
+            self.named.clone()
+        } else {
+            self.holding.keys().copied().collect()
+        }
+    }
+
+    /// Returns the axes of the groups that commands defined, or may have defined.
+    pub(crate) fn perhaps_defined(&self) -> BTreeSet<AxisIndex> {
+        let groups = self.groups.iter().filter(|(name, _)| *name != LISTED);
+        let named = groups.flat_map(|(_, group)| &group.axes).copied();
+        named.chain(self.lost()).collect()
+    }
+
     /// Returns the axes that unknown groups may name.
     pub(crate) fn lost(&self) -> impl Iterator<Item = AxisIndex> {
         self.named.iter().copied().filter(|_| self.vague)

@@ -16,7 +16,7 @@ use crate::interpreter::values::location::Unknown;
 use crate::interpreter::ways::history::{FoundStates, History, RepeatedSwitch};
 use crate::interpreter::ways::possible_state::PossibleStates;
 use crate::interpreter::ways::words::WayCondition;
-use crate::language::{Certainty, Group, MotionKind};
+use crate::language::{Certainty, MotionKind};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
 use crate::text::Place;
@@ -91,9 +91,22 @@ pub enum Notes {
 pub(crate) struct Aside {
     /// The states of compensation that it reads (R1.35).
     pub(crate) asked: Vec<(AxisIndex, Kind)>,
+    /// Motions that the control refuses in the state that the program found (R1.36).
+    pub(crate) refused: Vec<RefusedMotion>,
     /// Withheld messages about unknown values, because nothing differs or because they were reported
     /// before; a comment that allows one is in use (R2.95).
     pub(crate) withheld: Vec<Diagnostic>,
+}
+
+/// A motion of an axis that the control refuses for want of a compensation that the program did not switch.
+#[derive(Debug, Clone)]
+pub(crate) struct RefusedMotion {
+    pub(crate) axis: AxisIndex,
+    /// The compensation that it lacks.
+    pub(crate) lacks: Kind,
+    pub(crate) motion: MotionKind,
+    /// The ways on which it is refused; empty for all.
+    pub(crate) ways: Vec<Vec<WayCondition>>,
 }
 
 /// A block that was executed.
@@ -218,12 +231,7 @@ impl<'a> BlockMove<'a> {
     /// Returns the kind of motion of its axis words.
     #[inline]
     fn word_kind(&self) -> MotionKind {
-        match self.moves.row() {
-            Some(row) => row.kind,
-            None if !self.modal.is_known(Group::Motion) => MotionKind::Unknown,
-            None if self.modal.functions.motion == 0 => MotionKind::Rapid,
-            None => MotionKind::Feed,
-        }
+        self.moves.word_kind(self.modal)
     }
 }
 

@@ -123,18 +123,22 @@ impl Executor {
         };
     }
 
-    /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and records
-    /// their use from here on.
+    /// Sets what programs before this one may have left in variables that outlive programs (R2.34) and in the control,
+    /// and records their use from here on.
     pub(crate) fn find(&mut self, found: &FoundVariables) {
         self.state.control.memory.find(found);
+        self.state.control.find_lasting(found.lasting());
         let used = VariableUse::new(self.machine.parameters, &self.externals);
         self.used = Some(RefCell::new(used));
     }
 
-    /// Returns the use of variables that outlive programs by the programs since.
+    /// Returns the use of variables that outlive programs by the programs since, and what they leave of the control.
     pub(crate) fn take_use(&mut self) -> VariableUse {
         let used = self.used.take().map(RefCell::into_inner);
-        used.unwrap_or_default()
+        let mut used = used.unwrap_or_default();
+        used.written
+            .leave(&self.state.control.lasting(&self.machine));
+        used
     }
 
     /// Records the use of variables that outlive programs, if requested.

@@ -16,6 +16,7 @@ mod coupling;
 mod drive;
 mod events;
 mod executor;
+mod lasting;
 mod motion;
 mod options;
 mod programs;
@@ -26,6 +27,7 @@ mod words;
 
 pub use drive::host::Interpreter;
 pub use drive::snapshot::{ResumeError, Snapshot};
+pub(crate) use events::RefusedMotion;
 pub use events::{
     BlockMove, Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome,
     ProgramEnd,

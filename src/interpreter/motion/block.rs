@@ -312,6 +312,27 @@ impl BlockMotion {
             .collect()
     }
 
+    /// Returns the kind of motion of its axis words.
+    #[inline]
+    pub(crate) fn word_kind(&self, modal: &Modal) -> MotionKind {
+        match self.row {
+            Some(row) => row.kind,
+            None if !modal.is_known(Group::Motion) => MotionKind::Unknown,
+            None if modal.functions.motion == 0 => MotionKind::Rapid,
+            None => MotionKind::Feed,
+        }
+    }
+
+    /// Returns the kind of motion of an axis.
+    pub(crate) fn kind_of(&self, axis: AxisIndex, modal: &Modal) -> MotionKind {
+        let mut also = self.also.iter();
+        let has_word = self.words.iter().any(|word| word.axis == axis);
+        match also.find(|moved| moved.axis == axis) {
+            Some(moved) if !has_word => moved.kind,
+            _ => self.word_kind(modal),
+        }
+    }
+
     /// Returns the axes that move to their reference points.
     pub(crate) fn homed(&self, words: AxisWords) -> impl Iterator<Item = AxisIndex> {
         let is_homing = words == AxisWords::Homing;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::interpreter::lasting::LastingState;
 use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::location::{Location, Unknown};
 use crate::interpreter::values::memory::{Memory, is_kept};
@@ -16,19 +17,22 @@ use crate::syntax::ast::Owner;
 use crate::syntax::{Subscripts, VariableFamily, VariableName};
 
 /// Values in the variables that outlive programs, if it is known which programs write them: `V.S.`, and P
-/// parameters where a program start keeps them.
+/// parameters where a program start keeps them; and what else programs leave of the control.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FoundVariables {
     /// The value that each has if it exists: known if every write is of the same value.
     values: BTreeMap<Location, Value>,
     /// Set where any of them may have been written.
     anything: bool,
+    /// What outlives programs besides.
+    lasting: LastingState,
 }
 
 impl FoundVariables {
     /// Adds the values that other programs write.
     pub(crate) fn add(&mut self, other: &Self) {
         self.anything |= other.anything;
+        self.lasting.add(&other.lasting);
         for (location, value) in &other.values {
             self.write(location, value.clone());
         }
@@ -57,6 +61,20 @@ impl FoundVariables {
 
     pub(crate) fn has_anything(&self) -> bool {
         self.anything
+    }
+
+    pub(crate) fn lasting(&self) -> &LastingState {
+        &self.lasting
+    }
+
+    /// Returns whether a program may have left exchanged axes.
+    pub(crate) fn may_exchange_axes(&self) -> bool {
+        self.lasting.exchanged
+    }
+
+    /// Adds what a program leaves of the control.
+    pub(crate) fn leave(&mut self, lasting: &LastingState) {
+        self.lasting.add(lasting);
     }
 
     fn write(&mut self, location: &Location, value: Value) {

@@ -64,6 +64,8 @@ pub enum Unknown {
     OptionalSection,
     /// A modal cycle that may be in force, by the name of its program (R2.13).
     Cycle(Arc<str>),
+    /// The code of a macro that several programs define (R10.11).
+    Macro(Arc<str>),
     /// A parameter, a variable or other text of a program.
     #[serde(untagged)]
     Text(UnknownText),
@@ -172,6 +174,9 @@ impl Unknown {
             Self::Search => "whether the block search executes what it passes".to_owned(),
             Self::OptionalSection => "whether the PLC moves the program backward".to_owned(),
             Self::Cycle(name) => format!("whether the modal cycle `{name}` is in force"),
+            Self::Macro(name) => {
+                format!("what programs before this one define `{name}` as")
+            }
             Self::Ways | Self::Work => self.to_string(),
             Self::Text(UnknownText { text, meaning }) => {
                 let why = match meaning {
@@ -205,6 +210,7 @@ impl Unknown {
             Self::Search => "`\"R2.96\"` in `[reading]` of frictcomp.toml decides".into(),
             Self::OptionalSection => "switch compensation outside of the section".into(),
             Self::Cycle(name) => format!("FC901 or FC902 shows what decides whether `{name}` is in force").into(),
+            Self::Macro(name) => format!("define `{name}` in the program that uses it").into(),
             Self::Text(UnknownText { text, meaning }) => match meaning {
                 TextMeaning::Value | TextMeaning::Inherited => Advice::SetVariable(text.to_string()),
                 TextMeaning::Command => format!("to check one case, assign the value in a block after `{text}`").into(),
@@ -218,7 +224,7 @@ impl Unknown {
         match self {
             Self::Text(of) => text.contains(&*of.text),
             Self::Changed(changed) => text.contains(&*changed.name),
-            Self::Cycle(name) => text.contains(&**name),
+            Self::Cycle(name) | Self::Macro(name) => text.contains(&**name),
             Self::RemedyClass => text.contains("#ERROR"),
             Self::ContinueInSwitch => text.contains("$CONTINUE"),
             _ => false,
@@ -262,6 +268,7 @@ impl fmt::Display for Unknown {
             Self::Search => f.write_str("the block search"),
             Self::OptionalSection => f.write_str("an optional section"),
             Self::Cycle(name) => f.write_str(name),
+            Self::Macro(name) => write!(f, "macro {name}"),
             Self::Text(text) => f.write_str(&text.text),
         }
     }

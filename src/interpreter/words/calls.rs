@@ -130,7 +130,7 @@ impl Executor {
             return None;
         }
         if wanted.scope == CallScope::Global && self.state.control.files.has(&wanted.name) {
-            let why = "an earlier block renames, deletes or writes it";
+            let why = "an earlier block or program renames, deletes or writes it";
             self.call_unknown(&wanted, why, at);
             return None;
         }

@@ -8,6 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::axes::AxisLookup;
 use crate::interpreter::block::{AfterError, BlockContext, Feed};
 use crate::interpreter::coupling::gear_of;
+use crate::interpreter::events::RefusedMotion;
 use crate::interpreter::executor::Executor;
 use crate::interpreter::motion::block::{BlockMotion, MotionSetting};
 use crate::interpreter::motion::form::MovedAxis;
@@ -20,6 +21,7 @@ use crate::interpreter::values::value::rounded;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::interpreter::ways::history::Split;
 use crate::interpreter::ways::possible_state::ways_of;
+use crate::interpreter::ways::set::WaySet;
 use crate::interpreter::ways::words::limit_to;
 use crate::interpreter::words::refusal::StopScope;
 use crate::language::{
@@ -580,6 +582,24 @@ impl Executor {
             };
             let refused = moves_without(name, kind, span, at);
             self.scratch.messages.diagnostics.push(refused);
+            let reach = self.state.track.reach.clone();
+            self.note_refused((axis, kind), &reach);
+        }
+    }
+
+    /// Notes that a motion is refused on some ways that lead to the block, where the program did not switch the
+    /// compensation that it lacks.
+    #[cold]
+    fn note_refused(&mut self, (axis, lacks): (AxisIndex, Kind), ways: &WaySet) {
+        let control = &self.state.control;
+        let found = control.history.found((axis, lacks), ways).and(ways);
+        if !found.is_never() {
+            self.scratch.aside.refused.push(RefusedMotion {
+                axis,
+                lacks,
+                motion: self.scratch.moves.kind_of(axis, &control.modal),
+                ways: ways_of(&found, &self.state.conditions),
+            });
         }
     }
 
@@ -605,6 +625,7 @@ impl Executor {
         let mut refused = moves_without(&self.machine.axis(axis).name, kind, span, at);
         limit_to(&mut refused, &ways_of(&off, &self.state.conditions));
         self.scratch.messages.of_some_ways.push(refused);
+        self.note_refused((axis, kind), &off);
         self.stop_on(&off, AfterError::Reset, at);
         if self.options.stop != StopPolicy::KeepGoing {
             self.state.go_on_with(on);

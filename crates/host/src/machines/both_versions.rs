@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use super::allowed_roots::{AllowedRoots, OutsidePolicy};
 use super::discovery::{ConfigurationChoice, LoadedMachine, Machines};
 use super::finder::SearchPath;
-use crate::disk::Input;
+use crate::disk::{Input, folder, read_text};
 use crate::error::HostError;
+use frictcomp::interpreter::call_sites;
 
 /// The machine for two versions of a program: the same for both, each with its own folders for
 /// called programs.
@@ -20,6 +21,28 @@ pub struct MachineOfVersions {
     pub new: LoadedMachine,
     /// Owner of the machine.
     pub owner: MachineOwner,
+}
+
+impl MachineOfVersions {
+    /// Returns whether two versions are the same text, and what they call is the same, too: they are in one folder, or
+    /// call nothing.
+    pub fn runs_alike(&self, versions: &[Input; 2]) -> bool {
+        let [Input::File(old), Input::File(new)] = versions else {
+            return false;
+        };
+        let (Ok(text), Ok(other)) = (read_text(old), read_text(new)) else {
+            return false;
+        };
+        let folders = [old, new].map(|path| folder(path).canonicalize().ok());
+        let are_together = folders[0].is_some() && folders[0] == folders[1];
+        text == other && (are_together || self.calls_nothing(&text))
+    }
+
+    fn calls_nothing(&self, text: &str) -> bool {
+        let programs = &self.new.machine.programs;
+        let around = [&programs.start, &programs.end];
+        around.into_iter().all(Option::is_none) && call_sites(text, programs).is_empty()
+    }
 }
 
 /// Owner of the machine on which two versions run.

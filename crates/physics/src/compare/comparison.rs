@@ -97,6 +97,14 @@ impl VersionComparison {
         }
     }
 
+    /// Compares two versions that are the same text with the same programs around it: whatever the control does in one,
+    /// it does in the other.
+    #[must_use]
+    pub fn of_same_texts(mut self) -> Self {
+        self.obstacles = [None, None];
+        self
+    }
+
     /// Returns the switches of both versions in their order.
     pub fn pairs(&self) -> &[PairedSwitch] {
         &self.pairs

@@ -117,6 +117,11 @@ fn compare(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         version_of(args, old, &machine.old)?,
         version_of(args, new, &machine.new)?,
     );
+    let comparison = if machine.runs_alike(&inputs) {
+        comparison.of_same_texts()
+    } else {
+        comparison
+    };
     let contours = if args.contour {
         Some(contours(args, &inputs, (&machine, &registry))?)
     } else {

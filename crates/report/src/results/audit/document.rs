@@ -161,7 +161,12 @@ fn inheritor(program: &ProgramAudit, axis: &AxisAudit) -> Phrase {
     let condition = condition.map_or(String::new(), |words| {
         format!(", if {}", visible_line(&words))
     });
-    let pace = format!("{may}{}{condition})", way(motion.motion));
+    let refused = if motion.is_refused {
+        ", which the control refuses"
+    } else {
+        ""
+    };
+    let pace = format!("{may}{}{refused}{condition})", way(motion.motion));
     if *motion.site.file == *program.file {
         at(&motion.site).then(" (").then(pace)
     } else {

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::iter;
 use std::path::Path;
 
 use crate::document::{Headline, Standing, Tone};
@@ -162,6 +161,25 @@ fn cause(archive: &Archive, finding: &AxisFinding, of_machine: &str) -> String {
     cause
 }
 
+/// Returns the programs of a machine whose effect on some axis is not known.
+fn unknown_programs(machine: &MachineAudit) -> impl Iterator<Item = &ProgramAudit> {
+    let unknown = machine.findings.iter().flat_map(|it| &it.unknown);
+    let unknown: BTreeSet<usize> = unknown.copied().collect();
+    unknown
+        .into_iter()
+        .map(|at| &machine.archive.programs()[at])
+}
+
+/// Returns whether the verdict says of a program whose effect on some axis is not known what it does to another one.
+fn names_unknown(machine: &MachineAudit) -> bool {
+    let left = machine.findings.iter();
+    let left = left.filter(|it| !it.leavers.is_empty());
+    let named = left.flat_map(|it| it.leavers.iter().chain(&it.inheritors));
+    let named: BTreeSet<usize> = named.copied().collect();
+    let mut unknown = machine.findings.iter().flat_map(|it| &it.unknown);
+    unknown.any(|at| named.contains(at))
+}
+
 /// Axes that the verdict names; further ones are counted.
 const NAMED: usize = 3;
 
@@ -176,22 +194,20 @@ impl AuditReport {
             let text = format!("{programs}: no axis is configured for friction compensation");
             (Standing::Open, text)
         } else if self.hazards() > 0 {
-            let mut said = self.causes(|it| it.hazards() > 0);
-            said.extend(self.not_known());
+            let said = self.causes().into_iter().chain(self.not_known());
+            let said: Vec<String> = said.collect();
             (Standing::Bad, said.join("; "))
         } else if self.possible_hazards() > 0 {
             let possible = "in some order, one may move an axis that another left away from its start-up state";
-            let said: Vec<String> = iter::once(possible.into())
-                .chain(self.not_known())
-                .collect();
+            let said = self.causes().into_iter().chain([possible.into()]);
+            let said: Vec<String> = said.chain(self.not_known()).collect();
             (Standing::Open, format!("{programs}: {}", said.join("; ")))
         } else if let Some(unknown) = self.not_known() {
-            let mut said = self.causes(|it| !it.leavers.is_empty() && !it.unknown.is_empty());
-            said.push(unknown);
+            let said = self.causes().into_iter().chain([unknown]);
+            let said: Vec<String> = said.collect();
             (Standing::Open, format!("{programs}: {}", said.join("; ")))
         } else {
-            let left = self.causes(|it| !it.leavers.is_empty());
-            let (standing, left) = match &*left.join("; ") {
+            let (standing, left) = match &*self.causes().join("; ") {
                 "" => (Standing::Good, String::new()),
                 left => (Standing::Open, format!("{left}, but ")),
             };
@@ -205,32 +221,35 @@ impl AuditReport {
 
     /// Returns in words of how many programs the effect on some axis is not known.
     fn not_known(&self) -> Option<String> {
-        let of_machine = |machine: &MachineAudit| {
-            let unknown = machine.findings.iter().flat_map(|it| &it.unknown);
-            unknown.collect::<BTreeSet<_>>().len()
-        };
-        let unknown: usize = self.machines.iter().map(of_machine).sum();
-        let of = if unknown == self.programs() {
+        let unknown: Vec<&ProgramAudit> = self.machines.iter().flat_map(unknown_programs).collect();
+        let of = if unknown.len() == self.programs() {
             String::new()
         } else {
-            format!("of {} ", counted(unknown, "program"))
+            format!("of {} ", counted(unknown.len(), "program"))
         };
-        let what = if unknown == 1 {
+        let what = if self.machines.iter().any(names_unknown) {
+            "what else"
+        } else {
+            "what"
+        };
+        let they = if unknown.len() == 1 {
             "it leaves or inherits"
         } else {
             "they leave or inherit"
         };
-        (unknown > 0).then(|| format!("{of}it is not known what {what}"))
+        (!unknown.is_empty()).then(|| format!("{of}it is not known {what} {they}"))
     }
 
-    /// Returns what happens to each of some axes in words, with its machine where several have an axis of its name.
-    fn causes(&self, is_meant: impl Fn(&AxisFinding) -> bool) -> Vec<String> {
-        let is_meant = &is_meant;
+    /// Returns what happens to each axis that programs leave away from its start-up state in words, those with hazards
+    /// first, with its machine where several have an axis of its name.
+    fn causes(&self) -> Vec<String> {
         let named = self.machines.iter().flat_map(|machine| {
-            let meant = machine.findings.iter().filter(|it| is_meant(it));
-            meant.map(move |it| (machine, it))
+            let left = machine.findings.iter();
+            let left = left.filter(|it| !it.leavers.is_empty());
+            left.map(move |it| (machine, it))
         });
-        let named: Vec<(&MachineAudit, &AxisFinding)> = named.collect();
+        let mut named: Vec<(&MachineAudit, &AxisFinding)> = named.collect();
+        named.sort_by_key(|(_, it)| (it.hazards() == 0, it.possible_hazards() == 0));
         let is_alone = |finding: &AxisFinding| {
             let same = named
                 .iter()

@@ -273,10 +273,8 @@ impl ChannelList {
     pub(crate) fn indexed_axes(&self) -> impl Iterator<Item = (u32, &ChannelAxis)> {
         let count = self.count.unwrap_or(u32::MAX);
         let count = usize::try_from(count).unwrap_or(usize::MAX);
-        self.axes
-            .values()
-            .filter(|axis| axis.is_there())
-            .take(count)
+        let axes = self.axes.iter().map(|(index, axis)| (*index, axis));
+        axes.filter(|(_, axis)| axis.is_there()).take(count)
     }
 
     /// Puts an axis in its place (R3.42); its own number and name stay where the item of the project gives no name.

@@ -86,6 +86,8 @@ pub struct Axis {
     pub torque_scale: TorqueScale,
     /// The channels that have the axis.
     pub channels: ChannelsOfAxis,
+    /// Whether the lists of the control give it the index 0, 1 or 2 in its channel: a main axis.
+    pub(crate) is_main: bool,
 }
 
 impl Axis {
@@ -112,6 +114,7 @@ impl Axis {
             listed: ListedDynamics::default(),
             torque_scale: TorqueScale::default(),
             channels: ChannelsOfAxis::default(),
+            is_main: false,
         }
     }
 
@@ -488,6 +491,7 @@ impl AxisDraft {
             listed: self.values.dynamics.dynamics(),
             torque_scale: TorqueScale::default(),
             channels: self.channels.clone(),
+            is_main: self.is_main,
         };
         if let Some(given) = &self.enabled {
             let (file, line) = (given.file().to_owned(), given.line());

@@ -132,12 +132,13 @@ impl Loader<'_> {
                 }
             });
             let (mut taken, mut repeated) = (Vec::new(), Vec::new());
-            for axis in channel.axes() {
+            for (index, axis) in channel.indexed_axes() {
                 let found = find_listed(axis, listed).map(|at| listed.remove(at).1);
-                let Some(draft) = channel_axis(axis, found, default) else {
+                let Some(mut draft) = channel_axis(axis, found, default) else {
                     named.is_partial = true;
                     continue;
                 };
+                draft.is_main = index < MAIN_AXES;
                 let is_new = named.note(&draft.name, number);
                 if !is_new {
                     repeated.push(draft.name);

@@ -111,7 +111,7 @@ class End:
     def file(self) -> str: ...
     @property
     def line(self) -> int:
-        """From 1."""
+        """Line of the block, from 1."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -165,7 +165,7 @@ class Message:
     def file(self) -> str: ...
     @property
     def line(self) -> int:
-        """From 1."""
+        """Line of the block, from 1."""
     @property
     def column(self) -> int:
         """From 1, in characters."""

@@ -233,7 +233,7 @@ pub enum HostError {
         /// Fault in words.
         reason: String,
     },
-    /// A baseline that is damaged, or is none.
+    /// A damaged baseline, or a file that is not a baseline.
     #[error("the baseline `{}` {reason}", shown_path(.path))]
     Baseline {
         /// Path of the file.

@@ -80,7 +80,7 @@ impl Answers {
         self.states.len() + self.refusals.len() + self.currents.len()
     }
 
-    /// Returns whether there is none.
+    /// Returns whether no answer is given.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

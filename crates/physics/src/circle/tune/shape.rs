@@ -104,7 +104,7 @@ impl ShapedLists {
         1.0 / self.curve.table[at].output
     }
 
-    /// Returns the shape whose outputs are those of another as they are written.
+    /// Returns the shape with its outputs rounded as in a written list.
     pub(super) fn rounded(&self, shape: &ListShape) -> ListShape {
         let written = self.written(shape);
         ListShape {
@@ -115,7 +115,7 @@ impl ShapedLists {
         }
     }
 
-    /// Returns the largest bend of the outputs of a shape, those above 1 mm/s as they are written.
+    /// Returns the largest bend of the outputs of a shape, those above 1 mm/s rounded as in a written list.
     pub(super) fn bend(&self, factors: &[f64; FREE]) -> f64 {
         let rounded = self.points.rounded(&self.curve.table);
         let share = |at: usize| match factors.get(at) {

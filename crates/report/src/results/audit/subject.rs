@@ -265,9 +265,11 @@ impl AuditReport {
         let mut said: Vec<String> = said.collect();
         let more = said.len().saturating_sub(NAMED);
         said.truncate(NAMED);
-        if more > 0 {
-            said.push(format!("and {more} more of the axes"));
-        }
+        said.extend(match more {
+            0 => None,
+            1 => Some("1 more axis is left away, or may be".to_owned()),
+            _ => Some(format!("{more} more axes are left away, or may be")),
+        });
         said
     }
 
